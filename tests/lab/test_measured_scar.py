@@ -314,6 +314,23 @@ def test_what_is_piled_up_at_the_edge_of_a_scar_is_not_taken_off_its_volume(stan
     assert found.piled_up == pytest.approx(np.sum(ridge) * PITCH**2, rel=0.25, abs=0)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_wide_low_ridges_along_a_track_are_piled_up_and_no_noise(seed):
+    """They are as wide as a third of what is unworn, 5 times as high as the noise of a pixel."""
+    y, random = (np.arange(96) - 47.5) / 15, np.random.default_rng(seed)
+    relief = ndimage.gaussian_filter(random.normal(size=(96, 96)), 2, mode="wrap") * 0.7e-6
+    ridge = 150e-9 * np.exp(-(((np.abs(y) - 1.15) / 0.2) ** 2)) * (np.abs(y) > 1)
+    lost = 0.5e-6 * np.maximum(1 - y**2, 0)
+    before, after = (
+        Heights(relief + each + 20e-9 * random.normal(size=(96, 96)), (PITCH, PITCH))
+        for each in (0.0, ridge - lost)
+    )
+    found = measured_scar(before, after)
+    assert found.section == pytest.approx(np.sum(lost) * PITCH, rel=0.02, abs=0)
+    area = PITCH**2 * len(found.depths)
+    assert found.piled_up == pytest.approx(np.sum(ridge) * area, rel=0.15, abs=0)
+
+
 def test_scattered_missing_pixels_leave_the_depth_as_it_is(standard):
     before, after, lost, _ = standard
     for seed in range(3):

@@ -10,6 +10,7 @@ import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError
+from tribo.lab.alignment import robust_deviation
 from tribo.lab.heights import smoothed
 from tribo.lab.registration import DEEP, Registration
 from tribo.lab.widths import Width, track_across
@@ -59,7 +60,8 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
     """Return what is worn; `CaseError` if nothing is. The map before may be an ideal shape."""
     smooth, known = smoothed(found.depth), np.isfinite(found.depth)
     unworn = smooth[found.unworn]
-    noise = max(float(np.std(unworn)), 1e-300) if unworn.size else found.noise
+    # Robust, as a low ridge beside the scar may have been left in.
+    noise = max(robust_deviation(unworn), 1e-300) if unworn.size else found.noise
     core = _largest(smooth, smooth > DEEP * noise)
     piled = _largest(-smooth, -smooth > DEEP * noise)
     if not core.any():
