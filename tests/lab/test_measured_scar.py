@@ -361,6 +361,16 @@ def test_a_radius_or_a_shape_that_the_unworn_surface_has_not_is_told():
         measured_scar(before, after, radius=RADIUS)
 
 
+def test_rounding_of_smooth_balls_tells_no_shift():
+    pitch = 10e-6
+    x, y = Grid(96 * pitch, 96).mesh
+    ball = -(x**2 + y**2) / (2 * RADIUS)
+    lost = 2e-6 * np.maximum(1 - (x**2 + y**2) / 0.3e-3**2, 0)
+    found = measured_scar(Heights(ball, (pitch, pitch)), Heights(ball - lost, (pitch, pitch)))
+    assert found.registration.shift == (0, 0)
+    assert found.volume == pytest.approx(np.sum(lost) * pitch**2, rel=1e-3, abs=0)
+
+
 @pytest.mark.parametrize("askew", [-0.1, 0.05])
 @pytest.mark.parametrize("along", [0, 1])
 def test_a_track_that_lies_askew_in_the_map_is_as_wide(askew, along):

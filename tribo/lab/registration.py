@@ -21,6 +21,8 @@ DEEP = 4.0
 """Standard deviations of noise from which on a difference is a scar."""
 ROUNDING = 1e-4
 """Least noise, relative to the largest depth."""
+ROUNDED = 1e-7
+"""Rounding of heights in files, relative to their range; less tells no shift."""
 BLOCKS = 8
 """Blocks along the shorter edge of the map, whose sums give the correlation of noise."""
 BLURS = 4.0, 2.0, 1.0
@@ -224,7 +226,9 @@ class _Fit:
             robust_deviation(slope[used & np.isfinite(slope)]) ** 2
             for slope in np.asarray(np.gradient(depth, *self.pitch))
         )
-        kept = values > TEXTURE * np.sum(weights) * 0.5 * min(white, max(seen))
+        rounded = (ROUNDED * np.ptp(self.filled) / np.min(self.pitch)) ** 2
+        steepness = max(min(white, max(seen)), rounded)
+        kept = values > TEXTURE * np.sum(weights) * 0.5 * steepness
         self.determined = vectors[:, kept]
         moves = np.zeros(3)
         if not still:
