@@ -361,6 +361,16 @@ def test_a_radius_or_a_shape_that_the_unworn_surface_has_not_is_told():
         measured_scar(before, after, radius=RADIUS)
 
 
+@pytest.mark.parametrize("along", [0, 1])
+def test_an_arc_of_the_track_of_a_pin_on_a_disk_is_as_wide(along):
+    before, after, _ = pair(depth=0, shift=(0, 0), turn=0)
+    places, round_ = before.grid.mesh, 200 * PITCH
+    beside = np.hypot(places[along], places[1 - along] + round_) - round_
+    lost = 1e-6 * np.maximum(1 - beside**2 / WIDE**2, 0)
+    found = measured_scar(before, Heights(after.heights - lost, after.pitch))
+    assert (found.along, found.across)[1 - along] == pytest.approx(2 * WIDE, rel=0.05, abs=0)
+
+
 def test_rounding_of_smooth_balls_tells_no_shift():
     pitch = 10e-6
     x, y = Grid(96 * pitch, 96).mesh

@@ -58,7 +58,7 @@ def track_across(
     axis: int,
     pitch: tuple[float, float],
 ) -> tuple[Mask, Width]:
-    """Return the band of a track that runs along an axis, and its width across its direction.
+    """Return the band of a track, straight or an arc, along an axis, and its width across it.
 
     The mean profile along the track has less noise than single depths, and shows how far it is
     worn beyond the pixels that do by themselves.
@@ -83,10 +83,11 @@ def track_across(
     places = np.arange(len(lines))[:, None]
     middles = np.sum(places * deep, axis=0) / np.maximum(np.sum(deep, axis=0), 1e-300)
     along = np.arange(lines.shape[1]) - 0.5 * (lines.shape[1] - 1)
-    slope = float(np.polyfit(along, middles, 1, w=np.sum(deep, axis=0))[0])
-    shear, offset = np.array([[1.0, slope], [0.0, 1.0]]), [slope * along[0], 0.0]
+    *bend, slope, _ = np.polyfit(along, middles, 2, w=np.sum(deep, axis=0))
+    course = np.polyval([*bend, slope, 0.0], along)
+    at = np.broadcast_arrays(places + course, np.arange(lines.shape[1]))
     straight, core_part, worn_part = (
-        ndimage.affine_transform(each.astype(float), shear, offset, order=1, mode="nearest")
+        ndimage.map_coordinates(each.astype(float), at, order=1, mode="nearest")
         for each in (lines, inside, touched)
     )
     profile, beside = np.mean(straight, axis=1), np.mean(worn_part, axis=1) < BESIDE
@@ -96,7 +97,7 @@ def track_across(
     shallow = np.flatnonzero(profile <= noise)
     first = int(np.max(shallow[shallow < first], initial=-1)) + 1
     last = int(np.min(shallow[shallow > last], initial=len(profile))) - 1
-    across = places - slope * along
+    across = places - course
     band = np.moveaxis((across >= first) & (across <= last), 0, 1 - axis)
     within = np.where((places[:, 0] >= first) & (places[:, 0] <= last), profile, 0.0)
     askew = math.cos(math.atan(slope * pitch[1 - axis] / pitch[axis]))
