@@ -68,6 +68,9 @@ class MeasuredScar:
         Whether the scar goes on beyond the edge of the map, other than at the ends of a track.
     missing : float
         Part of the scar's pixels that are missing; their depth is interpolated.
+    section : float or None
+        Mean cross-section of a track, across its direction, in m²; None for a scar that ends within
+        the map.
     track_volume : float or None
         Of the whole track, its mean section times its length (ASTM G133, D7755), in m³; None for a
         scar that ends within the map.
@@ -89,6 +92,7 @@ class MeasuredScar:
     across_uncertainty: float | None
     cut_off: bool
     missing: float
+    section: float | None
     track_volume: float | None
     inferred: tuple[InferredVolume, ...]
 
@@ -101,14 +105,6 @@ class MeasuredScar:
     def is_track(self) -> bool:
         """Whether it reaches two opposite edges of the map."""
         return math.inf in (self.along, self.across)
-
-    @property
-    def section(self) -> float | None:
-        """Mean cross-section of a track, in m²; None for a scar that ends within the map."""
-        if not self.is_track:
-            return None
-        axis = (self.along, self.across).index(math.inf)
-        return self.volume / self.after.grid.size[axis]
 
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data, in SI units, without the maps."""
@@ -217,7 +213,7 @@ def measured_scar(
             stacklevel=2,
         )
     deepest, deepest_uncertainty = _deepest(found, smooth, core, worn.noise)
-    widths, track_volume, formulas = None, None, list[InferredVolume]()
+    widths, section, track_volume, formulas = None, None, None, list[InferredVolume]()
     several = 1 if worn.track else ndimage.label(scar)[1]
     if several > 1:
         warnings.warn(
@@ -234,10 +230,9 @@ def measured_scar(
             for axis in (0, 1)
         ]
         sizes = Scar(*(each.value for each in widths))
-        if worn.track:
-            length = after.grid.size[worn.is_open.index(True)]
-            whole = track_length or length
-            track_volume = planimetric_volume(volume / length, whole)
+        if worn.track and worn.length:
+            section, whole = volume / worn.length, track_length or worn.length
+            track_volume = planimetric_volume(section, whole)
             formulas = _track_volumes(track_volume, worn.track.value, whole, radius)
         elif radius is not None:
             _check_width(min(sizes), radius)
@@ -262,6 +257,7 @@ def measured_scar(
         across_uncertainty=None if widths is None else widths[1].uncertainty,
         cut_off=worn.cut_off,
         missing=float(np.mean(~known[scar])),
+        section=section,
         track_volume=track_volume,
         inferred=tuple(formulas),
     )

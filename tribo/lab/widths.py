@@ -57,8 +57,8 @@ def track_across(
     noise: float,
     axis: int,
     pitch: tuple[float, float],
-) -> tuple[Mask, Width]:
-    """Return the band of a track, straight or an arc, along an axis, and its width across it.
+) -> tuple[Mask, Width, float]:
+    """Return the band of a track, straight or an arc, along an axis, its width and length in m.
 
     The mean profile along the track has less noise than single depths, and shows how far it is
     worn beyond the pixels that do by themselves.
@@ -101,7 +101,9 @@ def track_across(
     band = np.moveaxis((across >= first) & (across <= last), 0, 1 - axis)
     within = np.where((places[:, 0] >= first) & (places[:, 0] <= last), profile, 0.0)
     askew = math.cos(math.atan(slope * pitch[1 - axis] / pitch[axis]))
-    return band, _read(within, noise, 0.0, askew * pitch[1 - axis])
+    steps = np.gradient(course) * pitch[1 - axis]
+    length = float(np.sum(np.hypot(steps, pitch[axis])))
+    return band, _read(within, noise, 0.0, askew * pitch[1 - axis]), length
 
 
 def _read(profile: Array, noise: float, blur: float, pitch: float) -> Width:

@@ -43,6 +43,8 @@ class WornArea:
         Whether it goes on beyond the edge, other than at the ends of a track.
     track : Width or None
         The width of a track, across its direction; None for a scar that ends within the map.
+    length : float or None
+        The length of a track within the map, along its direction, in m.
     """
 
     smooth: Array
@@ -54,6 +56,7 @@ class WornArea:
     is_open: list[bool]
     cut_off: bool
     track: Width | None
+    length: float | None
 
 
 def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -> WornArea:
@@ -80,11 +83,11 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
     # Not into what is piled up beside it.
     further = MARGIN + _shallow(smooth, core, DEEP * noise)
     scar = ndimage.binary_dilation(core, iterations=further, mask=core | ~piled)
-    track = None
+    track, length = None, None
     if is_open[0] != is_open[1]:
         axis = is_open.index(True)
         depth = np.where(known, found.depth, smooth)
-        band, track = track_across(depth, core, found.worn, noise, axis, pitch)
+        band, track, length = track_across(depth, core, found.worn, noise, axis, pitch)
         scar = ndimage.binary_dilation(band, iterations=MARGIN, mask=band | ~piled)
     return WornArea(
         smooth=smooth,
@@ -96,6 +99,7 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         is_open=is_open,
         cut_off=_is_cut_off(core & (smooth > EDGE * np.max(smooth[core])), known, is_open),
         track=track,
+        length=length,
     )
 
 
