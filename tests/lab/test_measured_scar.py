@@ -361,6 +361,21 @@ def test_a_radius_or_a_shape_that_the_unworn_surface_has_not_is_told():
         measured_scar(before, after, radius=RADIUS)
 
 
+@pytest.mark.parametrize("wide", [16, 24])
+def test_a_map_twice_as_wide_as_its_scar_is_large_enough(wide):
+    """With few pixels too, though smoothing widens the scar by some."""
+    y, random = np.arange(2 * wide) - wide + 0.5, np.random.default_rng(0)
+    shape = 2 * (2 * wide,)
+    relief = ndimage.gaussian_filter(random.normal(size=shape), 2, mode="wrap") * 0.7e-6
+    lost = 2e-6 * np.maximum(1 - (y[:, None] ** 2 + y**2) / (wide / 2) ** 2, 0)
+    before, after = (
+        Heights(relief - each + 20e-9 * random.normal(size=shape), (PITCH, PITCH))
+        for each in (0, lost)
+    )
+    found = measured_scar(before, after)
+    assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.02, abs=0)
+
+
 @pytest.mark.parametrize("along", [0, 1])
 def test_an_arc_of_the_track_of_a_pin_on_a_disk_is_as_wide(along):
     before, after, _ = pair(depth=0, shift=(0, 0), turn=0)
