@@ -6,7 +6,7 @@ from scipy.stats import binom, norm, t
 
 from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.core.errors import CaseError, NumericalError
-from tribo.study.calibration.fit import fit, interval
+from tribo.study.calibration.fit import fit, interval, limit
 from tribo.study.calibration.linearised import Problem, Weights
 
 TRUE = np.array([7.08e-15, 7.08e-16])
@@ -129,6 +129,17 @@ def test_a_limit_bounds_from_above_only_whatever_the_start(start):
     upper = np.exp(found.point + high)
     fall = 2 * (norm.logcdf(1 / 0.5) - norm.logcdf((1 - upper) / 0.5))
     assert fall == pytest.approx(norm.ppf(0.975) ** 2, rel=0.01)
+
+
+@pytest.mark.parametrize("repeatability", [0.0, 0.3])
+def test_at_the_bound_by_a_limit_less_is_as_unlikely_as_the_level_says(repeatability):
+    below = {"below": np.array([True]), "specimen": np.arange(1), "repeatability": repeatability}
+    made = problem(np.array([1.0]), np.array([0.1]), names=("k",), start=np.ones(1), **below)
+    found = fit(lambda k: k, made, np.ones(1))
+    bound = np.exp(found.point[0] + limit(found, np.ones(1), 0.95))
+    sigma = np.hypot(0.1, repeatability * bound)
+    # Relative to the probability with no loss at all, as in the interval of a measured value.
+    assert norm.cdf(1, bound, sigma) / norm.cdf(1, 0, sigma) == pytest.approx(0.05, rel=0.02)
 
 
 @pytest.mark.parametrize("spread", [0.02, 0.3])

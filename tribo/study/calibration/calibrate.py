@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy.special import chdtr, chdtrc, chdtri
+from scipy.special import chdtrc, chdtri
 
 from tribo.case import Case
 from tribo.config.overrides import apply_settings
@@ -19,7 +19,7 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
 from tribo.study.calibration.doubts import REACHED, doubts, far_off
 from tribo.study.calibration.experiment import Experiment
-from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval
+from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval, limit
 from tribo.study.calibration.linearised import Linearised, Weights, root_covariance
 from tribo.study.calibration.map_notes import map_notes
 from tribo.study.calibration.measured import Measurements
@@ -366,12 +366,14 @@ def _estimates(
     lower, upper = table[["lower", "upper"]].to_numpy(float, copy=True).T
     held = (values - lower <= AT_BOUND * values) | (upper - values <= AT_BOUND * values)
     limited = fitted.limited() & ~held
-    # Where only limits of detection bound a parameter, its likelihood is their probability.
-    of_limits = float(chdtr(1, -2 * np.log1p(-level)))
     for i in np.flatnonzero(~held):
-        own_level = of_limits if limited[i] else level
-        low, high = values[i] * np.exp(interval(fitted, np.eye(len(values))[i], own_level))
-        lower[i], upper[i] = max(0.0 if limited[i] else low, lower[i]), min(high, upper[i])
+        axis = np.eye(len(values))[i]
+        if limited[i]:
+            low, high = -math.inf, limit(fitted, axis, level)
+        else:
+            low, high = interval(fitted, axis, level)
+        lower[i] = max(values[i] * math.exp(low), lower[i])
+        upper[i] = min(values[i] * math.exp(high), upper[i])
     standard = np.asarray(np.linalg.pinv(jacobian), dtype=np.float64)
     effect = fitted.weights.weigh_transposed(standard.T).T
     deviation, most = experiment.data[["step_sigma", "step_most"]].to_numpy().T

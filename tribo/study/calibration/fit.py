@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import LinearConstraint, NonlinearConstraint, minimize
-from scipy.special import chdtri, stdtrit
+from scipy.special import chdtr, chdtri, stdtrit
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError
@@ -151,6 +151,21 @@ def interval(here: Linearised, direction: Array, level: float) -> tuple[float, f
 
     offset = float(np.sum(direction * (best - here.point)))
     return end(-1.0), end(1.0)
+
+
+def limit(here: Linearised, axis: Array, level: float) -> float:
+    """Return the upper end, relative to the last run, for a parameter that is `limited`.
+
+    There values below all limits of detection have the probability 1 − level. As tests scatter in
+    proportion to the parameter, errors are those at that end.
+    """
+    one_sided, end = float(chdtr(1, -2 * np.log1p(-level))), 0.0
+    for _ in range(MOST_ROUNDS):
+        former, end = end, interval(here, axis, one_sided)[1]
+        if np.isinf(end) or abs(end - former) < 0.1 * CONVERGED:
+            break
+        here = here.weighed(here.point + end * axis, here.repeatability)
+    return end
 
 
 def differenced(
