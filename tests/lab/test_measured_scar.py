@@ -238,6 +238,23 @@ def test_the_volume_of_a_hole_in_the_scar_is_interpolated_and_its_uncertainty_sa
     assert abs(found.volume - volume) < 2 * found.volume_uncertainty < 0.1 * volume
 
 
+@pytest.mark.filterwarnings("ignore:pixels are missing where the scar is deepest")
+@pytest.mark.parametrize(("missing", "holes"), [(0.05, 0), (0.0, 3)])
+def test_missing_pixels_add_as_much_to_the_uncertainty_of_a_volume_as_they_do(missing, holes):
+    """Scattered ones hardly any, as their neighbours tell the slope."""
+    off = []
+    for seed in range(8):
+        before, after, lost = pair(noise=2e-9, missing=0.0)
+        random = np.random.default_rng(seed)
+        gone = random.random(after.heights.shape) < missing
+        places = np.indices(after.heights.shape)
+        for middle in random.integers(35, 62, (holes, 2)):
+            gone |= np.sum((places - middle[:, None, None]) ** 2, axis=0) < 4**2
+        found = measured_scar(before, Heights(np.where(gone, np.nan, after.heights), after.pitch))
+        off.append((found.volume - np.sum(lost) * PITCH**2) / found.volume_uncertainty)
+    assert 0.4 < np.sqrt(np.mean(np.square(off))) < 1.6
+
+
 @pytest.mark.slow
 def test_smooth_balls_tell_no_shift_but_a_volume():
     smooth = {"sq": 1e-12, "shift": (0, 0), "turn": 0, "on": RADIUS}

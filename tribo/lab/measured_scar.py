@@ -320,18 +320,18 @@ def _deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tu
 def _sum_uncertainty(found: Registration, scar: Mask) -> float:
     """Return the standard uncertainty of the sum of depths in a scar, in m.
 
-    Missing pixels have the standard deviation of the depths around them, fully correlated in each
-    hole.
+    Missing pixels have the standard deviation of the depths around them from their smoothed ones,
+    which is that of curvature and noise, fully correlated in each hole.
     """
     missing = scar & np.isnan(found.depth)
     sums = np.sum(found.slopes[:, scar], axis=1)
     of_fit = float(np.einsum("k,kl,l->", sums, found.covariance, sums))
     of_noise = found.variance_inflation * found.noise**2 * np.count_nonzero(scar & ~missing)
     sigma = np.zeros(scar.shape)
-    for width in (8.0, 2.0):
-        mean, square = smoothed(found.depth, width), smoothed(found.depth**2, width)
+    for width in (8.0, 3.0):
+        spread = np.sqrt(smoothed((found.depth - smoothed(found.depth, width)) ** 2, width))
         around = ndimage.gaussian_filter(np.isfinite(found.depth).astype(float), width)
-        sigma = np.where(around > 0.1, np.sqrt(np.maximum(square - mean**2, 0.0)), sigma)
+        sigma = np.where(around > 0.1, spread, sigma)
     holes, count = ndimage.label(missing)
     each = ndimage.sum(sigma, holes, np.arange(1, count + 1))
     return math.sqrt(max(of_fit, 0.0) + of_noise + float(np.sum(np.square(each))))
