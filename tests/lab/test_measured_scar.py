@@ -358,6 +358,14 @@ def test_scattered_missing_pixels_leave_the_depth_as_it_is(standard):
         assert abs(found.depth - np.max(lost)) < 4 * found.depth_uncertainty
 
 
+def test_a_scar_longer_than_the_ball_is_wide_is_refused():
+    before, after, _ = pair(depth=0, shift=(0, 0), turn=0)
+    x, y = before.grid.mesh
+    lost = 1e-6 * np.maximum(1 - x**2 / (1.5 * WIDE) ** 2 - y**2 / (0.7 * WIDE) ** 2, 0)
+    with pytest.raises(CaseError, match=r"cannot have a scar 0\.0[56]"):
+        measured_scar(before, Heights(after.heights - lost, after.pitch), radius=0.9 * WIDE)
+
+
 def test_several_scars_have_no_width():
     def two(x, y):
         return np.maximum(1 - ((x - 25) ** 2 + y**2) / 12**2, 1 - ((x + 25) ** 2 + y**2) / 10**2)

@@ -235,7 +235,7 @@ def measured_scar(
             track_volume = planimetric_volume(section, whole)
             formulas = _track_volumes(track_volume, worn.track.value, whole, radius)
         elif radius is not None:
-            _check_width(min(sizes), radius)
+            _check_width(max(sizes), radius)
             _warn_of_radius(after, scar, radius)
             # Smoothing widens the core beyond what is worn.
             sure = core & (smooth > SURE * np.max(smooth[core]))
