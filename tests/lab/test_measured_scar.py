@@ -11,6 +11,7 @@ from click.testing import CliRunner
 
 from tribo import (
     CaseError,
+    Flat,
     Grid,
     Heights,
     Registry,
@@ -113,6 +114,19 @@ def test_the_largest_depth_of_a_curved_bottom_is_that_of_no_mean(pitch, noise):
     found = measured_scar(*(Heights(each, (pitch, pitch)) for each in maps))
     assert abs(found.depth - np.max(lost)) < 3 * found.depth_uncertainty
     assert found.depth_uncertainty < 0.6 * noise + 1e-12
+
+
+@pytest.mark.parametrize("depth", [1e-6, 10e-6])
+def test_the_width_of_a_scar_with_steep_sides_is_theirs(depth):
+    """As of a pin, which smoothing would widen by a tenth."""
+    grid = Grid(96 * PITCH, 96)
+    x, y = grid.mesh
+    lost = np.where(np.hypot(x, y) < 25.3e-6, depth, 0.0)
+    after = Heights(1e-8 * np.random.default_rng(2).normal(size=(96, 96)) - lost, (PITCH, PITCH))
+    found = measured_scar(Flat(), after)
+    for axis in ("along", "across"):
+        sure = getattr(found, f"{axis}_uncertainty")
+        assert abs(getattr(found, axis) - 50.6e-6) < 2.1 * sure < 3e-6
 
 
 def test_the_depth_from_an_ideal_ball_is_averaged_over_the_bottom():
@@ -561,6 +575,11 @@ def test_the_command_says_what_the_maps_do_not_tell_and_what_is_cut_off(tmp_path
     assert "all lies" not in done.output
     assert "inf" not in done.output
     assert done.output.count("cut off") == 2
+
+
+def test_the_length_of_a_track_is_of_no_use_for_a_scar_within_the_map(standard):
+    with pytest.warns(TriboWarning, match="track_length: no track from edge"):
+        measured_scar(*standard[:2], track_length=1e-3)
 
 
 def test_the_command_gives_the_volume_of_a_whole_track(tmp_path):

@@ -18,7 +18,7 @@ from tribo.lab.registration import Registration, register
 from tribo.lab.roughness import without_form
 from tribo.lab.scar import Scar
 from tribo.lab.track import circular_groove_area, planimetric_volume, reciprocating_track_volume
-from tribo.lab.widths import Width, scar_width
+from tribo.lab.widths import LINES, Width, scar_width
 from tribo.lab.worn_area import MARGIN, worn_area
 from tribo.surfaces.surface import Surface
 
@@ -224,9 +224,13 @@ def measured_scar(
         )
     elif not worn.cut_off:
         endless = Width(math.inf, 0.0)
+        # Correlated noise does not average out over neighbours.
+        of_lines = found.noise * math.sqrt(min(found.variance_inflation / LINES, 1.0))
         widths = [
             (endless if worn.is_open[axis] else worn.track)
-            or scar_width(smooth, scar, worn.noise, axis, after.pitch[axis])
+            or scar_width(
+                found.depth, smooth, scar, (of_lines, worn.noise), axis, after.pitch[axis]
+            )
             for axis in (0, 1)
         ]
         sizes = Scar(*(each.value for each in widths))
@@ -242,6 +246,12 @@ def measured_scar(
             bottom = np.where(sure, after.heights, np.nan)
             groove = _radius_across(bottom - without_form(bottom), after.pitch)
             formulas = ball_volumes("ball", sizes, radius, groove, volume)
+    if track_length is not None and track_volume is None:
+        warnings.warn(
+            "track_length: no track from edge to edge of the map was found",
+            TriboWarning,
+            stacklevel=2,
+        )
     return MeasuredScar(
         registration=found,
         after=after,

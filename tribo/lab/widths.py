@@ -14,6 +14,8 @@ from tribo.lab.registration import DEEP
 
 LOWEST, HIGHEST = 0.05, 0.3
 """Parts of the largest depth between which a width is read: as low as noise and blur allow."""
+CLEAR = 0.1
+"""Part of the largest depth below which noise needs no smoothing."""
 LINES = 5
 """Lines through the middle of a scar whose mean is its profile."""
 BESIDE = 0.1
@@ -27,27 +29,40 @@ class Width(NamedTuple):
     uncertainty: float
 
 
-def scar_width(smooth: Array, scar: Mask, noise: float, axis: int, pitch: float) -> Width:
-    """Return the width along an axis of a scar that ends within the map.
+def scar_width(
+    depth: Array, smooth: Array, scar: Mask, noise: tuple[float, float], axis: int, pitch: float
+) -> Width:
+    """Return the width along an axis of a scar that ends within the map, through its middle.
+
+    It is read off the mean of five lines, of smoothed depths where noise needs it.
 
     Parameters
     ----------
-    smooth : ndarray, shape (nx, ny)
-        Smoothed depths, in m.
+    depth, smooth : ndarray, shape (nx, ny)
+        Depths, NaN where missing, and smoothed depths, in m.
     scar : ndarray of bool, shape (nx, ny)
         The pixels of the scar.
-    noise : float
-        Standard deviation of the smoothed depths beside it, in m.
+    noise : tuple of float
+        Standard deviation beside it of the mean of five pixels' depths, and of smoothed depths, in
+        m.
     axis : int
         Along which the width is.
     pitch : float
         Distance between pixels along it, in m.
     """
-    lines = np.moveaxis(np.where(scar, smooth, np.minimum(smooth, 0.0)), axis, 0)
-    weights = np.sum(np.maximum(lines, 0.0), axis=0)
-    middle = round(float(np.average(np.arange(lines.shape[1]), weights=weights)))
-    profile = np.mean(lines[:, max(middle - LINES // 2, 0) : middle + LINES // 2 + 1], axis=1)
-    return _read(profile, noise, BLUR, pitch)
+    clear = DEEP * noise[0] < CLEAR * np.max(smooth[scar])
+    sources = ((depth, noise[0], 0.0), (smooth, noise[1], BLUR))
+    field, sigma, blur = sources[0 if clear else 1]
+    even = np.moveaxis(np.where(scar, smooth, np.minimum(smooth, 0.0)), axis, 0)
+    weights = np.sum(np.maximum(even, 0.0), axis=0)
+    middle = round(float(np.average(np.arange(even.shape[1]), weights=weights)))
+    near = slice(max(middle - LINES // 2, 0), middle + LINES // 2 + 1)
+    lines = np.moveaxis(np.where(scar, field, np.nan), axis, 0)[:, near]
+    known = np.isfinite(lines)
+    # Where none of the lines was measured the smoothed ones stand in.
+    total, count = np.sum(lines, axis=1, where=known), np.sum(known, axis=1)
+    profile = np.where(count > 0, total / np.maximum(count, 1), np.mean(even[:, near], axis=1))
+    return _read(profile, sigma, blur, pitch)
 
 
 def track_across(
@@ -123,7 +138,7 @@ def _read(profile: Array, noise: float, blur: float, pitch: float) -> Width:
     )
     # Noise moves the edge by about half of its part of the peak, and the parabola doubles it.
     of_noise = width * noise / peak
-    return Width(pitch * width, pitch * math.hypot(width - other, of_noise, 0.5))
+    return Width(pitch * width, pitch * math.hypot(width - other, of_noise, 0.5, blur))
 
 
 def _crossed(profile: Array, level: float) -> float:
