@@ -522,6 +522,7 @@ def test_the_command_measures_and_draws(tmp_path):
     files = [str(tmp_path / name) for name in ("before.npy", "after.csv")]
     picture = tmp_path / "scar.png"
     given = [*files, "--pitch", "1 um", "--radius", "5 mm", "-o", str(picture)]
+    given += ["-o", str(tmp_path / "depth.npy")]
     done = CliRunner().invoke(command, given, catch_exceptions=False)
     volume = 1e9 * np.sum(lost) * PITCH**2
     assert float(done.output.split("volume in the map, mm³")[1].split()[0]) == pytest.approx(
@@ -530,6 +531,9 @@ def test_the_command_measures_and_draws(tmp_path):
     for words in ("flat scar (ASTM G99)", "In the map after all lies -3.3", "Noise of the unworn"):
         assert words in done.output
     assert picture.stat().st_size > 10_000
+    assert done.output.count("Wrote ") == 2
+    depth = np.load(tmp_path / "depth.npy")
+    assert np.nansum(depth) == pytest.approx(np.sum(lost), rel=0.1)
     ideal = [files[1], *given[2:4], "--ideal", '{ type = "sphere", radius = "5 mm" }', "--json"]
     told = CliRunner().invoke(command, ideal, catch_exceptions=False)
     assert '"volume_uncertainty_m3"' in told.output

@@ -10,7 +10,7 @@ import click
 
 from tribo.cli.options import JSON, PATH, echo_json
 from tribo.core.errors import CaseError, located
-from tribo.core.files import check_folder
+from tribo.core.files import check_folder, writing
 
 if TYPE_CHECKING:
     from tribo.lab.measured_scar import MeasuredScar
@@ -28,7 +28,13 @@ UNITS = ("m", "mm", "um", "µm", "nm")
 @click.option("--radius", metavar="LENGTH", help="Of the ball, for a lab's formulas.")
 @click.option("--track-length", metavar="LENGTH", help="Of the whole track; the map's.")
 @click.option("--form", type=int, default=1, help="2 takes a curvature off too.")
-@click.option("-o", "--output", type=PATH, help="Picture to write, as scar.png.")
+@click.option(
+    "-o",
+    "--output",
+    multiple=True,
+    type=PATH,
+    help="Picture to write, as scar.png, or the depth map, as depth.npy; several times for both.",
+)
 @JSON
 def scar(
     files: tuple[Path, ...],
@@ -37,7 +43,7 @@ def scar(
     radius: str | None,
     track_length: str | None,
     form: int,
-    output: Path | None,
+    output: tuple[Path, ...],
     as_json: bool,
 ) -> None:
     """Measure a scar between two height maps, BEFORE and AFTER a test.
@@ -50,7 +56,7 @@ def scar(
 
     \b
     Example:
-      tribo scar before.x3p after.x3p --radius '5 mm' -o scar.png
+      tribo scar before.x3p after.x3p --radius '5 mm' -o scar.png -o depth.npy
       tribo scar after.npy --pitch '1 um' --ideal '{ type = "sphere", radius = "5 mm" }'
     """
     from tribo.cli.console import Console
@@ -65,8 +71,8 @@ def scar(
     for path in files:
         if str(path) in UNITS and not path.exists():
             raise CaseError(f"'{path}' is no file: quote a length, as --radius '5 {path}'")
-    if output is not None:
-        check_folder(output)
+    for path in output:
+        check_folder(path)
     if len(files) != (1 if ideal else 2):
         count = "1 file is" if len(files) == 1 else f"{len(files)} files are"
         raise CaseError(
@@ -87,18 +93,30 @@ def scar(
     ball, track = map(length, ("--radius", "--track-length"), lengths)
     with Console(stderr=True).status("Laying the maps on each other, and measuring the scar"):
         found = measured_scar(before, maps[-1], radius=ball, track_length=track, form=form)
-    if output is not None:
-        from tribo.plotting.figures import write_figures
-        from tribo.plotting.scar import measured_scar_map
-
-        suffix = output.suffix or ".png"
-        write_figures({output.stem: lambda: measured_scar_map(found)}, output.parent, suffix)
+    written = [_write(found, path) for path in output]
     if as_json:
-        echo_json(found.as_json() | ({} if output is None else {"picture": str(output)}))
+        echo_json(found.as_json() | {"written": list(map(str, written))})
         return
     _print(found)
-    if output is not None:
-        click.echo(f"Wrote {output}")
+    for path in written:
+        click.echo(f"Wrote {path}")
+
+
+def _write(found: MeasuredScar, path: Path) -> Path:
+    """Write the depth map, NaN where missing, or a picture; return the file."""
+    if path.suffix == ".npy":
+        import numpy as np
+
+        with writing(path):
+            np.save(path, found.depths)
+        return path
+    from tribo.plotting.figures import write_figures
+    from tribo.plotting.scar import measured_scar_map
+
+    (picture,) = write_figures(
+        {path.stem: lambda: measured_scar_map(found)}, path.parent, path.suffix or ".png"
+    )
+    return picture
 
 
 def _surface(text: str) -> Surface:
