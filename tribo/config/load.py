@@ -79,7 +79,7 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
 
 
 def _quotes(content: bytes, error: ValueError) -> str:
-    """Return a hint if the line of a TOML error has a bare unit, a comma or half of its quotes."""
+    """Return a hint on the line of a TOML error: a bare unit, a comma, quotes or brackets."""
     at = re.search(r"at line (\d+)", str(error))
     line = content.splitlines()[int(at[1]) - 1].decode() if at else ""
     if comma := re.search(r"= *([+-]?\d+),(\d+)", line):
@@ -87,6 +87,8 @@ def _quotes(content: bytes, error: ValueError) -> str:
     bare = re.search(r"([\w.-]+ *= *)([\d.e+-]+ *[A-Za-zµ°][^\"'#,}]*)", line)
     if bare:
         return f"; a value with a unit is quoted: {bare[1]}'{bare[2].strip()}'"
+    if "overwrite a value" in str(error) and (key := re.search(r"\[*([\w.]+)\]*", line)):
+        return f"; what is given several times stands in double brackets each time, [[{key[1]}]]"
     open_quote = any(sign in str(error) for sign in (r"'\n'", '"\'"'))
     return "; is a closing quote missing?" if open_quote or line.count('"') % 2 else ""
 

@@ -32,6 +32,9 @@ FEWEST_OF_BOTTOM = 12
 """Pixels that a paraboloid is fitted to at least."""
 BOTTOM = 0.8
 """Part of the largest depth from which on a pixel is of the bottom of the scar."""
+LEVEL = 10.0
+"""Variance of the form of a bottom, relative to that by noise of a mean, below which it is flat; 5
+by noise alone."""
 ZEROS = 10
 """Ratio of the number of zeros to that of any other height above which zeros may be missing
 values."""
@@ -318,13 +321,26 @@ def _deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tu
         )
     residuals = without_form(np.where(bottom, found.depth, np.nan))
     form = found.depth - residuals
-    top = np.unravel_index(int(np.nanargmax(form)), core.shape)
+    places = np.argwhere(np.isfinite(residuals))
+    top: tuple[int, ...] = tuple(places[int(np.argmax(form[tuple(places.T)]))])
     rough = float(np.std(smoothed(residuals)[bottom]))
     of_registration = max(float(found.uncertainty[top] ** 2 - found.noise**2), 0.0)
-    count = np.count_nonzero(np.isfinite(residuals))
-    of_coefficients = min(6 * found.variance_inflation / count, 1.0) * found.noise**2
+    of_noise = found.variance_inflation * found.noise**2
     of_relief = max(rough**2 - noise**2, 0.0)
+    mean, spread = float(np.nanmean(form)), float(np.nanvar(form))
+    # The largest of what noise makes of a flat bottom lies above it.
+    if spread < LEVEL * of_noise / len(places):
+        return mean, math.sqrt(of_noise / len(places) + of_registration + of_relief + spread)
+    of_coefficients = min(_leverage(places - np.array(top, dtype=float)) * of_noise, found.noise**2)
     return float(form[top]), math.sqrt(of_coefficients + of_registration + of_relief)
+
+
+def _leverage(places: Array) -> float:
+    """Return the variance at the origin of a paraboloid fitted at places (n, 2), by unit noise."""
+    x, y = (places / np.max(np.ptp(places, axis=0))).T
+    terms = np.stack([np.ones_like(x), x, y, x**2, x * y, y**2])
+    # The constant alone counts there.
+    return float(np.linalg.pinv(np.einsum("kn,ln->kl", terms, terms), hermitian=True)[0, 0])
 
 
 def _sum_uncertainty(found: Registration, scar: Mask) -> float:

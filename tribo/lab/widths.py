@@ -18,6 +18,13 @@ CLEAR = 0.1
 """Part of the largest depth below which noise needs no smoothing."""
 LINES = 5
 """Lines through the middle of a scar whose mean is its profile."""
+PIXEL = 0.6
+"""Standard uncertainty of a width by pixels, half of one on either side, in pixels."""
+SMEARS = 1.5
+"""Standard uncertainty by smoothing, in its widths, as it moves steep sides by up to 2.5."""
+STEEP = 1.2
+"""Difference of the widths at the lowest level and at half of the depth, in pixels, below which
+both sides fall within one."""
 BESIDE = 0.1
 """Part of a line along a track that may be worn where it tells the noise."""
 
@@ -125,20 +132,22 @@ def _read(profile: Array, noise: float, blur: float, pitch: float) -> Width:
     """Return the width of a profile: where the parabola through two of its levels comes to 0.
 
     The depth of a ball worn flat is a parabola. How far another scar is from it shows in the
-    parabola through higher levels.
+    parabola through higher levels. Sides that fall within a pixel end at half of the depth.
     """
     peak = float(np.max(profile))
-    half = _crossed(profile, 0.5 * peak) / math.sqrt(2)
-    low = min(max(LOWEST, DEEP * noise / peak, 3 * blur / half), HIGHEST)
+    half = _crossed(profile, 0.5 * peak)
+    low = min(max(LOWEST, DEEP * noise / peak, 3 * blur * math.sqrt(2) / half), HIGHEST)
     levels = (low, 2 * low, min(4 * low, 0.9))
     squares = [_crossed(profile, level * peak) ** 2 for level in levels]
+    if math.sqrt(squares[0]) - half < STEEP:
+        return Width(pitch * half, pitch * PIXEL)
     width, other = (
         math.sqrt(max((high * wide - low * narrow) / (high - low), 0.0))
         for low, high, wide, narrow in zip(levels, levels[1:], squares, squares[1:], strict=False)
     )
     # Noise moves the edge by about half of its part of the peak, and the parabola doubles it.
     of_noise = width * noise / peak
-    return Width(pitch * width, pitch * math.hypot(width - other, of_noise, 0.5, blur))
+    return Width(pitch * width, pitch * math.hypot(width - other, of_noise, PIXEL, SMEARS * blur))
 
 
 def _crossed(profile: Array, level: float) -> float:

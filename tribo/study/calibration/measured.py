@@ -39,6 +39,7 @@ def _beside(name: str, info: ValidationInfo) -> str:
 BesideFile = Annotated[str, AfterValidator(_beside)]
 """Name of a file; a relative one starts at the folder of the file of measured values."""
 
+ENTRIES = "entries [[measured]]"
 LOCAL = "local coefficients are fitted to maps of one test: give [[map]] in a file of its own"
 UNSEEN = "what was too little to be seen is given as a limit, '< 0.1 mg' say"
 LEAST_UNCERTAINTY = 1e-6
@@ -365,11 +366,11 @@ def read_measurements(source: Measurements | Mapping[str, Any] | str | Path) -> 
     if isinstance(source, Mapping):
         data, folder = source, None
     else:
-        data = read_toml(source, "measured values", "those are entries [[measured]]")
+        data = read_toml(source, "measured values", f"a file of measured values has {ENTRIES}")
         folder = Path(source).parent
     if "bodies" in data and not {"measured", "test"} & data.keys():
         name = "this" if isinstance(source, Mapping) else f"{source}"
-        raise CaseError(f"{name} is a case, not measured values; those are entries [[measured]]")
+        raise CaseError(f"{name} is a case, not measured values, which are {ENTRIES}")
     try:
         return Measurements.model_validate(data, context=folder)
     except ValidationError as error:

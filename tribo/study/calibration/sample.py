@@ -108,7 +108,9 @@ def sampled(
     found = np.exp(sampler.get_chain(discard=discard, flat=True)[:, :p])
     part = 0.5 + 0.5 * level
     lower, upper = np.quantile(found, [1 - part, part], axis=0)
+    # Of a parameter that only limits of detection tell the interval is one-sided.
     lower = np.where(estimates["limited"], 0.0, lower)
+    upper = np.where(estimates["limited"], np.quantile(found, level, axis=0), upper)
     both = estimates.assign(sampled_lower=lower, sampled_upper=upper)
     off = np.maximum(np.abs(lower - both["lower"]), np.abs(upper - both["upper"]))
     difference = float(np.max(off / (both["upper"] - both["lower"])))
