@@ -629,6 +629,19 @@ def test_a_picture_leaves_what_is_missing_white(standard):
     assert np.ma.getmaskarray(image.get_array()).any()
 
 
+def test_the_picture_outlines_what_is_piled_up():
+    ridge = lambda x, y: np.exp(-((np.hypot(x, y) - 26) ** 2) / 8)  # noqa: E731
+    before, after, *_ = pair(missing=0.0)
+    x, y = after.grid.mesh
+    raised = Heights(after.heights + 3e-7 * ridge(x / PITCH, y / PITCH), after.pitch)
+    figure = measured_scar_map(measured_scar(before, raised))
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["scar", "piled up"]
+    title = figure.axes[0].get_title("left")
+    value, power = re.match(r"Volume \(([\d.]+) ± .*10\^\{(-\d+)\}\$ mm³", title).groups()
+    assert 1e-9 * float(value) * 10.0 ** int(power) == pytest.approx(6.28e-16, rel=0.03, abs=0)
+
+
 def test_a_file_of_a_format_that_nothing_reads_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(heights, "default_registry", lambda: Registry([builtin()]))
     with pytest.raises(

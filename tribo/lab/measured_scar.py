@@ -54,8 +54,8 @@ class MeasuredScar:
         Registration of the maps, with the depth map, on their common area.
     after : Heights
         The map after the test, on the common area.
-    scar : ndarray of bool, shape (nx, ny)
-        The pixels of the scar.
+    scar, piled : ndarray of bool, shape (nx, ny)
+        The pixels of the scar, and those of what is piled up beside it.
     volume, volume_uncertainty : float
         Volume of the scar within the map, in m³.
     piled_up : float
@@ -84,6 +84,7 @@ class MeasuredScar:
     registration: Registration
     after: Heights
     scar: Mask
+    piled: Mask
     volume: float
     volume_uncertainty: float
     piled_up: float
@@ -259,6 +260,7 @@ def measured_scar(
         registration=found,
         after=after,
         scar=scar,
+        piled=worn.piled,
         volume=volume,
         volume_uncertainty=area * _sum_uncertainty(found, scar),
         piled_up=-area * float(np.nansum(depth[worn.piled])),

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -15,6 +19,9 @@ from tribo.plotting.maps import Map, new_maps
 from tribo.plotting.sections import number_of_saves, removed, scar_mask
 from tribo.plotting.units import height_unit, size, time_labels
 from tribo.result.read import Result
+
+MISSING = "#e0b080"
+"""Colour of missing pixels, which no depth has."""
 
 
 def scar_map(result: Result, name: str, save: int = -1) -> Figure:
@@ -44,19 +51,30 @@ def scar_map(result: Result, name: str, save: int = -1) -> Figure:
 
 
 def measured_scar_map(found: MeasuredScar) -> Figure:
-    """Draw the depth of a measured scar, missing pixels left white, and its outline."""
+    """Draw the depth of a measured scar, outlined as what is piled up, and missing pixels."""
     unit = height_unit(found.depth)
     with style.house_style():
         figure, (shown,) = new_maps(np.isfinite(found.depths), found.after.grid)
         most = float(np.max(smoothed(found.depths)[found.scar])) / size(unit)
         _draw_depths(shown, found.depths, unit, most)
         x, y = shown.positions()
-        outline = found.scar.T.astype(float)
-        look: style.Look = {"color": "black", "linewidth": 0.8}
-        shown.axes.contour(x, y, outline, [0.5], colors=look["color"], linewidths=look["linewidth"])
-        style.legend_below(figure, [Line2D([], [], label="outline of the scar", **look)])
-        volume, sure = 1e9 * found.volume, 1e9 * found.volume_uncertainty
-        shown.axes.set_title(f"{volume:.4g} ± {sure:.1g} mm³", loc="left")
+        marks: list[Artist] = []
+        for area, dashes, words in ((found.scar, "-", "scar"), (found.piled, "--", "piled up")):
+            if area.any():
+                look: style.Look = {"linestyles": dashes, "colors": "black", "linewidths": 0.8}
+                shown.axes.contour(x, y, area.T.astype(float), [0.5], **look)
+                marks.append(Line2D([], [], label=words, ls=dashes, color="black", lw=0.8))
+        if np.isnan(found.depths).any():
+            shown.axes.set_facecolor(MISSING)
+            marks.append(Patch(color=MISSING, label="missing"))
+        style.legend_below(figure, marks)
+        power = math.floor(math.log10(found.volume))
+        part, sure = (each / 10**power for each in (found.volume, found.volume_uncertainty))
+        digits = max(0, 1 - math.floor(math.log10(sure)))
+        shown.axes.set_title(
+            rf"Volume ({part:.{digits}f} ± {sure:.{digits}f}) $\cdot\,10^{{{power + 9}}}$ mm³",
+            loc="left",
+        )
     return figure
 
 
