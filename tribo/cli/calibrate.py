@@ -163,7 +163,7 @@ def _fit_local(
 
     check_free(output, force)
     mapped = {f"map.{i}": entry for i, entry in enumerate(measurements.map)}
-    found = calibrate_maps(tables, mapped, on_run=partial(_print_run, "run and pass back"))
+    found = calibrate_maps(tables, mapped, on_run=_print_pass)
     if as_json:
         echo_json(maps_json(found, level))
     else:
@@ -238,6 +238,14 @@ def _print_run(what: str, run: int, misfit: float = math.nan, left: float = 0.0)
     chi_square = "" if math.isnan(misfit) else f": misfit χ² {misfit:.3g}"
     more = f", {left:.0f} s left at least" if left >= 1 else ""
     click.echo(f"{what} {run}{chi_square}{more}", err=True)
+
+
+def _print_pass(count: int, misfit: float) -> None:
+    """Print the number of a run and pass back, which is for the map or for what is sure of it."""
+    if math.isnan(misfit):
+        click.echo(f"run and pass back {count}: for standard deviations", err=True)
+    else:
+        _print_run("run and pass back", count, misfit)
 
 
 class _Progress:

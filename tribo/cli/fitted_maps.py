@@ -103,14 +103,15 @@ def print_maps(found: FittedMaps, level: float) -> None:
         console.print(f"Note: {note}", markup=False)
 
 
-def map_pictures(found: FittedMaps) -> dict[str, Callable[[], Figure]]:
+def map_pictures(found: FittedMaps, level: float) -> dict[str, Callable[[], Figure]]:
     """Return functions that draw the map of each body, and its fit to the measured depths."""
     from tribo.plotting.coefficients import coefficient_map, depth_fit
 
     pictures: dict[str, Callable[[], Figure]] = {}
     for name, each in found.maps.items():
         part = each.deviation / each.prior
-        pictures[name] = partial(coefficient_map, each.factor, part, each.told, each.spacing, name)
+        drawn = each.factor, each.interval(level), part, each.told, each.spacing, name
+        pictures[name] = partial(coefficient_map, *drawn)
         pictures[f"{name}-fit"] = partial(
             depth_fit, each.measured, each.computed, each.uncertainty, each.spacing, name
         )
@@ -135,7 +136,7 @@ def write_maps(found: FittedMaps, level: float, output: Path) -> None:
     arrays: dict[str, Any] = {}
     for name, each in found.maps.items():
         arrays |= {f"{name}_{key}": value for key, value in _arrays(each, level).items()}
-    pictures = {f"{output.stem}-{name}": draw for name, draw in map_pictures(found).items()}
+    pictures = {f"{output.stem}-{name}": draw for name, draw in map_pictures(found, level).items()}
     np.savez_compressed(output, **arrays)
     click.echo(f"Wrote {output}")
     for path in write_figures(pictures, output.parent):

@@ -15,11 +15,18 @@ DOUBLE = 140.0
 SIGNIFICANT = 3.0
 """Residual, in standard deviations, that is outlined, so that its sign is also visible in grey; and
 the least range of its colour scale."""
+SURE = 0.5
+"""Standard deviation, relative to the prior's, up to which intervals along y are shown whole."""
 Range = tuple[float | None, float | None]
 
 
 def coefficient_map(
-    factor: Array, part: Array, told: Mask, spacing: tuple[float, float], title: str = ""
+    factor: Array,
+    interval: tuple[Array, Array],
+    part: Array,
+    told: Mask,
+    spacing: tuple[float, float],
+    title: str = "",
 ) -> Figure:
     """Draw the factor on a wear coefficient, and its standard deviation relative to the prior's.
 
@@ -27,6 +34,8 @@ def coefficient_map(
     ----------
     factor : ndarray, shape (rows, ny)
         The factor at each cell; with one row, along y only.
+    interval : tuple of ndarray, shape (rows, ny)
+        The ends of its interval, drawn as a band along y.
     part : ndarray, shape (rows, ny)
         Standard deviation over the prior's: at 1 the data say nothing.
     told : ndarray of bool, shape (rows, ny)
@@ -38,9 +47,16 @@ def coefficient_map(
     """
     panels: dict[str, tuple[Array, Range]] = {
         "factor on k, where told": (np.where(told, factor, np.nan), (None, None)),
-        "deviation over prior's": (part, (0.0, 1.0)),
+        "standard deviation / prior's": (part, (0.0, 1.0)),
     }
-    return _drawn(panels, spacing, title, "viridis")
+    figure = _drawn(panels, spacing, title, "viridis")
+    if len(factor) == 1:
+        low, high = (np.where(told, each, np.nan)[0] for each in interval)
+        figure.axes[0].fill_between(_places(factor, spacing), low, high, color="#d0d0d0", lw=0)
+        # Ends where hardly anything is told would leave the rest flat.
+        if np.any(sure := part[0] < SURE):
+            figure.axes[0].set_ylim(0.95 * np.min(low[sure]), 1.05 * np.max(high[sure]))
+    return figure
 
 
 def depth_fit(
@@ -81,6 +97,12 @@ def depth_fit(
     return figure
 
 
+def _places(values: Array, spacing: tuple[float, float]) -> Array:
+    """Return where the cells of a row lie along y, in µm."""
+    cells = np.arange(values.size) - 0.5 * (values.size - 1)
+    return np.asarray(1e6 * spacing[1] * cells)
+
+
 def _drawn(
     panels: Mapping[str, tuple[Array, Range]],
     spacing: tuple[float, float],
@@ -95,8 +117,7 @@ def _drawn(
             zip(figure.subplots(1, 2), panels.items(), strict=True)
         ):
             if len(values) == 1:
-                y = spacing[1] * 1e6 * (np.arange(values.size) - 0.5 * (values.size - 1))
-                axes.plot(y, values[0], color="#202020")
+                axes.plot(_places(values, spacing), values[0], color="#202020")
                 axes.set(xlabel="y (µm)", ylabel=label, ylim=(low, high))
                 continue
             half = [0.5e6 * n * h for n, h in zip(values.shape, spacing, strict=True)]

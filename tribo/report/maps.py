@@ -19,7 +19,7 @@ def maps_page(found: FittedMaps, level: float, title: str) -> str:
     """Return the report of local coefficients as HTML; see `tribo.write_report`."""
     check_installed()
     packages: Any = environment()["packages"]
-    pictures = map_pictures(found)
+    pictures = map_pictures(found, level)
     return render(
         "study.html.j2",
         kind="Calibration",

@@ -23,7 +23,7 @@ from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import cell_means, surface_shape
 from tribo.study.calibration.lanczos import eigenpairs
-from tribo.study.calibration.notes import UNLIKELY
+from tribo.study.calibration.notes import TOO_SMALL, UNLIKELY
 from tribo.study.calibration.quantities import EDGE_CELL_SIGMA, edge_sigma
 from tribo.study.gradient.backwards import swept_back
 from tribo.study.gradient.gradient import ValueAndGradient
@@ -132,19 +132,26 @@ class FittedMaps:
     @property
     def notes(self) -> list[str]:
         """Notes on the maps and the fit."""
-        notes = list(self.remarks)
-        notes += [
-            f"{name}: the data say nothing of {np.sum(~each.told)} cells, mostly where nothing was "
-            "worn or measured: there the coefficient is the case's, as uncertain as before"
-            for name, each in self.maps.items()
-            if not np.all(each.told)
-        ]
+        notes = []
         if self.p_value < UNLIKELY:
             notes.append(
                 "no map that varies so smoothly explains the depths: χ² is "
                 f"{self.chi_square:.4g} where about {self.degrees_of_freedom:.4g} is expected; the "
                 "model leaves something out, or the uncertainty is larger, or the length shorter"
             )
+        if self.p_value > 1 - TOO_SMALL:
+            notes.append(
+                f"the depths differ from the fit by less than their uncertainty: χ² is "
+                f"{self.chi_square:.3g} where about {self.degrees_of_freedom:.3g} is expected; is "
+                "it that of a cell, or of a line along a track, and not of a pixel?"
+            )
+        notes += self.remarks
+        notes += [
+            f"{name}: the data say nothing of {np.sum(~each.told)} cells, mostly where nothing was "
+            "worn or measured: there the coefficient is the case's, as uncertain as before"
+            for name, each in self.maps.items()
+            if not np.all(each.told)
+        ]
         return notes
 
 

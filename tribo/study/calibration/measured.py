@@ -294,7 +294,8 @@ class MapEntry(Table):
     pitch: Annotated[float, Quantity("m", above=0)] | None = None
     """Distance between its pixels; that of the file if left out."""
     uncertainty: Annotated[float, Quantity("m", above=0)]
-    """Standard deviation of the depth of a cell of the grid."""
+    """Standard deviation of the depth of a cell of the grid; of a track that is averaged along its
+    length, of the mean of a line along it."""
     spread: Annotated[float, Quantity("1", above=0, below=3)] = 0.5
     """Prior standard deviation of the logarithm of the coefficient from place to place."""
     length: Annotated[float, Quantity("m", above=0)]
