@@ -105,7 +105,8 @@ def table_of_numbers(file: Path) -> Array:
     """Return the numbers of a file as `read_numbers` does, NaN where some are missing."""
     if not file.is_file():
         where = "" if file.is_absolute() else f" in {Path.cwd()}, where tribo was started"
-        raise ValueError(f"there is no file {file}{where}; correct path")
+        what = f"{file} is a folder" if file.is_dir() else f"there is no file {file}{where}"
+        raise ValueError(f"{what}; correct path")
     if file.stat().st_size == 0:
         raise ValueError(f"{file} is empty")
     try:

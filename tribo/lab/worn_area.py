@@ -68,12 +68,12 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
     core = _largest(smooth, smooth > DEEP * noise)
     piled = _largest(-smooth, -smooth > DEEP * noise)
     if not core.any():
-        before = "the shape given" if ideal else "the map before"
-        why = f"if over half of the map is worn, measure a larger area; or check {before}"
+        doubt = "check the shape given" if ideal else "check that both maps are of one body"
+        why = f"if over half of the map is worn, measure a larger area; or {doubt}"
         if piled.any():
             why = "but some of it stands up; is the map after the test given first?"
         raise CaseError(
-            f"no scar was found: nothing is worn deeper than {1e9 * DEEP * noise:.3g} nm, {DEEP:g} "
+            f"no scar was found: nothing is worn deeper than {1e6 * DEEP * noise:.3g} µm, {DEEP:g} "
             f"times what else differs; {why}"
         )
     is_open = [

@@ -36,9 +36,11 @@ def _heights(path: Path) -> Heights:
     except CaseError as error:
         if not path.is_file():
             raise
+        # Its advice is for a surface of a case, which has settings.
+        reason = str(error).rpartition("; ")[0] or str(error)
         raise CaseError(
-            f"{error}. Settings are for a case's surface: here, export the map as .x3p, or as a "
-            ".npy or .csv table of heights in m, whose pitch is given"
+            f"{reason}; export the map as .x3p, or as a .npy or .csv table of heights in m, whose "
+            "pitch is given"
         ) from None
     (sx, sy), (nx, ny) = found.size, found.heights.shape
     return Heights(found.heights, (sx / nx, sy / ny))
