@@ -1,0 +1,93 @@
+"""The largest depth of a measured scar, and how sure that and its volume are."""
+
+from __future__ import annotations
+
+import math
+import warnings
+
+import numpy as np
+import scipy.ndimage as ndimage
+
+from tribo.core.arrays import Array, Mask
+from tribo.core.errors import CaseError, TriboWarning
+from tribo.lab.heights import smoothed
+from tribo.lab.registration import Registration
+from tribo.lab.roughness import without_form
+
+MISSED = 0.2
+"""Part of the bottom of the scar that may lie in holes."""
+FEWEST_OF_BOTTOM = 12
+"""Pixels that a paraboloid is fitted to at least."""
+BOTTOM = 0.8
+"""Part of the largest depth from which on a pixel is of the bottom of the scar."""
+LEVEL = 10.0
+"""Variance of the form of a bottom, relative to that by noise of a mean, below which it is flat; 5
+by noise alone."""
+
+
+def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tuple[float, float]:
+    """Return the largest depth of a scar and its standard uncertainty, in m.
+
+    A paraboloid is fitted to the bottom, as smoothing would flatten it; where noise would make as
+    much of a flat bottom its mean is taken. The uncertainty combines that of the coefficients, of
+    the registration, and the smoothed residuals of the fit beyond noise, as of the relief of a worn
+    surface.
+    """
+    worn = np.where(core, smooth, -np.inf)
+    areas, _ = ndimage.label(worn >= BOTTOM * np.max(worn), np.ones((3, 3)))
+    bottom = areas == areas[np.unravel_index(int(np.argmax(worn)), core.shape)]
+    missing = bottom & np.isnan(found.depth)
+    holes = ndimage.binary_opening(missing, np.ones((3, 3)))
+    if np.count_nonzero(holes) > MISSED * np.count_nonzero(bottom):
+        warnings.warn(
+            "pixels are missing where the scar is deepest: the largest depth is that of the others",
+            TriboWarning,
+            stacklevel=3,
+        )
+    if np.count_nonzero(bottom & ~missing) < FEWEST_OF_BOTTOM:
+        raise CaseError(
+            "hardly any pixel of the bottom of the scar was measured; measure again, with fewer "
+            "missing pixels"
+        )
+    residuals = without_form(np.where(bottom, found.depth, np.nan))
+    form = found.depth - residuals
+    places = np.argwhere(np.isfinite(residuals))
+    top: tuple[int, ...] = tuple(places[int(np.argmax(form[tuple(places.T)]))])
+    rough = float(np.std(smoothed(residuals)[bottom]))
+    of_registration = max(float(found.uncertainty[top] ** 2 - found.noise**2), 0.0)
+    of_noise = found.variance_inflation * found.noise**2
+    of_relief = max(rough**2 - noise**2, 0.0)
+    mean, spread = float(np.nanmean(form)), float(np.nanvar(form))
+    # The largest of what noise makes of a flat bottom lies above it.
+    if spread < LEVEL * of_noise / len(places):
+        return mean, math.sqrt(of_noise / len(places) + of_registration + of_relief + spread)
+    of_coefficients = min(_leverage(places - np.array(top, dtype=float)) * of_noise, found.noise**2)
+    return float(form[top]), math.sqrt(of_coefficients + of_registration + of_relief)
+
+
+def _leverage(places: Array) -> float:
+    """Return the variance at the origin of a paraboloid fitted at places (n, 2), by unit noise."""
+    x, y = (places / np.max(np.ptp(places, axis=0))).T
+    terms = np.stack([np.ones_like(x), x, y, x**2, x * y, y**2])
+    # The constant alone counts there.
+    return float(np.linalg.pinv(np.einsum("kn,ln->kl", terms, terms), hermitian=True)[0, 0])
+
+
+def sum_uncertainty(found: Registration, scar: Mask) -> float:
+    """Return the standard uncertainty of the sum of depths in a scar, in m.
+
+    Missing pixels have the standard deviation of the depths around them from their smoothed ones,
+    which is that of curvature and noise, fully correlated in each hole.
+    """
+    missing = scar & np.isnan(found.depth)
+    sums = np.sum(found.slopes[:, scar], axis=1)
+    of_fit = float(np.einsum("k,kl,l->", sums, found.covariance, sums))
+    of_noise = found.variance_inflation * found.noise**2 * np.count_nonzero(scar & ~missing)
+    sigma = np.zeros(scar.shape)
+    for width in (8.0, 3.0):
+        spread = np.sqrt(smoothed((found.depth - smoothed(found.depth, width)) ** 2, width))
+        around = ndimage.gaussian_filter(np.isfinite(found.depth).astype(float), width)
+        sigma = np.where(around > 0.1, spread, sigma)
+    holes, count = ndimage.label(missing)
+    each = ndimage.sum(sigma, holes, np.arange(1, count + 1))
+    return math.sqrt(max(of_fit, 0.0) + of_noise + float(np.sum(np.square(each))))

@@ -1,0 +1,98 @@
+"""Warnings of what looks wrong with the maps of a scar."""
+
+from __future__ import annotations
+
+import math
+import warnings
+
+import numpy as np
+
+from tribo.core.arrays import Array, Mask
+from tribo.core.errors import CaseError, TriboWarning
+from tribo.lab.heights import Heights
+from tribo.lab.roughness import without_form
+
+ZEROS = 10
+"""Ratio of the number of zeros to that of any other height above which zeros may be missing
+values."""
+CURVED = 20.0
+"""Sag of the map, relative to its relief, from which on the radius of its surface is known."""
+RADIUS_OFF = 0.05
+"""Relative difference of a radius that is told."""
+
+
+def warn_of_zeros(heights: Heights, which: str) -> None:
+    """Warn of many heights of exactly 0, which may stand for missing values."""
+    known = heights.heights[np.isfinite(heights.heights)]
+    values, counts = np.unique(known, return_counts=True)
+    if values.size == 1:
+        words = f"every height of the map {which} is {known[0]:g} m"
+        if which == "after":
+            raise CaseError(f"{words}: nothing was measured; save it again")
+        warnings.warn(
+            f"{words}, an ideal flat; if it was measured, save it again", TriboWarning, stacklevel=3
+        )
+    zeros, others = (int(np.max(counts[each], initial=0)) for each in (values == 0, values != 0))
+    if zeros > ZEROS * others and 2 * zeros < known.size:
+        warnings.warn(
+            f"{zeros} heights of the map {which} are exactly 0; put NaN where nothing was measured",
+            TriboWarning,
+            stacklevel=3,
+        )
+
+
+def warn_of_curvature(unworn: Array, *, ideal: bool) -> None:
+    """Warn if what is unworn differs by a curvature more than by all else."""
+    if np.nanvar(without_form(unworn)) < 0.5 * np.nanvar(unworn):
+        doubt = (
+            "check the shape given and the pitch"
+            if ideal
+            else "check that the maps belong together"
+        )
+        warnings.warn(
+            f"the unworn surfaces differ by a curvature: {doubt}, or take it off with form 2",
+            TriboWarning,
+            stacklevel=3,
+        )
+
+
+def warn_of_radius(after: Heights, scar: Mask, radius: float) -> None:
+    """Warn if the unworn surface has another radius than the ball."""
+    unworn = np.where(scar, np.nan, after.heights)
+    rest = without_form(unworn)
+    found, noise = radius_across(unworn - rest, after.pitch), float(np.nanstd(rest))
+    sag = after.grid.size[1] ** 2 / (8 * radius)
+    if sag > CURVED * noise and abs(math.log(min(found / radius, 100.0))) > RADIUS_OFF:
+        warnings.warn(
+            f"the unworn surface has a radius of {1e3 * found:.4g} mm, and the ball one of "
+            f"{1e3 * radius:.4g} mm: check radius and pitch",
+            TriboWarning,
+            stacklevel=3,
+        )
+
+
+def warn_of_edge(*, within: bool) -> None:
+    """Warn that an edge cuts a scar off, that of the map or `within` it."""
+    warnings.warn(
+        f"the edge of {'the area common to both maps' if within else 'the map'} cuts the scar off: "
+        "volume and depth are those of the part within, widths and formulas are left out; measure "
+        f"a larger area{', the same before and after' if within else ''}",
+        TriboWarning,
+        stacklevel=3,
+    )
+
+
+def warn_of_several(count: int) -> None:
+    """Warn that several areas are worn."""
+    warnings.warn(
+        f"{count} areas are worn: volume is that of all, depth that of the deepest, and widths and "
+        "formulas are left out; cut the maps to one of them for these",
+        TriboWarning,
+        stacklevel=3,
+    )
+
+
+def radius_across(form: Array, pitch: tuple[float, float]) -> float:
+    """Return the radius of the form of a surface across the sliding direction, in m."""
+    bend = float(np.nanmean(np.diff(form, 2, axis=1))) / pitch[1] ** 2
+    return math.inf if bend >= 0 else -1 / bend
