@@ -10,13 +10,14 @@ from scipy.stats import binom
 from tribo.cli.fitted import data_table
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
-from tribo.core.errors import NumericalError
+from tribo.core.errors import NumericalError, OutOfWindow
 from tribo.lab.heights import Heights
 from tribo.simulation.run import Simulation
 from tribo.study.calibration import mapped
 from tribo.study.calibration.calibrate import calibrate
 from tribo.study.calibration.doubts import doubts
 from tribo.study.calibration.experiment import Experiment
+from tribo.study.calibration.fit import Unsettled
 from tribo.study.calibration.map_notes import off_turn
 from tribo.study.calibration.mapped import calibrate_maps
 from tribo.study.calibration.maps import FittedMaps
@@ -269,10 +270,9 @@ def test_where_the_scar_outgrows_the_window_the_pitch_is_doubted(worn, tmp_path)
     np.save(tmp_path / "map.npy", worn)
     entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
     experiment = Experiment.of(CASE, {"measured": [entry | {"pitch": PITCH, "uncertainty": NOISE}]})
-    edge = "the contact reached the edge of the window of 1 × 1 mm; make grid.size larger"
-    assert list(doubts(experiment, edge)) == ["check pitch"]
-    assert list(doubts(experiment, "the estimates have not settled")) == ["check pitch"]
-    assert list(doubts(experiment, "another reason")) == []
+    for kind in (OutOfWindow, Unsettled):
+        assert list(doubts(experiment, kind("why"))) == ["check pitch"]
+    assert list(doubts(experiment, NumericalError("another reason"))) == []
 
 
 def test_uniform_wear_tells_no_place():

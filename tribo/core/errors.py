@@ -41,6 +41,10 @@ class NumericalError(TriboError):
     exit_code: ClassVar[int] = 3
 
 
+class OutOfWindow(NumericalError):
+    """A contact reached the edge of the window."""
+
+
 class PluginError(NumericalError):
     """A component raised something that nobody expected."""
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tribo.core.errors import NumericalError, PluginError
+from tribo.core.errors import OutOfWindow, PluginError
 from tribo.core.measures import half_widths, reaches_border
 from tribo.core.state import State
 from tribo.simulation.beginning import first_state
@@ -156,7 +156,7 @@ def _check_window(model: Model, state: State) -> None:
     if model.may_reach_edge or not reaching:
         return
     width, breadth = half_widths(reaching[0], model.grid)
-    raise NumericalError(
+    raise OutOfWindow(
         f"at {state.time:.6g} s ({state.distance:.6g} m) the contact, "
         f"{2e3 * width:.3g} × {2e3 * breadth:.3g} mm, reached the edge of the window of "
         f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm; make grid.size "

@@ -16,8 +16,8 @@ from tribo.case import Case
 from tribo.config.overrides import apply_settings
 from tribo.config.write import to_toml
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, NumericalError
-from tribo.study.calibration.doubts import REACHED, doubts, far_off
+from tribo.core.errors import CaseError, NumericalError, OutOfWindow
+from tribo.study.calibration.doubts import doubts, far_off
 from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval, limit
 from tribo.study.calibration.linearised import Linearised, Weights, root_covariance
@@ -192,9 +192,7 @@ def calibrate(
     try:
         experiment = experiment.centred(experiment.start)
         first = experiment.run(experiment.start).responses
-    except NumericalError as error:
-        if REACHED not in str(error):
-            raise
+    except OutOfWindow as error:
         paths = " and ".join(p.path for p in experiment.parameters)
         raise NumericalError(f"give a start of {paths} in fit that is nearer; {error}") from error
     far = far_off(experiment.data, first, experiment.parameters)
@@ -220,7 +218,7 @@ def calibrate(
             estimate = np.where(fitted.limited(), experiment.start, estimate)
             fitted = fit(responses, problem, estimate)
     except (CaseError, NumericalError) as error:
-        words = [*doubts(experiment, str(error)), str(error)]
+        words = [*doubts(experiment, error), str(error)]
         if far:
             words.append(f"or is a measured value off? {'; '.join(far)}")
         if len(words) == 1:

@@ -8,26 +8,25 @@ import numpy as np
 import pandas as pd
 
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, OutOfWindow, TriboError
 from tribo.study.calibration.experiment import Experiment
+from tribo.study.calibration.fit import Unsettled
 from tribo.study.calibration.parameters import Parameter
 from tribo.study.calibration.quantities import DEPTH_MAP, PROFILES, in_si
 
-REACHED, UNSETTLED = "reached the edge of the window", "have not settled"
-"""Parts of the messages of errors that a wrong pitch or position may cause."""
 SUSPICIOUS = 5.0
 """Factor between measured and computed values from which on it is mentioned if a fit fails."""
 REFUSED = 300.0
 """Factor from which on values are refused: a wrong prefix of a unit makes 1000."""
 
 
-def doubts(experiment: Experiment, error: str) -> Iterator[str]:
+def doubts(experiment: Experiment, error: TriboError) -> Iterator[str]:
     """Return likely reasons of a failed fit."""
     if any(setup.model.case.stop.depth is not None for setup in experiment.setups):
         yield (
             "leave out stop.depth: it ends the run at different times for different coefficients"
         )
-    if REACHED in error or UNSETTLED in error:
+    if isinstance(error, OutOfWindow | Unsettled):
         quantities = set(experiment.data["quantity"])
         if DEPTH_MAP in quantities:
             yield "check pitch"

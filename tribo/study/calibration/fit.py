@@ -47,6 +47,10 @@ MOST_WITHOUT_PROGRESS = 4
 """Rounds without a lower χ² after which it ends."""
 
 
+class Unsettled(NumericalError):
+    """A fit does not converge."""
+
+
 def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Linearised:
     """Return the model linearised about its last run, whose parameters are the estimate.
 
@@ -88,7 +92,7 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
             here = differenced(model, problem, origin, here.responses)
         else:
             return here
-    raise NumericalError(
+    raise Unsettled(
         f"the estimates have not settled after {rounds} rounds: χ² has come down to {least:.3g}, "
         f"and computed values still change by {change:.2g} of their uncertainty; refine "
         "grid.cells, start nearer, or state the uncertainties larger"
