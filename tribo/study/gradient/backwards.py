@@ -108,7 +108,9 @@ def swept_back(
     hardness have a fixed z, by what their overlap adds to the plastic depth. What laws
     remember adds to the right side, and is followed back through the step.
     """
-    back = Backwards(model, chains)
+    cells = model.grid.cells
+    touched = Box.of(tape.touched, cells) if tape.touched else whole(cells)
+    back = Backwards(model, chains, touched)
     for record in reversed(tape):
         if isinstance(record, Saved):
             back.look(seeds[record.time])
@@ -128,10 +130,12 @@ class Backwards:
     in the depth `worn_before`.
     """
 
-    def __init__(self, model: Model, chains: Sequence[Chain]) -> None:
+    def __init__(self, model: Model, chains: Sequence[Chain], touched: Box) -> None:
         self.laws = {name: WatchedLaw(law) for name, law in model.laws.items()}
         self.model = model = replace(model, laws=self.laws)
-        self.chains = chains
+        self.chains, self.touched = chains, touched
+        if len(model.cycle) > 1 or layered_bodies(model) or model.filling:
+            self.touched = whole(model.grid.cells)
         cells, positions = model.grid.cells, len(model.cycle)
         self.shares = np.array([position.share for position in model.cycle])
         self.carriers = carriers_of(model)
@@ -289,12 +293,13 @@ class Backwards:
                 for name in model.laws
             ]
 
-        def stages(*names: str) -> Sloping:
+        def stages(*names: str, given: Box) -> Sloping:
             own = {name: slid.before.laws[name] for name in names}
-            alone, box, pressed = _of(model, *names), whole(model.grid.cells), contacts
+            alone, box, pressed = _of(model, *names), given, contacts
             if not (self.together or layered_bodies(alone)):
                 box = Box.of(record.region, model.grid.cells)
-                pressed = [_contact(each) for each in record.pressure]
+            if not box.is_window:
+                pressed = [_contact(each[box.slices]) for each in window]
             before = replace(slid.before, laws=own)
             return Sloping(
                 alone,
@@ -307,9 +312,16 @@ class Backwards:
             )
 
         if self.together:
-            return [Together(stages(*model.laws))]
-        laws = self.states.laws
-        return [Alone(stages(name), Memory({name: laws[name]}, {})) for name in model.laws]
+            together = Together(stages(*model.laws, given=self.touched))
+            if not (self.touched.is_window or _is_pointwise(together)):
+                # What is remembered elsewhere may come back into the contact.
+                self.touched = whole(model.grid.cells)
+                together = Together(stages(*model.laws, given=self.touched))
+            return [together]
+        laws, given = self.states.laws, whole(model.grid.cells)
+        return [
+            Alone(stages(name, given=given), Memory({name: laws[name]}, {})) for name in model.laws
+        ]
 
     def _of_wear(self, increment: Together, box: Box, z: Array) -> Array:
         """Return what the wear and the filling that pressures make add to the adjoint of K."""
@@ -369,6 +381,14 @@ class Backwards:
             chain.by_rest(self.gap, self.stiffness, self.cap, self.states) for chain in self.chains
         ]
         return self.sums + rest
+
+
+def _is_pointwise(increment: Together) -> bool:
+    """Whether each point follows its own cells alone; not where it follows some beyond the box."""
+    try:
+        return increment.is_pointwise
+    except CaseError:
+        return False
 
 
 def _of(model: Model, *names: str) -> Model:

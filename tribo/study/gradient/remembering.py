@@ -249,12 +249,13 @@ class Together(Remembering):
         """
         if self.is_pointwise:
             shape, none = self.stages.pressure.shape, [0.0] * len(self.stages.begin)
-            ones = np.eye(len(self.stages.own))[:, :, None, None]
-            by = [self._back([*each], none).pressure for each in ones]
-            return [
-                (own, self.stages.embedded(np.broadcast_to(each, shape)))
-                for own, each in zip(self.stages.own, by, strict=True)
-            ]
+            found = []
+            for at, own in enumerate(self.stages.own):
+                seeds: list[Field] = [0.0] * len(self.stages.own)
+                seeds[at] = np.ones((own.rows, self.stages.box.window[1]))
+                by = self._back(seeds, none).pressure
+                found.append((own, self.stages.embedded(np.broadcast_to(by, shape))))
+            return found
         start, window = self._parts[0].rows[0][0], np.ones(self.stages.pressure.shape)
         return [
             (own, self.stages.slid.increment * own.part(self.stages.box) * by.own * window)

@@ -65,8 +65,9 @@ class Stages:
     model, carriers : Model, Mapping of Carrier by body
         Whose bodies, and how their surfaces meet the window.
     box : Box
-        The part of the window that is looked at: all of it where effects or layers are, otherwise
-        what touches, beyond which laws leave everything as it is.
+        The part of the window that is looked at: all of it where effects reach beyond a point or
+        layers are; else what touches, in this increment or any, beyond which nothing that presses
+        follows what there is.
     contacts : sequence of ContactSolution
         The contacts, on the box.
     slid : Slid
@@ -300,7 +301,9 @@ class Stages:
         (place,) = places
         memory = replace(self.memory([state[0] for state in states]), shares=place.shares)
         moment = replace(self._moment(place), over=self._over(place))
-        return [r[None] for r in stacked(model, pressed(self.contacts, told[0]), memory, moment)]
+        shown = told[0] if self.box.is_window else self.embedded(told[0])
+        rates = stacked(model, pressed(self.contacts, shown), memory, moment)
+        return [each[(None, slice(None), *self.box.slices)] for each in rates]
 
     def _of_laws(
         self, model: Model, states: Arrays, places: Sequence[Place], told: Array

@@ -86,14 +86,18 @@ class Tape:
     """The records of a run in their order, which are read backwards.
 
     Beyond 64 MiB they lie in a temporary file, so that the memory does not grow with the run.
+    `touched` is the region that holds all contacts, None before the first.
     """
 
     def __init__(self) -> None:
         self._file = SpooledTemporaryFile(IN_MEMORY)  # noqa: SIM115
         self._ends = [0]
+        self.touched: Region | None = None
 
     def append(self, record: Record) -> None:
         """Write a record after those there are."""
+        if isinstance(record, Pressed):
+            self.touched = union(self.touched or record.region, record.region)
         pickle.dump(record, self._file, pickle.HIGHEST_PROTOCOL)
         self._ends.append(self._file.tell())
 
