@@ -27,7 +27,15 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import LOAD_SHARE, Field
 from tribo.effects.effect import Effect
 from tribo.stepping.explicit import Explicit
-from tribo.study.gradient import backwards, linear, parameters, remembering, response, slopes
+from tribo.study.gradient import (
+    backwards,
+    linear,
+    parameters,
+    remembering,
+    response,
+    slopes,
+    tape,
+)
 from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.objective import Depth, Pressure, Volume
 from tribo.wear.archard import Archard
@@ -378,7 +386,19 @@ def of_each_alone(method):
     return lambda self, states, place, found, reach: method(self, states, place, found, (0, 0))
 
 
+def narrowed(method):
+    """What touches, less a cell on each side."""
+
+    def mutant(self, record):
+        method(self, record)
+        if isinstance(record, tape.Pressed):
+            self.touched = tuple(slice(s.start + 1, s.stop - 1) for s in record.region)
+
+    return mutant
+
+
 MUTANTS = [
+    ("dust", tape.Tape, "append", narrowed),
     ("spreads", slopes, "back", alone),
     ("spreads", slopes.Sloping, "_by_factor", of_each_alone),
     ("rest", backwards.Backwards, "press", unrested),
