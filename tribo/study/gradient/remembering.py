@@ -27,12 +27,10 @@ _Seeded = tuple[Slopes, Sequence[Field]]
 class _Along:
     """Derivatives of an objective along an increment.
 
-    `rates` has those in the `means` of the rates at its stages, and `longer` those in ln(its
-    length) where the rates stay as they are, by depth and state.
+    `rates` has those in the `means` of the rates at its stages.
     """
 
     rates: Sequence[_Seeded]
-    longer: Sequence[Field]
     stages: Sloping
 
     def plus(self, other: _Along, by: Array) -> _Along:
@@ -41,7 +39,7 @@ class _Along:
             (stage, _added(seeds, _times(by, more)))
             for (stage, seeds), (_, more) in zip(self.rates, other.rates, strict=True)
         ]
-        return _Along(rates, _added(self.longer, _times(by, other.longer)), self.stages)
+        return _Along(rates, self.stages)
 
     @cached_property
     def by_cell(self) -> Arrays:
@@ -78,7 +76,8 @@ class _Along:
     @property
     def by_length(self) -> float:
         """The derivative in ln(its length) where the rates stay as they are."""
-        return sum(float(np.sum(each)) for each in self.longer)
+        products = (_products(seeds, stage.means) for stage, seeds in self.rates)
+        return sum(float(np.sum(each)) for of_stage in products for each in of_stage)
 
 
 @dataclass(frozen=True)
@@ -160,7 +159,6 @@ class Remembering:
     def _back(self, depth: Sequence[Field], after: Sequence[Field]) -> _Back:
         """Go back from derivatives in the depths and the states after."""
         total: list[Field] = [0.0] * (3 + len(depth))
-        longer: list[Field] = [0.0] * (len(depth) + len(after))
         along = list[_Seeded]()
 
         def behind(seeded: _Seeded, before: Sequence[Field]) -> list[Field]:
@@ -187,20 +185,17 @@ class Remembering:
                             bends[at] = bends[at] + seeds[at] * stage.means[len(depth) + at] * bend
                     kept = [seed * by for seed, by in zip(seeds, counted, strict=True)]
                     each: _Seeded = (stage, [*deep, *kept])
-                    longer = _added(longer, _products(each[1], stage.means))
                     if stage is row[0]:
                         _join(starts, *each)
                     else:
                         seeds = behind(each, seeds)
                 before = _added(before, seeds)
-            slower = _products(bends, part.relaxing)
-            longer = _added(longer, [*(0.0 for _ in depth), *slower])
             self._join_relaxing(starts, part, bends)
             for each in starts:
                 before = behind(each, before)
             after = before
         pressure, load, square, *factors = total
-        return _Back(pressure, load, square, factors, after, _Along(along, longer, self.stages))
+        return _Back(pressure, load, square, factors, after, _Along(along, self.stages))
 
     def _join_relaxing(
         self, seeded: list[_Seeded], part: Part[Slopes], bends: Sequence[Field]
