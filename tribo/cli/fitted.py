@@ -76,6 +76,11 @@ def print_choice(found: Choice) -> None:
             str(each.parameters),
         )
     console.print(table)
+    console.print(
+        "criterion: Schwarz's, the lower the better; weight: the probability that follows from it; "
+        "left out: ln of the probability of each test predicted from the others, the higher the "
+        "better."
+    )
     for name in names:
         console.print(f"\n{escape(name)}")
         console.print(estimates_table(found.calibrations[name]))
