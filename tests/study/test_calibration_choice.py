@@ -48,6 +48,18 @@ def test_the_law_that_made_the_data_is_chosen_where_they_are_exact():
     assert json.dumps(found.as_json())
 
 
+def test_what_is_wrong_with_one_case_is_told_before_another_is_run():
+    fit = [{"path": "bodies.ball.wear.k"}, {"path": "bodies.ball.wear.p_exponent", "lower": 0.5}]
+    runs = []
+    with pytest.raises(CaseError, match="power: .*must be at least 1"):
+        choose_case(
+            CASES,
+            {"test": [weighed(40, 0.02), weighed(100, 0.02)], "fit": fit},
+            on_run=lambda *run: runs.append(run),
+        )
+    assert not runs
+
+
 def test_a_test_left_out_is_foretold_by_the_others():
     """A mean of n values with a known scatter foretells the next with σ √(1 + 1/n)."""
     values = np.array([0.9, 1.05, 1.1])

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -15,6 +16,7 @@ from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
 from tribo.core.errors import CaseError, TriboError
 from tribo.study.calibration.calibrate import Calibration, calibrate
+from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.measured import Measurements, read_measurements
 from tribo.study.calibration.notes import UNLIKELY
 from tribo.study.calibration.parameters import is_number
@@ -79,12 +81,14 @@ def choose_case(
     """
     if len(cases) < 2:
         raise CaseError("give two cases or more to choose from")
-    found = {}
-    for name, own in _measurements_of_each(cases, read_measurements(measured)).items():
-        try:
+    found, of_each = {}, _measurements_of_each(cases, read_measurements(measured))
+    # What is wrong with one is told before another is run.
+    for name, own in of_each.items():
+        with _named(name):
+            Experiment.of(cases[name], own)
+    for name, own in of_each.items():
+        with _named(name):
             found[name] = calibrate(cases[name], own, level=level, on_run=partial(on_run, name))
-        except TriboError as error:
-            raise type(error)(f"{name}: {error}") from error
     rows = pd.DataFrame(
         {
             "case": name,
@@ -97,6 +101,15 @@ def choose_case(
     weight = np.exp(-0.5 * (rows["bic"] - rows["bic"].min()))
     rows.insert(2, "weight", weight / weight.sum())
     return Choice(rows, found, _verdict(rows, found))
+
+
+@contextmanager
+def _named(name: str) -> Iterator[None]:
+    """Put the name of a case before its errors."""
+    try:
+        yield
+    except TriboError as error:
+        raise type(error)(f"{name}: {error}") from error
 
 
 def _measurements_of_each(
