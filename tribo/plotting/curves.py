@@ -210,7 +210,7 @@ def fit_picture(data: pd.DataFrame, points: pd.DataFrame | None = None) -> Figur
         axes.plot(computed / measured, rows, "s", color="#202020", markersize=3.0, label="fitted")
         axes.set_yticks(rows, names)
         axes.set_ylim(-0.7, len(data) - 0.3)
-        axes.set_xlabel("Over what was measured")
+        axes.set_xlabel("Relative to the measured value")
         axes.xaxis.set_major_locator(ticks(5))
         for panel, rows in zip(panels, profiles, strict=True):
             _profile(panel, rows)
@@ -227,7 +227,7 @@ def _profile(axes: Axes, rows: pd.DataFrame) -> None:
     axes.plot(place, depths["computed"], color="#202020", linewidth=0.8)
     axes.invert_yaxis()
     axes.set_title(_measured_name({**rows.iloc[0], "position_m": None}))
-    axes.set_xlabel("Place along it (mm)")
+    axes.set_xlabel("Position (mm)")
     axes.set_ylabel("Depth (µm)")
 
 

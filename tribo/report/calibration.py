@@ -85,7 +85,7 @@ def calibration_page(found: Calibration, title: str) -> str:
         has_moments=False,
         curves_title="",
         stills=stills(
-            {"fit, over what was measured": partial(fit_picture, found.brief, found.data)}
+            {"fit, relative to the measured values": partial(fit_picture, found.brief, found.data)}
         ),
         always=True,
         provenance=[("report made with", ", ".join(f"{k} {v}" for k, v in packages.items()))],
