@@ -51,7 +51,7 @@ def test_the_law_that_made_the_data_is_chosen_where_they_are_exact():
 def test_what_is_wrong_with_one_case_is_told_before_another_is_run():
     fit = [{"path": "bodies.ball.wear.k"}, {"path": "bodies.ball.wear.p_exponent", "lower": 0.5}]
     runs = []
-    with pytest.raises(CaseError, match="power: .*must be at least 1"):
+    with pytest.raises(CaseError, match=r"power: .*must be at least 1"):
         choose_case(
             CASES,
             {"test": [weighed(40, 0.02), weighed(100, 0.02)], "fit": fit},
