@@ -63,7 +63,7 @@ def test_known_errors_give_normal_intervals_and_a_limit_its_closed_form():
     middle, half = np.mean(values), 1.96 * 0.1 / 2
     assert first.sampled_lower == pytest.approx(middle - half, abs=0.12 * half)
     assert first.sampled_upper == pytest.approx(middle + half, abs=0.12 * half)
-    z = brentq(lambda z: 0.1 * (norm.pdf(z) - z * norm.sf(z)) - 0.025, 0, 2)
+    z = brentq(lambda z: 0.1 * (norm.pdf(z) - z * norm.sf(z)) - 0.05, -2, 2)
     assert (second.sampled_lower, second.limited) == (0, True)
     assert second.sampled_upper == pytest.approx(1 + 0.1 * z, abs=0.02)
 
