@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from tribo.core.errors import CaseError
+from tribo.core.words import digits_of
 from tribo.study.calibration.doubts import far_off
 from tribo.study.calibration.measured import read_measurements
 from tribo.study.calibration.parameters import Parameter
-from tribo.study.calibration.quantities import digits_of, percent
+from tribo.study.calibration.quantities import percent
 
 
 def off(value, uncertainty, own):

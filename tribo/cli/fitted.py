@@ -12,11 +12,11 @@ from rich.markup import escape
 from rich.table import Table
 
 from tribo.cli.console import Console, titled
-from tribo.core.words import signed
+from tribo.core.words import digits_of, signed
 from tribo.study.calibration.calibrate import Calibration
 from tribo.study.calibration.choice import Choice
 from tribo.study.calibration.plan import Plan
-from tribo.study.calibration.quantities import digits_of, in_si, in_words, p_words, percent
+from tribo.study.calibration.quantities import in_si, in_words, p_words, percent
 
 FAR = 10.0
 """Ratio of an interval's end to the value above which no percentage is printed."""

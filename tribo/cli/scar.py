@@ -11,6 +11,7 @@ import click
 from tribo.cli.options import JSON, PATH, echo_json
 from tribo.core.errors import CaseError, located
 from tribo.core.files import check_folder, writing
+from tribo.core.words import digits_of
 
 if TYPE_CHECKING:
     from tribo.lab.measured_scar import MeasuredScar
@@ -154,26 +155,20 @@ def _width(
     return ("whole map", None) if math.isinf(width) else (1e3 * width, 1e3 * uncertainty)
 
 
-def _rounded(value: float, uncertainty: float) -> str:
-    """Return a value to the second digit of its uncertainty."""
-    digits = math.floor(math.log10(abs(value))) - math.floor(math.log10(uncertainty)) + 2
-    return f"{value:#.{min(max(digits, 2), 8)}g}"
-
-
 def _print(found: MeasuredScar) -> None:
     from tribo.cli.console import Console, titled
     from tribo.cli.tables import inferred_table
 
     laid, console = found.registration, Console()
     table = titled("Scar, with standard uncertainties", "", "±")
-    sure = found.volume_uncertainty / found.volume
+    relative = found.volume_uncertainty / found.volume
     rows: list[tuple[str, float | str | None, float | None]] = [
         ("volume in the map, mm³", 1e9 * found.volume, 1e9 * found.volume_uncertainty),
         ("largest depth, µm", 1e6 * found.depth, 1e6 * found.depth_uncertainty),
         ("along sliding, mm", *_width(found, found.along, found.along_uncertainty)),
         ("across, mm", *_width(found, found.across, found.across_uncertainty)),
         *(
-            (name, size * value, sure * size * value)
+            (name, size * value, relative * size * value)
             for name, size, value in (
                 ("mean section, mm²", 1e6, found.section),
                 ("volume of the track, mm³", 1e9, found.track_volume),
@@ -185,7 +180,8 @@ def _print(found: MeasuredScar) -> None:
     ]
     for name, value, error in rows:
         if isinstance(value, float) and error is not None:
-            table.add_row(name, _rounded(value, error), f"{error:#.2g}")
+            digits = digits_of(value - error, value + error)
+            table.add_row(name, f"{value:#.{digits}g}", f"{error:#.2g}")
         elif value is not None:
             table.add_row(name, value if isinstance(value, str) else f"{value:.3g}", "")
     console.print(table)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
@@ -26,6 +27,13 @@ def signed(value: float, decimals: int) -> str:
     """Return a number with its sign; what rounds to 0 has none."""
     text = f"{value:+z.{decimals}f}"
     return text if float(text) else text[1:]
+
+
+def digits_of(lower: float, upper: float) -> int:
+    """Return how many digits of its ends show an interval's half-width to two digits; 3 or more."""
+    if not 0 < upper - lower < math.inf:
+        return 3
+    return max(3, 2 + math.floor(math.log10(upper)) - math.floor(math.log10((upper - lower) / 2)))
 
 
 def readable(value: float, form: str) -> str:

@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
+from tribo.core.words import digits_of
 from tribo.lab.heights import smoothed
 from tribo.lab.measured_scar import MeasuredScar
 from tribo.plotting import style
@@ -70,9 +71,9 @@ def measured_scar_map(found: MeasuredScar) -> Figure:
         style.legend_below(figure, marks)
         power = math.floor(math.log10(found.volume))
         part, sure = (each / 10**power for each in (found.volume, found.volume_uncertainty))
-        digits = max(0, 1 - math.floor(math.log10(sure)))
+        decimals = digits_of(part - sure, part + sure) - 1
         shown.axes.set_title(
-            rf"Volume ({part:.{digits}f} ± {sure:.{digits}f}) $\cdot\,10^{{{power + 9}}}$ mm³",
+            rf"Volume ({part:.{decimals}f} ± {sure:.{decimals}f}) $\cdot\,10^{{{power + 9}}}$ mm³",
             loc="left",
         )
     return figure

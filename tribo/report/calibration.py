@@ -19,6 +19,7 @@ from tribo.cli.fitted_maps import read_maps
 from tribo.config.load import case_tables, validate_case
 from tribo.config.write import to_toml
 from tribo.core.errors import CaseError
+from tribo.core.words import digits_of
 from tribo.plotting.curves import fit_picture
 from tribo.report.maps import maps_page
 from tribo.report.page import check_installed, render, stills
@@ -27,7 +28,7 @@ from tribo.report.result import CITATION, facts
 from tribo.report.tables import for_page
 from tribo.result.provenance import environment
 from tribo.study.calibration.calibrate import DATA, Calibration
-from tribo.study.calibration.quantities import digits_of, in_si
+from tribo.study.calibration.quantities import in_si
 
 
 def calibration_file_page(path: Path) -> str:

@@ -103,13 +103,6 @@ def in_si(value: float, unit: str, digits: int = 3) -> str:
     return f"{value:.{digits}g}" if unit == "1" else f"{value:.{digits}g} {unit}"
 
 
-def digits_of(lower: float, upper: float) -> int:
-    """Return how many digits of its ends show an interval's half-width to two digits; 3 or more."""
-    if not 0 < upper - lower < math.inf:
-        return 3
-    return max(3, 2 + math.floor(math.log10(upper)) - math.floor(math.log10((upper - lower) / 2)))
-
-
 def p_words(p_value: float) -> str:
     """Return a p-value in words, as ``"p = 0.05"``."""
     return "p < 1e-6" if p_value < 1e-6 else f"p = {p_value:.2g}"
