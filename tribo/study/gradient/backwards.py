@@ -16,7 +16,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import LOAD_SHARE
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.model import Model
-from tribo.stepping.evolution import course, layered_bodies
+from tribo.stepping.evolution import course
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.memory import Memory, first_memory
 from tribo.study.gradient.course import Before, Plain, plain
@@ -134,8 +134,6 @@ class Backwards:
         self.laws = {name: WatchedLaw(law) for name, law in model.laws.items()}
         self.model = model = replace(model, laws=self.laws)
         self.chains, self.touched = chains, touched
-        if len(model.cycle) > 1 or layered_bodies(model) or model.filling:
-            self.touched = whole(model.grid.cells)
         cells, positions = model.grid.cells, len(model.cycle)
         self.shares = np.array([position.share for position in model.cycle])
         self.carriers = carriers_of(model)
@@ -284,43 +282,42 @@ class Backwards:
 
     def _increments(self, record: Pressed, window: Array, slid: Slid) -> list[Increment]:
         """Return an increment in parts that do not touch each other."""
-        model, contacts = self.model, [_contact(each) for each in window]
-        remembers = bool(slid.before.values)
+        model, remembers = self.model, bool(slid.before.values)
         if not (remembers or self.together):
+            contacts = [_contact(each) for each in window]
             known = course(model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
             return [
                 plain(_of(model, name), self.carriers[name], contacts, slid, known)
                 for name in model.laws
             ]
 
-        def stages(*names: str, given: Box) -> Sloping:
+        def stages(box: Box, *names: str) -> Sloping:
             own = {name: slid.before.laws[name] for name in names}
-            alone, box, pressed = _of(model, *names), given, contacts
-            if not (self.together or layered_bodies(alone)):
-                box = Box.of(record.region, model.grid.cells)
-            if not box.is_window:
-                pressed = [_contact(each[box.slices]) for each in window]
-            before = replace(slid.before, laws=own)
             return Sloping(
-                alone,
+                _of(model, *names),
                 self.carriers,
                 box,
-                pressed,
-                replace(slid, before=before),
+                [_contact(each[box.slices]) for each in window],
+                replace(slid, before=replace(slid.before, laws=own)),
                 remembers,
                 model.tells_length,
             )
 
+        window_box = whole(model.grid.cells)
         if self.together:
-            together = Together(stages(*model.laws, given=self.touched))
-            if not (self.touched.is_window or _is_pointwise(together)):
+            together = Together(stages(self.touched, *model.laws))
+            if not (self.touched.is_window or together.is_pointwise):
                 # What is remembered elsewhere may come back into the contact.
-                self.touched = whole(model.grid.cells)
-                together = Together(stages(*model.laws, given=self.touched))
+                self.touched = window_box
+                together = Together(stages(window_box, *model.laws))
             return [together]
-        laws, given = self.states.laws, whole(model.grid.cells)
+        laws, pressed = self.states.laws, Box.of(record.region, model.grid.cells)
         return [
-            Alone(stages(name, given=given), Memory({name: laws[name]}, {})) for name in model.laws
+            Alone(
+                stages(window_box if law.bottoms else pressed, name),
+                Memory({name: laws[name]}, {}),
+            )
+            for name, law in model.laws.items()
         ]
 
     def _of_wear(self, increment: Together, box: Box, z: Array) -> Array:
@@ -381,14 +378,6 @@ class Backwards:
             chain.by_rest(self.gap, self.stiffness, self.cap, self.states) for chain in self.chains
         ]
         return self.sums + rest
-
-
-def _is_pointwise(increment: Together) -> bool:
-    """Whether each point follows its own cells alone; not where it follows some beyond the box."""
-    try:
-        return increment.is_pointwise
-    except CaseError:
-        return False
 
 
 def _of(model: Model, *names: str) -> Model:

@@ -10,6 +10,7 @@ import numpy as np
 
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
 from tribo.stepping.memory import Memory
 from tribo.study.gradient.course import Before, Other
 from tribo.study.gradient.linear import Carrier
@@ -226,15 +227,19 @@ class Together(Remembering):
     def is_pointwise(self) -> bool:
         """Whether a point's depth follows the pressures of its own cells alone.
 
-        Then `bodies` say all that the wear adds to the system of a step.
+        Then `bodies` say all that the wear adds to the system of a step. Not where effects are
+        refused, as those that reach beyond a box.
         """
-        model, (_, reach) = self.stages.model, self.stages.first
-        return (
-            len(model.cycle) == 1
-            and not (self.stages.layered or model.filling)
-            and all(each == ALONE for each in (reach.pressure, *reach.states))
-            and all(kept.weights is None for kept in self.stages.kept)
-        )
+        model = self.stages.model
+        if len(model.cycle) > 1 or self.stages.layered or model.filling:
+            return False
+        if any(kept.weights is not None for kept in self.stages.kept):
+            return False
+        try:
+            _, reach = self.stages.first
+        except CaseError:
+            return False
+        return all(each == ALONE for each in (reach.pressure, *reach.states))
 
     @cached_property
     def bodies(self) -> Sequence[tuple[Carrier, Array]]:
