@@ -251,7 +251,7 @@ class _Fit:
         # Relief that is not registered yet has deep spots, smaller than a scar.
         worn = ndimage.binary_opening(np.abs(smooth) > DEEP * noise, iterations=3)
         if np.mean(worn) < 0.8:
-            self.worn = ndimage.binary_dilation(worn, iterations=1)
+            self.worn = ndimage.binary_dilation(worn)
 
     def outcome(self) -> Registration:
         """Return the registration, with covariance and uncertainty."""
