@@ -221,6 +221,19 @@ def test_profiles_are_fitted_where_they_were_measured(true_run):
 
 
 @pytest.mark.slow
+def test_a_profile_beside_the_scar_has_no_shape():
+    at = np.linspace(0.45e-3, 0.48e-3, 12)
+    beside = {"body": "disk", "quantity": "profile_across", "position": at.tolist()}
+    beside |= {"value": [1e-7] * 12, "uncertainty": "0.02 um"}
+    loss = measured("ball", "mass", mass(BALL))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        found = calibrate(CASE, {"measured": [loss, beside], "fit": fitting(BALL_K)})
+    assert np.all(found.data["computed"][1:] == 0)
+    assert any("the profile_across of 'disk' follow a pattern" in note for note in found.notes)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(("wrong", "said"), [(1.0, False), (3.0, True)])
 def test_a_repeat_unlike_the_others_is_named(wrong, said):
     losses = [part * mass(BALL) for part in (0.99, wrong, 1.0)]

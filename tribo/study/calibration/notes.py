@@ -199,7 +199,8 @@ def _on_patterns(data: pd.DataFrame) -> Iterator[str]:
     for _, rows in along.groupby("place", sort=False):
         residuals = rows["alone"].to_numpy()
         scale = (rows["computed"] / rows["sigma"]).to_numpy()
-        residuals = residuals - np.sum(residuals * scale) / np.sum(scale**2) * scale
+        size = float(np.sum(scale**2)) or 1.0
+        residuals = residuals - np.sum(residuals * scale) / size * scale
         correlation = np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2)
         if correlation * len(rows) ** 0.5 > _CORRELATED and np.max(np.abs(residuals)) > 1:
             yield (
