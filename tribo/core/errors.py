@@ -83,6 +83,15 @@ class TriboWarning(UserWarning):
 
 
 @contextmanager
+def about(name: str) -> Iterator[None]:
+    """Put the name of what failed before the words of an error raised inside."""
+    try:
+        yield
+    except (TriboError, Interrupted) as error:
+        raise type(error)(f"{name}: {error}") from error
+
+
+@contextmanager
 def located(path: str) -> Iterator[None]:
     """Add its place in the case to a `CaseError` raised inside that has none."""
     try:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from tribo.case import Case
-from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
+from tribo.core.errors import CaseError, TriboWarning, about
 from tribo.core.files import writing
 from tribo.observers.observer import Observer
 from tribo.registry.registry import Registry
@@ -94,15 +94,13 @@ def run_variants(
         path = paths[label]
         done = path is not None and not overwrite and is_done(path, simulation)
         tell(f"{number} of {len(cases)}, {label}" + (f": done already, {path}" if done else ""))
-        try:
+        with about(label):
             if path is None or overwrite:
                 results.append(simulation.run(path, observers=observers(), overwrite=True))
             elif done:
                 results.append(Result.open(path))
             else:
                 results.append(complete(simulation, path, observers()))
-        except (TriboError, Interrupted) as error:
-            raise type(error)(f"{label}: {error}") from error
     return results
 
 

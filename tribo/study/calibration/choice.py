@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -14,7 +13,7 @@ import pandas as pd
 
 from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
-from tribo.core.errors import CaseError, TriboError
+from tribo.core.errors import CaseError, about
 from tribo.study.calibration.calibrate import Calibration, calibrate
 from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.measured import Measurements, read_measurements
@@ -84,10 +83,10 @@ def choose_case(
     found, of_each = {}, _measurements_of_each(cases, read_measurements(measured))
     # What is wrong with one is told before another is run.
     for name, own in of_each.items():
-        with _named(name):
+        with about(name):
             Experiment.of(cases[name], own)
     for name, own in of_each.items():
-        with _named(name):
+        with about(name):
             found[name] = calibrate(cases[name], own, level=level, on_run=partial(on_run, name))
     rows = pd.DataFrame(
         {
@@ -101,15 +100,6 @@ def choose_case(
     weight = np.exp(-0.5 * (rows["bic"] - rows["bic"].min()))
     rows.insert(2, "weight", weight / weight.sum())
     return Choice(rows, found, _verdict(rows, found))
-
-
-@contextmanager
-def _named(name: str) -> Iterator[None]:
-    """Put the name of a case before its errors."""
-    try:
-        yield
-    except TriboError as error:
-        raise type(error)(f"{name}: {error}") from error
 
 
 def _measurements_of_each(

@@ -15,7 +15,7 @@ from tribo.case import Case
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, NumericalError, TriboWarning
+from tribo.core.errors import CaseError, TriboWarning, about
 from tribo.simulation.model import Model
 from tribo.simulation.positions import chosen
 from tribo.simulation.run import Simulation
@@ -137,12 +137,10 @@ def make_run(
     with warnings.catch_warnings():
         # The calibration reports the notices of its last run.
         warnings.simplefilter("ignore", TriboWarning)
-        try:
+        numbers = ", ".join(f"{path} = {value:.4g}" for path, value in settings.items())
+        with about(f"{name}, with {numbers}"):
             case = validate_case(apply_settings(tables, settings))
             result = Simulation(case).run()
-        except (CaseError, NumericalError) as error:
-            named = ", ".join(f"{path} = {value:.4g}" for path, value in settings.items())
-            raise type(error)(f"{name}, with {named}: {error}") from error
     with result:
         return Run(*read_all(result, wanted), result.notices)
 
