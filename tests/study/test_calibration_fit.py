@@ -5,7 +5,7 @@ import pytest
 from scipy.stats import binom, norm, t
 
 from tribo.closed_forms.ball_on_track import ball_on_track
-from tribo.core.errors import CaseError, NumericalError
+from tribo.core.errors import CaseError, NumericalError, OutOfWindow
 from tribo.study.calibration.fit import fit, interval, limit
 from tribo.study.calibration.linearised import Problem, Weights
 
@@ -70,6 +70,33 @@ def test_far_from_the_start_slopes_are_taken_anew():
     found = fit(model, problem(worn(TRUE), 0.01 * worn(TRUE), start=start), start)
     assert np.exp(found.point) == pytest.approx(TRUE, rel=1e-3, abs=0)
     assert model.runs <= 8
+
+
+def in_window(k):
+    """A diameter that at first follows the load alone, which must stay in a window."""
+    if k[0] > 150:
+        raise OutOfWindow(f"k of {k[0]:.0f}")
+    return (1 + k) ** 0.25
+
+
+def test_a_step_that_outgrows_the_window_is_halved():
+    start, diameter = np.array([0.2]), in_window(np.array([100.0]))
+    made = problem(diameter, 0.01 * diameter, names=("k",), start=start)
+    found = fit(in_window, made, start)
+    assert np.exp(found.point) == pytest.approx(100.0, rel=1e-2)
+
+
+def test_a_scar_larger_than_the_window_is_told():
+    start, diameter = np.array([0.2]), np.array([5.0])
+    made = problem(diameter, 0.01 * diameter, names=("k",), start=start)
+    with pytest.raises(OutOfWindow, match="k of 1"):
+        fit(in_window, made, start)
+
+
+def test_slopes_at_the_edge_of_the_window_are_taken_within_it():
+    start = np.array([140.0])
+    made = problem(in_window(start), 0.01 * in_window(start), names=("k",), start=start)
+    assert fit(in_window, made, start).slopes == pytest.approx(0.25 * 140 / 141, rel=1e-2)
 
 
 @pytest.mark.slow

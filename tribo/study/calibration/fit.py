@@ -10,7 +10,7 @@ from scipy.optimize import LinearConstraint, NonlinearConstraint, minimize
 from scipy.special import chdtr, chdtri, stdtrit
 
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, NumericalError
+from tribo.core.errors import CaseError, NumericalError, OutOfWindow
 from tribo.study.calibration.linearised import (
     COLLINEAR,
     Linearised,
@@ -41,6 +41,8 @@ UNSEEN = 0.01
 """Computed value of a loss that was not seen, relative to its limit of detection."""
 ABOVE_ROUNDING = 0.01
 """Relative change of a response, per change of a parameter by a factor e, above rounding."""
+MOST_HALVINGS = 5
+"""Times that a step is halved whose scar outgrows the window."""
 MOST_ROUNDS = 12
 """Rounds after which a fit fails."""
 MOST_WITHOUT_PROGRESS = 4
@@ -56,7 +58,8 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
 
     Gauss-Newton in logarithms: each step goes to the least χ² of the linearised model. Slopes are
     finite differences, updated where they predicted a step badly or were taken far away. CaseError
-    if no datum depends on a parameter; NumericalError if the estimate does not converge.
+    if no datum depends on a parameter; NumericalError if the estimate does not converge. A step
+    that outgrows the window is halved.
     """
     origin = np.log(start)
     here = differenced(model, problem, origin, model(np.exp(origin)))
@@ -65,13 +68,16 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
         origin = np.where(limited, _unseen(here), origin)
         problem = replace(problem, lower=np.where(limited, origin, problem.lower))
         here = differenced(model, problem, origin, model(np.exp(origin)))
-    least, without_progress = np.inf, 0
+    least, without_progress, outgrown = np.inf, 0, None
     for rounds in range(1, MOST_ROUNDS + 1):  # noqa: B007
         here, point = here.best()
-        predicted = here.residuals(point)
-        change = np.linalg.norm(predicted - here.residuals(here.point))
+        before, predicted = here.residuals(here.point), here.residuals(point)
+        change = np.linalg.norm(predicted - before)
         if change > CONVERGED:
-            responses = model(np.exp(point))
+            point, responses, outgrown = _within(model, here.point, point)
+            if outgrown:
+                predicted = here.residuals(point)
+                change = np.linalg.norm(predicted - before)
             residuals = problem.residuals(responses, here.weights)
             # Only the error in the column space of the Jacobian moves the next estimate.
             directions = np.linalg.svd(here.jacobian(point), full_matrices=False)[0]
@@ -92,7 +98,7 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
             here = differenced(model, problem, origin, here.responses)
         else:
             return here
-    raise Unsettled(
+    raise outgrown or Unsettled(
         f"the estimates have not settled after {rounds} rounds: χ² has come down to {least:.3g}, "
         f"and computed values still change by {change:.2g} of their uncertainty; refine "
         "grid.cells, start nearer, or state the uncertainties larger"
@@ -183,10 +189,27 @@ def differenced(
         step = min(STEP, above) if above >= min(STEP, below) else -min(STEP, below)
         moved = point.copy()
         moved[i] += step
-        change = problem.scaled(model(np.exp(moved))) - problem.scaled(responses)
-        columns.append(change / step)
+        moved, found, _ = _within(model, point, moved)
+        change = problem.scaled(found) - problem.scaled(responses)
+        columns.append(change / (moved[i] - point[i]))
     slopes = np.stack(columns, axis=1)
     return Linearised(problem, point, responses, slopes, weights=problem.weights())
+
+
+def _within(
+    model: Callable[[Array], Array], near: Array, far: Array
+) -> tuple[Array, Array, OutOfWindow | None]:
+    """Return a point from near to far, and its responses, whose scar does not outgrow the window.
+
+    Also how a farther one did. OutOfWindow if all do that are tried.
+    """
+    outgrown = None
+    for _ in range(MOST_HALVINGS):
+        try:
+            return far, model(np.exp(far)), outgrown
+        except OutOfWindow as error:
+            far, outgrown = 0.5 * (near + far), error
+    return far, model(np.exp(far)), outgrown
 
 
 def _unseen(here: Linearised) -> Array:
