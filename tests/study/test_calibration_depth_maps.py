@@ -106,8 +106,12 @@ def test_a_map_is_one_row_of_the_table_and_of_the_picture(found, capsys):
     assert row[-2] == "rms"
     # The noise of a block is no larger than what the grid may put it off by, of which is none here.
     assert 0.4 < float(row[-1]) < 0.8
-    (axes,) = fit_picture(found.brief).axes
+    axes, *panels = fit_picture(found.brief, found.data).axes
     assert len(axes.get_yticks()) == 2
+    # Of each map the residuals at all blocks, and their colours.
+    maps = [each for panel in panels if panel.get_title() for each in panel.collections]
+    drawn = np.concatenate([each.get_array() for each in maps])
+    assert sorted(drawn) == sorted(found.data["residual"])
 
 
 @pytest.mark.slow

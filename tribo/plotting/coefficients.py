@@ -8,13 +8,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribo.core.arrays import Array, Mask
-from tribo.plotting.style import DIFFERENCES, Look, house_style, new_figure
+from tribo.plotting.style import DIFFERENCES, SIGNIFICANT, Look, house_style, new_figure
 
 DOUBLE = 140.0
 """Width of a picture with two panels, in mm."""
-SIGNIFICANT = 3.0
-"""Residual, in standard deviations, that is outlined, so that its sign is also visible in grey; and
-the least range of its colour scale."""
 SURE = 0.5
 """Standard deviation, relative to the prior's, up to which intervals along y are shown whole."""
 Range = tuple[float | None, float | None]
