@@ -397,6 +397,13 @@ def test_several_scars_have_no_width():
     assert (found.along, found.across, found.inferred) == (None, None, ())
 
 
+def test_a_scar_on_a_flat_has_no_volumes_of_a_ball(standard):
+    with pytest.warns(TriboWarning, match="as good as flat, and the ball has a radius of 0.2 mm"):
+        found = measured_scar(*standard[:2], radius=2e-4)
+    assert found.inferred == ()
+    assert found.across == pytest.approx(2 * WIDE, rel=0.03)
+
+
 def test_a_radius_or_a_shape_that_the_unworn_surface_has_not_is_told():
     before, after, _ = pair(on=RADIUS, sq=5e-9, noise=1e-9)
     with pytest.warns(TriboWarning, match=r"radius of 5.* mm, and the ball one of 3 mm"):
@@ -469,9 +476,15 @@ def test_what_is_piled_up_beside_a_scar_is_told_apart(standard):
     before, after, lost, _ = standard
     x, y = after.grid.mesh
     ridge = np.where(np.abs(np.hypot(x, y) - 34 * PITCH) < 2 * PITCH, 4e-7, 0.0)
-    found = measured_scar(before, Heights(after.heights + ridge, after.pitch))
-    assert found.piled_up == pytest.approx(np.sum(ridge) * PITCH**2, rel=0.1, abs=0)
-    assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.03, abs=0)
+    gone = np.hypot(x, y - 34 * PITCH) < 5 * PITCH
+    heights = np.where(gone, np.nan, after.heights + ridge)
+    whole = measured_scar(before, Heights(after.heights + ridge, after.pitch))
+    found = measured_scar(before, Heights(heights, after.pitch))
+    for each in (whole, found):
+        off = each.piled_up - np.sum(ridge) * PITCH**2
+        assert abs(off) < 3 * each.piled_up_uncertainty < 0.3 * each.piled_up
+        assert each.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.03, abs=0)
+    assert found.piled_up_uncertainty > 1.5 * whole.piled_up_uncertainty
 
 
 def test_maps_that_do_not_fit_are_refused(standard):
@@ -592,6 +605,12 @@ def test_the_command_says_what_the_maps_do_not_tell_and_what_is_cut_off(tmp_path
 def test_the_length_of_a_track_is_of_no_use_for_a_scar_within_the_map(standard):
     with pytest.warns(TriboWarning, match="track_length: no track from edge"):
         measured_scar(*standard[:2], track_length=1e-3)
+
+
+@pytest.mark.slow
+def test_a_track_cannot_be_shorter_than_within_the_map():
+    with pytest.raises(CaseError, match=r"track_length: 0\.04 mm is too short: the track is 0\.0"):
+        measured_scar(*track()[:2], track_length=40 * PITCH)
 
 
 def test_the_command_gives_the_volume_of_a_whole_track(tmp_path):

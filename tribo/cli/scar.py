@@ -175,7 +175,7 @@ def _print(found: MeasuredScar) -> None:
             )
             if value is not None
         ),
-        ("piled up, mm³", 1e9 * found.piled_up or None, None),
+        ("piled up, mm³", 1e9 * found.piled_up or None, 1e9 * found.piled_up_uncertainty),
         ("missing in it, %", 100 * found.missing or None, None),
     ]
     for name, value, error in rows:

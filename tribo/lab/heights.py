@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,13 +12,15 @@ import scipy.ndimage as ndimage
 from scipy.interpolate import griddata
 
 from tribo.core.arrays import Array, Mask
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.files import table_of_numbers
 from tribo.core.grid import Grid
 from tribo.registry.registry import default_registry
 
 OWN = (".npy", ".csv", ".txt", ".h5", ".hdf5")
 """Files that are read without a plugin; they state no scale."""
+OTHER_PITCH = 1e-3
+"""Relative difference of a pitch given from that of the file, which is told."""
 FEWEST = 16
 BLUR = 2.0
 """Width of the Gaussian that maps are smoothed by, in pixels."""
@@ -115,6 +118,15 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
         else:
             found = _by_plugin(path)
             heights, pitch = found.heights, pitch or found.pitch
+            if any(abs(a / b - 1) > OTHER_PITCH for a, b in zip(pitch, found.pitch, strict=True)):
+                own, given = (
+                    " × ".join(f"{1e6 * p:.4g}" for p in each) for each in (found.pitch, pitch)
+                )
+                warnings.warn(
+                    f"{path} states a pitch of {own} µm; that given, {given} µm, is taken",
+                    TriboWarning,
+                    stacklevel=2,
+                )
     except ValueError as error:
         raise CaseError(str(error)) from None
     try:

@@ -20,10 +20,10 @@ from tribo.lab.roughness import without_form
 from tribo.lab.scar import Scar
 from tribo.lab.scar_depth import deepest, sum_uncertainty
 from tribo.lab.scar_doubts import (
+    may_be_ball,
     radius_across,
     warn_of_curvature,
     warn_of_edge,
-    warn_of_radius,
     warn_of_several,
     warn_of_zeros,
 )
@@ -34,6 +34,8 @@ from tribo.surfaces.surface import Surface
 
 MOST = 0.65
 """Part of the map that a scar may cover, with its margin."""
+SHORTER = 0.95
+"""Length of a track over that within the map, below which it is refused."""
 SURE = 0.3
 """Part of the largest depth from which on a pixel tells the shape of the worn surface."""
 
@@ -52,7 +54,7 @@ class MeasuredScar:
         The pixels of the scar, and those of what is piled up beside it.
     volume, volume_uncertainty : float
         Volume of the scar within the map, in m³.
-    piled_up : float
+    piled_up, piled_up_uncertainty : float
         Volume above the surface before, within the map, in m³.
     depth, depth_uncertainty : float
         Largest depth, of a paraboloid through the bottom of the scar, in m.
@@ -82,6 +84,7 @@ class MeasuredScar:
     volume: float
     volume_uncertainty: float
     piled_up: float
+    piled_up_uncertainty: float
     depth: float
     depth_uncertainty: float
     along: float | None
@@ -111,6 +114,7 @@ class MeasuredScar:
             "volume_m3": self.volume,
             "volume_uncertainty_m3": self.volume_uncertainty,
             "piled_up_m3": self.piled_up,
+            "piled_up_uncertainty_m3": self.piled_up_uncertainty,
             "depth_m": self.depth,
             "depth_uncertainty_m": self.depth_uncertainty,
             "along_m": self.along,
@@ -197,7 +201,7 @@ def measured_scar(
     smooth, known, scar = worn.smooth, worn.known, worn.scar
     if form == 1:
         warn_of_curvature(np.where(found.unworn, found.depth, np.nan), ideal=ideal)
-    holes = interpolated(np.where(known, smooth, np.nan), ~known & scar)
+    holes = interpolated(np.where(known, smooth, np.nan), ~known & (scar | worn.piled))
     depth = np.where(known, found.depth, holes)
     area = after.grid.cell_area
     volume = area * float(np.sum(depth[scar]))
@@ -224,7 +228,8 @@ def measured_scar(
         piled=worn.piled,
         volume=volume,
         volume_uncertainty=area * sum_uncertainty(found, scar),
-        piled_up=-area * float(np.nansum(depth[worn.piled])),
+        piled_up=-area * float(np.sum(depth[worn.piled])),
+        piled_up_uncertainty=area * sum_uncertainty(found, worn.piled),
         depth=largest,
         depth_uncertainty=largest_uncertainty,
         along=along,
@@ -260,6 +265,12 @@ def _sizes(
     """Return the sizes of one scar that lies in the map."""
     if worn.track and worn.length:
         section, length = volume / worn.length, track_length or worn.length
+        if length < SHORTER * worn.length:
+            raise CaseError(
+                f"{1e3 * length:.4g} mm is too short: the track is {1e3 * worn.length:.4g} mm long "
+                "within the map alone; give the length of all of it",
+                "track_length",
+            )
         track_volume = planimetric_volume(section, length)
         formulas = _track_volumes(track_volume, worn.track.value, length, radius)
         ends = (Width(math.inf, 0.0), worn.track)
@@ -276,7 +287,8 @@ def _sizes(
         return _Sizes(along, across)
     sizes = Scar(along.value, across.value)
     _check_width(max(sizes), radius)
-    warn_of_radius(after, worn.scar, radius)
+    if not may_be_ball(after, worn.scar, radius):
+        return _Sizes(along, across)
     # Smoothing widens the core beyond what is worn.
     sure = worn.core & (smooth > SURE * np.max(smooth[worn.core]))
     bottom = np.where(sure, after.heights, np.nan)

@@ -17,6 +17,8 @@ ZEROS = 10
 values."""
 CURVED = 20.0
 """Sag of the map, relative to its relief, from which on the radius of its surface is known."""
+FLAT = 20.0
+"""Radius of a surface over a ball's, from which on it is not the ball's."""
 RADIUS_OFF = 0.05
 """Relative difference of a radius that is told."""
 
@@ -56,19 +58,28 @@ def warn_of_curvature(unworn: Array, *, ideal: bool) -> None:
         )
 
 
-def warn_of_radius(after: Heights, scar: Mask, radius: float) -> None:
-    """Warn if the unworn surface has another radius than the ball."""
+def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
+    """Whether the unworn surface may be that of a ball; warn if not, or of another radius."""
     unworn = np.where(scar, np.nan, after.heights)
     rest = without_form(unworn)
     found, noise = radius_across(unworn - rest, after.pitch), float(np.nanstd(rest))
     sag = after.grid.size[1] ** 2 / (8 * radius)
-    if sag > CURVED * noise and abs(math.log(min(found / radius, 100.0))) > RADIUS_OFF:
+    if sag > CURVED * noise and found > FLAT * radius:
+        warnings.warn(
+            f"the unworn surface is as good as flat, and the ball has a radius of "
+            f"{1e3 * radius:.4g} mm: the formulas for a scar on a ball are left out",
+            TriboWarning,
+            stacklevel=3,
+        )
+        return False
+    if sag > CURVED * noise and abs(math.log(found / radius)) > RADIUS_OFF:
         warnings.warn(
             f"the unworn surface has a radius of {1e3 * found:.4g} mm, and the ball one of "
             f"{1e3 * radius:.4g} mm: check radius and pitch",
             TriboWarning,
             stacklevel=3,
         )
+    return True
 
 
 def warn_of_edge(*, within: bool) -> None:

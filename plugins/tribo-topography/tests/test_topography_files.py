@@ -4,7 +4,7 @@ import zipfile
 
 import numpy as np
 import pytest
-from tribo import CaseError, Grid, read_heights
+from tribo import CaseError, Grid, TriboWarning, read_heights
 
 import tribo_topography.read
 from tribo_topography import Measured, describe
@@ -47,7 +47,8 @@ def test_size_range_sq_and_every_pixel_come_back(write, heights, kind):
         found = read_heights(path)
         np.testing.assert_allclose(found.heights, heights, rtol=0, atol=2e-12)
         assert found.pitch == pytest.approx(np.divide(SIZE, PIXELS), rel=1e-6)
-        assert read_heights(path, (1e-6, 2e-6)).pitch == (1e-6, 2e-6)
+        with pytest.warns(TriboWarning, match="states a pitch of 12 × 15 µm; that given, 1 × 2 µm"):
+            assert read_heights(path, (1e-6, 2e-6)).pitch == (1e-6, 2e-6)
 
 
 @pytest.mark.parametrize("kind", ["opd", "sur", "x3p", "asc", "npy"])

@@ -100,7 +100,8 @@ def _third_party(path: Path) -> Iterator[None]:
 def _checked_file(path: Path, expected: str | None) -> str:
     if not path.is_file():
         where = "" if path.is_absolute() else f" in {Path.cwd()}, where tribo was started"
-        raise CaseError(f"there is no file {path}{where}; correct path")
+        what = f"{path} is a folder" if path.is_dir() else f"there is no file {path}{where}"
+        raise CaseError(f"{what}; correct path")
     size = path.stat().st_size
     # Not a zip file, or a broken one, is for the readers to tell.
     with suppress(zipfile.BadZipFile), zipfile.ZipFile(path) as archive:
