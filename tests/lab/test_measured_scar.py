@@ -554,7 +554,10 @@ def test_the_command_measures_and_draws(tmp_path):
     assert picture.stat().st_size > 10_000
     assert done.output.count("Wrote ") == 2
     depth = np.load(tmp_path / "depth.npy")
+    # Whole, so that its middle is that of the map after.
+    assert depth.shape == after.heights.shape
     assert np.nansum(depth) == pytest.approx(np.sum(lost), rel=0.1)
+    assert np.nanstd(depth - lost) < 0.1 * np.max(lost)
     ideal = [files[1], *given[2:4], "--ideal", '{ type = "sphere", radius = "5 mm" }', "--json"]
     told = CliRunner().invoke(command, ideal, catch_exceptions=False)
     assert '"volume_uncertainty_m3"' in told.output

@@ -94,7 +94,7 @@ def scar(
     ball, track = map(length, ("--radius", "--track-length"), lengths)
     with Console(stderr=True).status("Laying the maps on each other, and measuring the scar"):
         found = measured_scar(before, maps[-1], radius=ball, track_length=track, form=form)
-    written = [_write(found, path) for path in output]
+    written = [_write(found, path, maps[-1].heights.shape) for path in output]
     if as_json:
         echo_json(found.as_json() | {"written": list(map(str, written))})
         return
@@ -103,13 +103,19 @@ def scar(
         click.echo(f"Wrote {path}")
 
 
-def _write(found: MeasuredScar, path: Path) -> Path:
-    """Write the depth map, NaN where missing, or a picture; return the file."""
+def _write(found: MeasuredScar, path: Path, shape: tuple[int, ...]) -> Path:
+    """Write the depth at each pixel of the map after, NaN where missing, or a picture.
+
+    Return the file.
+    """
     if path.suffix == ".npy":
         import numpy as np
 
+        # The middle of the map stays where it is, which is that of the contact in a fit.
+        depths = np.full(shape, np.nan)
+        depths[found.registration.part] = found.depths
         with writing(path):
-            np.save(path, found.depths)
+            np.save(path, depths)
         return path
     from tribo.plotting.figures import write_figures
     from tribo.plotting.scar import measured_scar_map
