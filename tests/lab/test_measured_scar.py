@@ -581,6 +581,7 @@ def test_the_command_measures_and_draws(tmp_path):
         (["--radius", "5", "mm"], r"^'mm' is no file: quote a length, as --radius '5 mm'$"),
         (["--ideal", "sphere"], "--ideal radius: missing"),
         (["-o", "none/scar.png"], "there is no folder none; make it first"),
+        (["--ideal", "flat", "-o", "./a.npy"], r"--output: a\.npy is a measured map; give another"),
         (["--ideal", '{ type = "sphere" r'], r'sphere" r is no TOML: Unclosed .*; .* put commas'),
     ],
 )

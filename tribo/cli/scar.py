@@ -74,6 +74,8 @@ def scar(
             raise CaseError(f"'{path}' is no file: quote a length, as --radius '5 {path}'")
     for path in output:
         check_folder(path)
+        if path.resolve() in {each.resolve() for each in files}:
+            raise CaseError(f"{path} is a measured map; give another name", "--output")
     if len(files) != (1 if ideal else 2):
         count = "1 file is" if len(files) == 1 else f"{len(files)} files are"
         raise CaseError(
