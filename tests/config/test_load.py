@@ -21,6 +21,7 @@ from tribo.core.errors import CaseError
         (b"x = 1\x00", "not text in UTF-8"),
         (b"x = " + b"[" * 100_000, "nested too deeply"),
         (b"x = " + b"9" * 10_000, "is not TOML"),
+        (b"[a]\nx = 1\n[[a]]\n", "; what is given several times stands in double brackets"),
     ],
 )
 def test_content_that_is_not_toml(tmp_path, content, message):
@@ -31,6 +32,13 @@ def test_content_that_is_not_toml(tmp_path, content, message):
     assert message in str(caught.value)
     assert str(path) in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_a_number_that_is_given_twice_is_not_to_be_put_in_brackets(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text("x = 1\nx = 2\n")
+    with pytest.raises(CaseError, match=r"is not TOML: [^;]* \(at line 2, [^;]*$"):
+        read_toml(path)
 
 
 def test_a_file_that_cannot_be_opened(tmp_path):

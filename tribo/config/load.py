@@ -87,7 +87,7 @@ def _quotes(content: bytes, error: ValueError) -> str:
     bare = re.search(r"([\w.-]+ *= *)([\d.e+-]+ *[A-Za-zµ°][^\"'#,}]*)", line)
     if bare:
         return f"; a value with a unit is quoted: {bare[1]}'{bare[2].strip()}'"
-    if "overwrite a value" in str(error) and (key := re.search(r"\[*([\w.]+)\]*", line)):
+    if "overwrite a value" in str(error) and (key := re.match(r"\s*\[+([\w.]+)\]", line)):
         return f"; what is given several times stands in double brackets each time, [[{key[1]}]]"
     open_quote = any(sign in str(error) for sign in (r"'\n'", '"\'"'))
     return "; is a closing quote missing?" if open_quote or line.count('"') % 2 else ""
