@@ -234,7 +234,7 @@ def test_a_profile_beside_the_scar_has_no_shape():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("wrong", "said"), [(1.0, False), (3.0, True)])
+@pytest.mark.parametrize(("wrong", "said"), [(1.0, False), (3.0, True), (1e-3, True)])
 def test_a_repeat_unlike_the_others_is_named(wrong, said):
     losses = [part * mass(BALL) for part in (0.99, wrong, 1.0)]
     data = measured("ball", "mass", mass(BALL), 0.01) | {"value": losses}

@@ -171,16 +171,16 @@ def on_repeats(data: pd.DataFrame) -> Iterator[str]:
     numbers = data[~data["below"] & ~data["quantity"].isin(FIELDS)]
     alike = ["setup", "body", "quantity", "time_s"]
     for _, rows in numbers.groupby(alike, dropna=False, sort=False):
-        n, logs = len(rows), np.log(rows["measured"].to_numpy())
+        n, (measured, stated) = len(rows), rows[["measured", "stated"]].to_numpy().T
         if n < _FEWEST_REPEATS:
             continue
+        logs, apart = np.log(measured), math.sqrt(1 + 1 / (n - 1))
         others = [np.delete(logs, i) for i in range(n)]
-        far = np.array([abs(own - np.mean(rest)) for own, rest in zip(logs, others, strict=True)])
-        far /= math.sqrt(1 + 1 / (n - 1))
+        means = np.array([np.mean(rest) for rest in others])
         scatter = np.array([np.std(rest, ddof=1) for rest in others])
         # Neither the scatter of the others nor the instrument makes it so.
-        by_scatter = 2 * stdtr(n - 2, -far / np.maximum(scatter, 1e-12))
-        by_instrument = 2 * ndtr(-far * (rows["measured"] / rows["stated"]).to_numpy())
+        by_scatter = 2 * stdtr(n - 2, -np.abs(logs - means) / apart / np.maximum(scatter, 1e-12))
+        by_instrument = 2 * ndtr(-np.abs(measured - np.exp(means)) / apart / stated)
         chance = n * np.maximum(by_scatter, by_instrument)
         worst = int(np.argmin(chance))
         if chance[worst] < _OUTLYING:
@@ -188,7 +188,7 @@ def on_repeats(data: pd.DataFrame) -> Iterator[str]:
             yield (
                 f"the {named(each)} of {in_words(each.quantity, each.measured)} is not as in the "
                 f"other {n - 1} tests, which scatter by {percent(float(scatter[worst]))} % about "
-                f"{in_words(each.quantity, float(np.exp(np.mean(others[worst]))))}: check it; the "
+                f"{in_words(each.quantity, float(np.exp(means[worst])))}: check it; the "
                 "repeatability, and with it all intervals, are as large for it alone"
             )
 
