@@ -234,6 +234,20 @@ def test_a_profile_beside_the_scar_has_no_shape():
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(
+    ("at", "depth"), [([0.0], [1e-8]), ([0.45e-3, 0.46e-3], [0.0, 0.0])], ids=["one", "none worn"]
+)
+def test_a_profile_that_leaves_no_residual_has_no_pattern(at, depth):
+    profile = {"body": "disk", "quantity": "profile_across", "position": at, "value": depth}
+    data = [measured("ball", "mass", mass(BALL)), profile | {"uncertainty": "1 nm"}]
+    paths = [*fitting(BALL_K), *(fitting(DISK_K) if any(depth) else ())]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        found = calibrate(CASE, {"measured": data, "fit": paths})
+    assert not any("pattern" in note or "coarse" in note for note in found.notes)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(("wrong", "said"), [(1.0, False), (3.0, True), (1e-3, True)])
 def test_a_repeat_unlike_the_others_is_named(wrong, said):
     losses = [part * mass(BALL) for part in (0.99, wrong, 1.0)]

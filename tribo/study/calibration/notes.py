@@ -201,7 +201,8 @@ def _on_patterns(data: pd.DataFrame) -> Iterator[str]:
         scale = (rows["computed"] / rows["sigma"]).to_numpy()
         size = float(np.sum(scale**2)) or 1.0
         residuals = residuals - np.sum(residuals * scale) / size * scale
-        correlation = np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2)
+        squares = float(np.sum(residuals**2)) or 1.0
+        correlation = np.sum(residuals[1:] * residuals[:-1]) / squares
         if correlation * len(rows) ** 0.5 > _CORRELATED and np.max(np.abs(residuals)) > 1:
             yield (
                 f"the residuals of the {named(next(rows.itertuples()))} follow a pattern: those "
@@ -215,7 +216,7 @@ def _on_instruments(data: pd.DataFrame) -> Iterator[str]:
     largest = data["measured"].abs().groupby(data["place"]).transform("max")
     for entry in data.assign(largest=largest).drop_duplicates("place").itertuples():
         name = entry.quantity
-        if entry.step_most >= entry.largest and not entry.below:
+        if entry.step_most >= entry.largest and entry.step_most > 0 and not entry.below:
             yield (
                 f"the {_instrument(entry)} is too coarse: read to {in_words(name, entry.step)}, "
                 f"the {named(entry)} may be off by {in_words(name, entry.step_most)}, and "
