@@ -60,7 +60,9 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
     mean, spread = float(np.nanmean(form)), float(np.nanvar(form))
     # The largest of what noise makes of a flat bottom lies above it.
     if spread < LEVEL * of_noise / len(places):
-        return mean, math.sqrt(of_noise / len(places) + of_registration + of_relief + spread)
+        # That of a curved one lies √3 standard deviations above the mean.
+        of_form = of_noise / len(places) + 3 * spread
+        return mean, math.sqrt(of_form + of_registration + of_relief)
     of_coefficients = min(_leverage(places - np.array(top, dtype=float)) * of_noise, found.noise**2)
     return float(form[top]), math.sqrt(of_coefficients + of_registration + of_relief)
 
