@@ -13,6 +13,7 @@ from tribo import CaseError, ContactProblem, Simulation, TriboWarning, read_heig
 from tribo.cli.main import tribo
 from tribo.simulation.predict import predict
 
+import tribo_topography.read
 from tribo_topography.export import export_xyz
 
 # SurfaceTopography, at its first import.
@@ -99,7 +100,9 @@ def test_scale_that_nobody_confirmed_is_told_by_the_run(case):
         Simulation(unconfirmed)
 
 
-def test_what_the_file_was_read_as_is_kept_in_the_result_and_what_is_worn_exported(case, tmp_path):
+def test_what_the_file_was_read_as_is_kept_in_the_result_and_what_is_worn_exported(
+    case, tmp_path, monkeypatch
+):
     data = case()
     path = data["bodies"]["ball"]["surface"]["path"]
     data["kinematics"]["duration"] = "2 s"
@@ -124,6 +127,9 @@ def test_what_the_file_was_read_as_is_kept_in_the_result_and_what_is_worn_export
     words = "states no unit for its heights; export the map as .*, whose"
     with pytest.raises(CaseError, match=words):
         read_heights(tmp_path / "no_unit.xyz")
+    monkeypatch.setattr(tribo_topography.read, "MAX_PIXELS", 4000)
+    with pytest.raises(CaseError, match=r"96 × 96 pixels; at most 4e\+03 are read.*; export"):
+        read_heights(path)
 
 
 def test_check_prints_it(case, tmp_path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from tribo import CaseError, Component, ExportFormat, HeightFormat, Heights, hookimpl
@@ -37,7 +38,7 @@ def _heights(path: Path) -> Heights:
         if not path.is_file():
             raise
         # Its advice is for a surface of a case, which has settings.
-        reason = str(error).rpartition("; ")[0] or str(error)
+        reason = re.split(r"; (?:add|set|export|if it is that, set) ", str(error))[0]
         raise CaseError(
             f"{reason}; export the map as .x3p, or as a .npy or .csv table of heights in m, whose "
             "pitch is given"
