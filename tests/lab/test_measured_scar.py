@@ -631,6 +631,17 @@ def test_a_track_cannot_be_shorter_than_within_the_map():
         measured_scar(*track()[:2], track_length=40 * PITCH)
 
 
+def test_a_whole_circular_track_is_told_and_no_ball_made_its_outline():
+    random, (x, y) = np.random.default_rng(1), Grid(96 * PITCH, 96).mesh
+    lost = 1e-6 * np.maximum(1 - ((np.hypot(x, y) - 30e-6) / 8e-6) ** 2, 0)
+    after = Heights(1e-8 * random.normal(size=lost.shape) - lost, (PITCH, PITCH))
+    with pytest.warns(TriboWarning, match="encloses what is not worn, as a whole circular track"):
+        found = measured_scar(Flat(), after, radius=RADIUS)
+    assert found.inferred == ()
+    assert found.across == pytest.approx(76e-6, rel=0.03, abs=0)
+    assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.01, abs=0)
+
+
 def test_the_command_gives_the_volume_of_a_whole_track(tmp_path):
     _, y = Grid(96 * PITCH, 96).mesh
     lost = 1e-6 * np.maximum(1 - np.broadcast_to(y, (96, 96)) ** 2 / WIDE**2, 0)

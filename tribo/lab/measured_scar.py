@@ -24,6 +24,7 @@ from tribo.lab.scar_doubts import (
     radius_across,
     warn_of_curvature,
     warn_of_edge,
+    warn_of_ring,
     warn_of_several,
     warn_of_zeros,
 )
@@ -210,6 +211,8 @@ def measured_scar(
     several = 1 if worn.track else ndimage.label(scar)[1]
     if several > 1:
         warn_of_several(several)
+    if worn.is_ring:
+        warn_of_ring()
     sizes = _Sizes()
     if several == 1 and not worn.cut_off:
         sizes = _sizes(found, worn, after, volume, radius, track_length)
@@ -283,7 +286,7 @@ def _sizes(
         scar_width(found.depth, smooth, worn.scar, noise, axis, after.pitch[axis])
         for axis in (0, 1)
     )
-    if radius is None:
+    if radius is None or worn.is_ring:
         return _Sizes(along, across)
     sizes = Scar(along.value, across.value)
     _check_width(max(sizes), radius)

@@ -103,6 +103,17 @@ def warn_of_several(count: int) -> None:
     )
 
 
+def warn_of_ring() -> None:
+    """Warn that a scar encloses what is not worn."""
+    warnings.warn(
+        "the scar encloses what is not worn, as a whole circular track does: widths are those of "
+        "its outline, the largest depth is rough, and formulas are left out; cut the maps to a "
+        "part of the track for these",
+        TriboWarning,
+        stacklevel=3,
+    )
+
+
 def radius_across(form: Array, pitch: tuple[float, float]) -> float:
     """Return the radius of the form of a surface across the sliding direction, in m."""
     bend = float(np.nanmean(np.diff(form, 2, axis=1))) / pitch[1] ** 2

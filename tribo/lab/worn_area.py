@@ -19,6 +19,8 @@ SPOT = 0.1
 """Part of the largest scar's volume below which a worn area is left out."""
 EDGE = 0.05
 """Part of the largest depth from which on a scar is cut off by the edge of the map."""
+ENCLOSED = 0.1
+"""Part of a scar within its outline from which on what is not worn makes a ring of it."""
 ALONG = 0.1
 """Part of its length that a track may run along the edge of the map."""
 MARGIN = 4
@@ -41,6 +43,8 @@ class WornArea:
         Whether it reaches both edges of the map, along x and along y.
     cut_off : bool
         Whether it goes on beyond the edge, other than at the ends of a track.
+    is_ring : bool
+        Whether it encloses what is not worn, as a whole circular track does.
     track : Width or None
         The width of a track, across its direction; None for a scar that ends within the map.
     length : float or None
@@ -55,6 +59,7 @@ class WornArea:
     noise: float
     is_open: list[bool]
     cut_off: bool
+    is_ring: bool
     track: Width | None
     length: float | None
 
@@ -89,6 +94,8 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         depth = np.where(known, found.depth, smooth)
         band, track, length = track_across(depth, core, found.worn, noise, axis, pitch)
         scar = ndimage.binary_dilation(band, iterations=MARGIN, mask=band | ~piled)
+    deep = core & (smooth > EDGE * np.max(smooth[core]))
+    enclosed = ndimage.binary_fill_holes(deep) & ~deep & known
     return WornArea(
         smooth=smooth,
         known=known,
@@ -97,7 +104,8 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         piled=ndimage.binary_dilation(piled, iterations=MARGIN) & ~scar,
         noise=noise,
         is_open=is_open,
-        cut_off=_is_cut_off(core & (smooth > EDGE * np.max(smooth[core])), known, is_open),
+        cut_off=_is_cut_off(deep, known, is_open),
+        is_ring=bool(np.count_nonzero(enclosed) > ENCLOSED * np.count_nonzero(core)),
         track=track,
         length=length,
     )
