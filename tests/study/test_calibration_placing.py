@@ -1,5 +1,7 @@
 """A map off its middle is met all the same; one not levelled or of another pitch is told."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from calibrations import cheap, kept_runs, on_springs
@@ -282,11 +284,9 @@ def test_uniform_wear_tells_no_place():
 
 
 def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypatch):
-    given = []
-
-    def unfitted(model, depths, priors, on_run):
-        given.append(depths)
-        return FittedMaps({}, 0, 0, 1.0, 1.0)
+    def unfitted(model, depths, priors, placed, on_run):
+        off = 2e-6 if placed["ball"] == [0.25e-3, 0.25e-3] else 0.0
+        return FittedMaps({"ball": SimpleNamespace(off=(off, 0.0), told=True)}, 0, 0, 1.0, 1.0)
 
     monkeypatch.setattr(mapped, "fit_maps", unfitted)
     entry = {"body": "ball", "depth": str(tmp_path / "map.npy"), "pitch": PITCH}
@@ -294,8 +294,8 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
     for shift in (52, 4):
         np.save(tmp_path / "map.npy", moved(worn, (1e-6 * shift / PITCH, 0), order=1) + 3e-7)
         place, level = calibrate_maps(CASE, {"map.0": entry}).notes
-        assert f"lies +{shift}.0 ± " in place
-        assert place.endswith("centre it, unless the coefficient is higher on that side")
+        # And 2 µm more by the fit.
+        assert f"lies +{shift + 2}.0 µm along the sliding" in place
         assert "the map of 'ball' lies 0.3 µm above 0" in level
     np.save(tmp_path / "map.npy", worn)
-    assert not calibrate_maps(CASE, {"map.0": entry}).notes
+    assert not calibrate_maps(CASE, {"map.0": entry.model_copy(update={"centred": True})}).notes

@@ -43,13 +43,11 @@ from tribo.study.calibration.quantities import (
     Reading,
     edge_sigma,
 )
-from tribo.study.calibration.scar_shift import ScarShift, find_shift, slopes
+from tribo.study.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes
 from tribo.study.calibration.setups import READ, Run, Setup, find_setups, make_run, unmeasured
 
 LINEAR_BELOW = 0.1
 """Part of the largest depth of a profile or map below which depths are taken as linear."""
-PRIOR_SHIFT = 0.25
-"""Prior standard deviation of the shift of a map, relative to the size of the surface."""
 
 
 @dataclass(frozen=True)

@@ -60,7 +60,8 @@ def off_middle(name: str, found: ScarShift) -> Iterator[str]:
     """Report the distance of the scar from the middle of the map."""
     if any(found.shift):
         words = [
-            f"{signed(1e6 * far, 1)} ± {1e6 * sigma:.1g} µm {direction}"
+            f"{signed(1e6 * far, 1)} {f'± {1e6 * sigma:.1g} ' if np.isfinite(sigma) else ''}µm "
+            f"{direction}"
             for far, sigma, direction in zip(found.shift, found.sigma, DIRECTIONS, strict=True)
             if far
         ]

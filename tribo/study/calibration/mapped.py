@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,14 +13,13 @@ from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, located
-from tribo.lab.heights import Heights
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.cells import on_cells, read_map, surface_shape
+from tribo.study.calibration.cells import on_cells, read_map
 from tribo.study.calibration.map_notes import off_level, off_middle, off_turn
 from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
 from tribo.study.calibration.measured import MapEntry
-from tribo.study.calibration.scar_shift import find_shift, slopes
+from tribo.study.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes
 from tribo.study.gradient.objective import View
 from tribo.study.variation import unknown_body
 
@@ -36,7 +35,7 @@ def calibrate_maps(
         validate_case(case_tables(case)).model_copy(update={"observers": ()}),
     ).model
     depths: dict[str, tuple[Array, Array | float]] = {}
-    priors, remarks = {}, list[str]()
+    priors, placed, read = {}, {}, list[_Read]()
     *_, last = march(model, begin(model))
     clean = View(model, last.state)
     for place, entry in mapped.items():
@@ -46,25 +45,48 @@ def calibrate_maps(
             raise CaseError(f"{entry.body!r} has two maps; give one", place)
         if entry.body not in model.laws:
             raise CaseError(f"{entry.body!r} does not wear in this case", f"{place}.body")
+        spacing, worn = model.grid.spacing, clean.wear(entry.body)
+        if entry.length < min(spacing):
+            raise CaseError(
+                f"{1e6 * entry.length:.3g} µm is less than a cell, {1e6 * min(spacing):.3g} µm: "
+                "raise grid.cells or length",
+                f"{place}.length",
+            )
         heights = read_map(entry.depth, entry.pitch, place)
-        shape = surface_shape(model, entry.body)
+        shift, far = ScarShift(), [0.0, 0.0]
         with located(f"{place}.depth"):
-            depth, noise = on_cells(heights, shape, model.grid.spacing)
-        remarks += _remarks(entry, heights, depth, clean.wear(entry.body), model.grid.spacing)
-        depths[entry.body] = depth, entry.uncertainty * noise
+            if not entry.centred:
+                shift = find_shift(heights, worn, spacing, entry.uncertainty, 0.0)
+                far = [PRIOR_SHIFT * size for size in model.grid.size]
+            depth, noise = on_cells(heights, worn.shape, spacing, shift.shift)
+        depths[entry.body], placed[entry.body] = (depth, entry.uncertainty * noise), far
         priors[entry.body] = Prior(entry.spread, entry.length)
-    return replace(fit_maps(model, depths, priors, on_run=on_run), remarks=tuple(remarks))
+        read.append(_Read(entry, depth, worn, shift.shift))
+    found = fit_maps(model, depths, priors, placed=placed, on_run=on_run)
+    remarks = (
+        remark
+        for each in read
+        for remark in each.remarks(found.maps[each.entry.body].off, model.grid.spacing)
+    )
+    return replace(found, remarks=tuple(remarks))
 
 
-def _remarks(
-    entry: MapEntry, heights: Heights, depth: Array, model: Array, spacing: tuple[float, float]
-) -> Iterator[str]:
-    """Name a map that is off the middle of the case's scar, or not levelled."""
-    name = f"the map of {entry.body!r}"
-    found = find_shift(heights, model, spacing, entry.uncertainty, 0.0)
-    moved = sum(found.shift[axis] * slope for axis, slope in slopes(model, spacing).items())
-    if np.std(np.asarray(moved)[model > 0]) > entry.uncertainty:
-        for note in off_middle(name, found):
-            yield f"{note}: centre it, unless the coefficient is higher on that side"
-    yield from off_level(name, depth, model, entry.uncertainty)
-    yield from off_turn(name, depth, model)
+class _Read(NamedTuple):
+    """A map, its depth on the cells, moved by a shift, and that of a run with one coefficient."""
+
+    entry: MapEntry
+    depth: Array
+    worn: Array
+    shift: tuple[float, float]
+
+    def remarks(self, off: Sequence[float], spacing: tuple[float, float]) -> Iterator[str]:
+        """Name a map that is off the middle of the contact, further `off` in m, or not levelled."""
+        name, noise = f"the map of {self.entry.body!r}", self.entry.uncertainty
+        along, shift = slopes(self.worn, spacing), [0.0, 0.0]
+        for axis, further in zip(along, off, strict=True):
+            shift[axis] = self.shift[axis] + further
+        moved = sum(shift[axis] * slope for axis, slope in along.items())
+        if np.std(np.asarray(moved)[self.worn > 0]) > noise:
+            yield from off_middle(name, ScarShift((shift[0], shift[1])))
+        yield from off_level(name, self.depth, self.worn, noise)
+        yield from off_turn(name, self.depth, self.worn)

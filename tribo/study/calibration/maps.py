@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,8 +23,8 @@ from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import cell_means, surface_shape
 from tribo.study.calibration.lanczos import eigenpairs
+from tribo.study.calibration.map_errors import MapErrors
 from tribo.study.calibration.notes import TOO_SMALL, UNLIKELY
-from tribo.study.calibration.quantities import EDGE_CELL_SIGMA, edge_sigma
 from tribo.study.gradient.backwards import swept_back
 from tribo.study.gradient.gradient import ValueAndGradient
 from tribo.study.gradient.local import localised
@@ -43,6 +43,8 @@ FALL = 0.05
 """Fall of −ln p that ends it."""
 FINE = 0.125
 """Cell size, in correlation lengths, below which the fit starts on a grid of half as many cells."""
+FEWEST = 16
+"""Cells along each axis of such a grid."""
 SILENT = 0.9
 """Posterior standard deviation over the prior's from which on the data say nothing."""
 
@@ -91,6 +93,8 @@ class LocalMap:
     """Depth of the fit, in m."""
     uncertainty: Array
     """Standard deviation of their difference, in m."""
+    off: tuple[float, ...] = ()
+    """How much further the scar lies than the map has it, along each axis of the map, in m."""
 
     @property
     def factor(self) -> Array:
@@ -120,7 +124,8 @@ class FittedMaps:
     """Number of products with the Fisher information."""
     chi_square: float
     degrees_of_freedom: float
-    """Measured cells, less Σ λ/(1 + λ) over the eigenvalues λ of the information."""
+    """Measured cells, less Σ λ/(1 + λ) over the eigenvalues λ of the information, and less the same
+    of where the maps lie."""
     remarks: tuple[str, ...] = ()
     """Notes on the measured maps."""
 
@@ -160,6 +165,7 @@ def fit_maps(
     depths: Mapping[str, tuple[Array, Array | float]],
     priors: Mapping[str, Prior],
     *,
+    placed: Mapping[str, Sequence[float]] | None = None,
     products: int = 60,
     on_run: Callable[[int, float], None] = lambda count, misfit: None,
 ) -> FittedMaps:
@@ -175,8 +181,9 @@ def fit_maps(
 
     `depths` has, by the name of the body, the mean depth of each cell at the end, in m, of the
     shape of `View.wear`, NaN where missing, and their standard deviations, to which `edge_sigma`
-    is added. `on_run` is called after each gradient or product with their number and χ², NaN for a
-    product.
+    is added. `placed` has the standard deviations of where a map lies along and across the sliding
+    direction, in m, by body; 0 by default. `on_run` is called after each gradient or product with
+    their number and χ², NaN for a product.
     """
     misfits: list[float] = []
 
@@ -184,7 +191,7 @@ def fit_maps(
         misfits.append(misfit)
         on_run(len(misfits), misfit)
 
-    posterior = _Posterior(Simulation(case).model, depths, priors, tell)
+    posterior = _Posterior(Simulation(case).model, depths, priors, tell, placed or {})
     z, basis, values = posterior.fitted(products)
     logs = posterior.logs(z)
     fit = posterior.run(logs)
@@ -203,17 +210,19 @@ def fit_maps(
             prior,
             posterior.model.grid.spacing,
             depths[name][0],
-            cell_means(fit.wear(name)),
-            posterior.sigma[name],
+            posterior.errors[name].moved(cell_means(fit.wear(name)), depths[name][0]),
+            posterior.errors[name].sigma,
+            posterior.off(name, residuals[name]),
         )
     read = sum(int(np.sum(~np.isnan(each))) for each in residuals.values())
+    told_of_places = sum(each.told for each in posterior.errors.values())
     made = int(np.sum(np.isnan(misfits)))
     return FittedMaps(
         maps=maps,
         gradients=len(misfits) - made,
         products=made,
-        chi_square=sum(float(np.nansum(each**2)) for each in residuals.values()),
-        degrees_of_freedom=read - float(np.sum(values / (1 + values))),
+        chi_square=2 * posterior.misfit(fit)[0],
+        degrees_of_freedom=read - float(np.sum(values / (1 + values))) - told_of_places,
     )
 
 
@@ -226,8 +235,10 @@ class _Posterior:
         depths: Mapping[str, tuple[Array, Array | float]],
         priors: Mapping[str, Prior],
         tell: Callable[[float], None],
+        placed: Mapping[str, Sequence[float]],
     ) -> None:
         self.model, self.depths, self.priors, self.tell = model, depths, priors, tell
+        self.placed = placed
         self.shapes = {name: surface_shape(model, name) for name in depths}
         self.amplitudes, self.scales, self.parts, self.size = {}, {}, {}, 0
         for name, shape in self.shapes.items():
@@ -240,8 +251,7 @@ class _Posterior:
             self.scales[name] = priors[name].scale(self.amplitudes[name])
             self.parts[name] = slice(self.size, self.size + shape[0] * shape[1])
             self.size = self.parts[name].stop
-        self.sigma: dict[str, Array] = {}
-        """Standard deviation of each cell, with that of the grid at a scar's edge, in m."""
+        self.errors: dict[str, MapErrors] = {}
         self.gradient = ValueAndGradient(model, self.misfit, (), list(depths))
 
     def halved(self) -> _Posterior | None:
@@ -249,7 +259,9 @@ class _Posterior:
         case, grid = self.model.case, self.model.grid
         cells = (grid.cells[0] // 2, grid.cells[1] // 2)
         shortest = min(prior.length for prior in self.priors.values())
-        if max(grid.spacing) > FINE * shortest or self.model.rough or case.begin is not None:
+        if max(grid.spacing) > FINE * shortest or min(cells) < FEWEST:
+            return None
+        if self.model.rough or case.begin is not None:
             return None
         model = assemble(varied(case, grid=grid.model_copy(update={"cells": cells})))
         depths = {}
@@ -262,7 +274,7 @@ class _Posterior:
             split = both.reshape(2, shape[0], blocks[0], shape[1], blocks[1])
             means, variances = split.mean(axis=(2, 4))
             depths[name] = means, (variances / (blocks[0] * blocks[1])) ** 0.5
-        return _Posterior(model, depths, self.priors, self.tell)
+        return _Posterior(model, depths, self.priors, self.tell, self.placed)
 
     def raised(self, coarse: _Posterior, z: Array) -> Array:
         """Return the amplitudes of a coarser grid on this one; 0 for shorter waves."""
@@ -335,24 +347,35 @@ class _Posterior:
         return found
 
     def weigh(self, z: Array) -> None:
-        """Set the standard deviations of cells, with the edge of the scar of these amplitudes."""
-        view = self.run(self.logs(z))
-        for name, (_, sigma) in self.depths.items():
-            self.sigma[name] = np.hypot(sigma, edge_sigma(view.wear(name), EDGE_CELL_SIGMA))
+        """Set the errors of the maps, with edges and slopes of the scars of these amplitudes."""
+        view, spacing = self.run(self.logs(z)), self.model.grid.spacing
+        self.errors = {
+            name: MapErrors.of(view.wear(name), *given, self.placed.get(name, (0.0, 0.0)), spacing)
+            for name, given in self.depths.items()
+        }
 
     def residuals(self, view: View) -> dict[str, Array]:
         """Return the computed less the measured depths, in standard deviations."""
         return {
-            name: (cell_means(view.wear(name)) - depth) / self.sigma[name]
+            name: (cell_means(view.wear(name)) - depth) / self.errors[name].sigma
             for name, (depth, _) in self.depths.items()
         }
 
+    def off(self, name: str, residuals: Array) -> tuple[float, ...]:
+        """Return how much further a scar lies than its map has it, along each axis, in m."""
+        places = self.errors[name].places(np.nan_to_num(residuals))
+        far = self.placed.get(name, (0.0, 0.0))[-len(places) :]
+        return tuple(float(each) for each in far * places)
+
     def misfit(self, view: View) -> tuple[float, Seeds]:
-        """Return half of the sum of the squared residuals, and its derivative."""
-        off = {name: np.nan_to_num(each) for name, each in self.residuals(view).items()}
-        value = 0.5 * sum(float(np.sum(each * each)) for each in off.values())
-        # `cell_means` is its own adjoint.
-        seeds = {name: cell_means(each / self.sigma[name]) for name, each in off.items()}
+        """Return half of the weighed sum of the squared residuals, and its derivative."""
+        value, seeds = 0.0, {}
+        for name, off in self.residuals(view).items():
+            own, errors = np.nan_to_num(off), self.errors[name]
+            weighed = errors.weighed(own)
+            value += 0.5 * float(np.sum(own * weighed))
+            # `cell_means` is its own adjoint.
+            seeds[name] = cell_means(weighed / errors.sigma)
         return value, Seeds(seeds)
 
     def local(self, logs: Array) -> Model:
@@ -375,9 +398,9 @@ class _Posterior:
             step = STEP / np.max(np.abs(move))
             moved, seeds = self.run(logs + step * move), {}
             for name, (depth, _) in self.depths.items():
-                change = cell_means(moved.wear(name) - end.wear(name)) / step
-                known = np.where(np.isnan(depth), 0.0, change / self.sigma[name] ** 2)
-                seeds[name] = cell_means(known)
+                change, errors = cell_means(moved.wear(name) - end.wear(name)), self.errors[name]
+                off = np.where(np.isnan(depth), 0.0, change / (step * errors.sigma))
+                seeds[name] = cell_means(errors.weighed(off) / errors.sigma)
             found = swept_back(model, tape, {time: Seeds(seeds)}, [])
             self.tell(math.nan)
             return self.adjoint(np.concatenate([found.wear_rate[name].ravel() for name in seeds]))

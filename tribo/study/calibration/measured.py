@@ -300,6 +300,9 @@ class MapEntry(Table):
     """Prior standard deviation of the logarithm of the coefficient from place to place."""
     length: Annotated[float, Quantity("m", above=0)]
     """Correlation length of the coefficient."""
+    centred: bool = False
+    """Whether the middle of the contact is known to be that of the map; where the scar lies is
+    fitted otherwise."""
 
 
 class Measurements(Table):

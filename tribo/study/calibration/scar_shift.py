@@ -13,6 +13,8 @@ from tribo.study.calibration.cells import on_cells
 
 LEAST_SHIFT = 0.1
 """Shift, in cells, above which a map is moved."""
+PRIOR_SHIFT = 0.25
+"""Prior standard deviation of the shift of a map, relative to the size of the surface."""
 SIGNIFICANT = 3.0
 """The same in standard deviations of the shift."""
 _ITERATIONS = 30
