@@ -8,6 +8,10 @@ which it varies smoothly. With --labs, over many tests on a small grid whose fac
 the prior, how often its intervals cover the truth:
 
     python benchmarks/hidden_spot.py --labs 200 --json docs/_data/map_coverage.json
+
+and with maps that lie off by some 0.1 of a cell, which the fit is not told:
+
+    python benchmarks/hidden_spot.py --labs 100 --off 0.1 --json docs/_data/moved_map_coverage.json
 """
 
 from __future__ import annotations
@@ -22,6 +26,7 @@ from typing import Any
 
 import numpy as np
 from scipy.fft import idctn
+from scipy.ndimage import shift as moved
 
 from tribo import Case, TriboWarning, View
 from tribo.core.arrays import Array
@@ -30,6 +35,7 @@ from tribo.simulation.model import Model
 from tribo.simulation.positions import composed
 from tribo.study.calibration.cells import cell_means
 from tribo.study.calibration.maps import Prior, fit_maps
+from tribo.study.calibration.scar_shift import PRIOR_SHIFT
 from tribo.study.gradient.local import localised
 
 NOISE = 20e-9
@@ -115,8 +121,11 @@ def spot(cells: int, contact: str) -> dict[str, object]:
     }
 
 
-def coverage(labs: int, cells: int) -> Iterator[dict[str, object]]:
-    """Yield after each 10 tests how often intervals cover factors drawn from the prior."""
+def coverage(labs: int, cells: int, off: float) -> Iterator[dict[str, object]]:
+    """Yield after each 10 tests how often intervals cover factors drawn from the prior.
+
+    Where maps lie is unknown if they lie off by chance, by so many cells.
+    """
     test = case(
         cells,
         grid={"size": "0.7 mm", "cells": cells},
@@ -131,8 +140,14 @@ def coverage(labs: int, cells: int) -> Iterator[dict[str, object]]:
     for lab in range(labs):
         logs = scale * idctn(waves * random.standard_normal(waves.shape), norm="ortho")
         depth = worn(model, np.exp(logs))
-        noisy = cell_means(depth) + NOISE * random.standard_normal(depth.shape)
-        fitted = fit_maps(test, {"ball": (noisy, NOISE)}, {"ball": prior}, products=400)
+        means, placed = cell_means(depth), {}
+        if off:
+            means = moved(means, off * random.standard_normal(2), order=3, mode="nearest")
+            placed = {"ball": [PRIOR_SHIFT * size for size in model.grid.size]}
+        noisy = means + NOISE * random.standard_normal(depth.shape)
+        fitted = fit_maps(
+            test, {"ball": (noisy, NOISE)}, {"ball": prior}, placed=placed, products=400
+        )
         low, high = fitted.maps["ball"].interval(LEVEL)
         covered = (low < np.exp(logs)) & (np.exp(logs) < high)
         shares.append([np.mean(covered[depth > DEEP * depth.max()]), np.mean(covered)])
@@ -155,12 +170,13 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--cells", type=int)
     parser.add_argument("--labs", type=int)
+    parser.add_argument("--off", type=float, default=0.0)
     parser.add_argument("--springs", action="store_true")
     parser.add_argument("--json", type=Path)
     given = parser.parse_args()
     warnings.simplefilter("ignore", TriboWarning)
     contact = "winkler" if given.springs else "dcfft"
-    found = coverage(given.labs, given.cells or 18) if given.labs else None
+    found = coverage(given.labs, given.cells or 18, given.off) if given.labs else None
     for outcome in found or [spot(given.cells or 256, contact)]:
         for name, value in outcome.items():
             if name != "factor":
