@@ -156,7 +156,7 @@ def test_check_begins_with_its_verdict(case):
     assert "94 % of the pressure at which the softer body first" in done.stdout
     assert max(map(len, done.stdout.splitlines())) <= 80
     assert "depth of ball, for 1 % more of:" in done.stdout
-    assert "(of a run on 24 × 24 cells; finer grids differ by up to 0.03 %)" in done.stdout
+    assert "(of a run on 24 × 24 cells; finer grids differ by up to 0.05 %)" in done.stdout
     ends = tribo("check", "my.toml", *LARGE_STROKE, *setting("stop.depth=0.5 um"))
     assert "time until ball reaches stop.depth, for 1 % more of:" in ends.stdout
     assert "cells; finer grids differ by up to 0.2 %)" in ends.stdout

@@ -264,6 +264,8 @@ def test_the_volume_of_a_hole_in_the_scar_is_interpolated_and_its_uncertainty_sa
     assert found.missing > whole.missing + 0.03
     assert found.volume_uncertainty > 3 * whole.volume_uncertainty
     assert abs(found.volume - volume) < 2 * found.volume_uncertainty < 0.1 * volume
+    assert abs(found.depth - np.max(lost)) < 2 * found.depth_uncertainty < 0.5 * np.max(lost)
+    assert abs(found.depth - np.max(lost)) > 5 * whole.depth_uncertainty
 
 
 @pytest.mark.filterwarnings("ignore:pixels are missing where the scar is deepest")

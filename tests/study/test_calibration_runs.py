@@ -269,6 +269,18 @@ def test_repeats_that_scatter_evenly_are_rarely_called_unlike():
     assert 0 < count < 0.07 * 400
 
 
+def test_readings_in_coarse_steps_are_alike_by_chance():
+    random, count = np.random.default_rng(0), 0
+    for _ in range(400):
+        values = np.round(10 * np.exp(random.normal(0, 0.1, 3)))
+        entry = {"body": "ball", "quantity": "mass", "resolution": "1 mg"}
+        entry |= {"value": [f"{each} mg" for each in values]}
+        data = read_measurements({"measured": [entry]}).table()
+        sigma = np.hypot(data["sigma"], data["step_sigma"])
+        count += len([*on_repeats(data.assign(setup=0, stated=sigma))])
+    assert count < 0.06 * 400
+
+
 @pytest.mark.slow
 def test_other_numbers_of_the_case_can_be_fitted(true_run):
     half = {"time": 100.0, **measured("ball", "volume", BALL * LOAD * 10, 0.02)}

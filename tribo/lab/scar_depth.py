@@ -38,7 +38,10 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
     bottom = areas == areas[np.unravel_index(int(np.argmax(worn)), core.shape)]
     missing = bottom & np.isnan(found.depth)
     holes = ndimage.binary_opening(missing, np.ones((3, 3)))
+    of_holes = 0.0
     if np.count_nonzero(holes) > MISSED * np.count_nonzero(bottom):
+        # The deepest may lie in them, and what is known ends at the bottom's edge.
+        of_holes = (1 - BOTTOM) * float(np.max(worn))
         warnings.warn(
             "pixels are missing where the scar is deepest: the largest depth is that of the others",
             TriboWarning,
@@ -62,9 +65,9 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
     if spread < LEVEL * of_noise / len(places):
         # That of a curved one lies √3 standard deviations above the mean.
         of_form = of_noise / len(places) + 3 * spread
-        return mean, math.sqrt(of_form + of_registration + of_relief)
+        return mean, math.sqrt(of_form + of_registration + of_relief + of_holes**2)
     of_coefficients = min(_leverage(places - np.array(top, dtype=float)) * of_noise, found.noise**2)
-    return float(form[top]), math.sqrt(of_coefficients + of_registration + of_relief)
+    return float(form[top]), math.sqrt(of_coefficients + of_registration + of_relief + of_holes**2)
 
 
 def _leverage(places: Array) -> float:

@@ -178,8 +178,10 @@ def on_repeats(data: pd.DataFrame) -> Iterator[str]:
         others = [np.delete(logs, i) for i in range(n)]
         means = np.array([np.mean(rest) for rest in others])
         scatter = np.array([np.std(rest, ddof=1) for rest in others])
+        # That of readings in coarse steps may be hidden by these.
+        at_least = np.maximum(scatter, stated / np.exp(means))
         # Neither the scatter of the others nor the instrument makes it so.
-        by_scatter = 2 * stdtr(n - 2, -np.abs(logs - means) / apart / np.maximum(scatter, 1e-12))
+        by_scatter = 2 * stdtr(n - 2, -np.abs(logs - means) / apart / at_least)
         by_instrument = 2 * ndtr(-np.abs(measured - np.exp(means)) / apart / stated)
         chance = n * np.maximum(by_scatter, by_instrument)
         worst = int(np.argmin(chance))
@@ -189,7 +191,7 @@ def on_repeats(data: pd.DataFrame) -> Iterator[str]:
                 f"the {named(each)} of {in_words(each.quantity, each.measured)} is not as in the "
                 f"other {n - 1} tests, which scatter by {percent(float(scatter[worst]))} % about "
                 f"{in_words(each.quantity, float(np.exp(means[worst])))}: check it; the "
-                "repeatability, and with it all intervals, are as large for it alone"
+                "repeatability, and with it all intervals, are larger for it"
             )
 
 

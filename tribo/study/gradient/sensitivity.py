@@ -18,7 +18,7 @@ CELLS = 24
 LEAST = 0.005
 """Per cent for one per cent, below which a number is left out."""
 
-OFF = {"depth": 0.03, "end_time": 0.2}
+OFF = {"depth": 0.05, "end_time": 0.2}
 """Per cent for one per cent by which finer grids were seen to differ."""
 OFF_IN_LAYERS = 0.25
 """The same where a body wears in layers: rings of cells come to a bottom together."""
