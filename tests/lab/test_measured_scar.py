@@ -369,6 +369,17 @@ def test_what_is_piled_up_at_the_edge_of_a_scar_is_not_taken_off_its_volume(stan
     assert found.piled_up == pytest.approx(np.sum(ridge) * PITCH**2, rel=0.25, abs=0)
 
 
+@pytest.mark.parametrize(("wide", "height"), [(2, 50e-9), (3, 100e-9), (4, 50e-9)])
+def test_a_thin_low_ridge_along_the_edge_is_not_taken_off_the_volume(wide, height):
+    before, after, lost = pair(sq=30e-9, shift=(0, 0), turn=0, missing=0.0)
+    inside = (np.hypot(*after.grid.mesh) - WIDE) / (wide * PITCH)
+    ridge = height * np.sin(np.pi * np.clip(inside, 0, 1))
+    found = measured_scar(before, Heights(after.heights + ridge, after.pitch))
+    assert abs(found.volume - np.sum(lost) * PITCH**2) < 3 * found.volume_uncertainty
+    assert found.volume_uncertainty < 0.005 * found.volume
+    assert found.piled_up == pytest.approx(np.sum(ridge) * PITCH**2, rel=0.1, abs=0)
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_wide_low_ridges_along_a_track_are_piled_up_and_no_noise(seed):
     """They are as wide as a third of what is unworn, 5 times as high as the noise of a pixel."""

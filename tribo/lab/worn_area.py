@@ -21,6 +21,8 @@ EDGE = 0.05
 """Part of the largest depth from which on a scar is cut off by the edge of the map."""
 ENCLOSED = 0.1
 """Part of a scar within its outline from which on what is not worn makes a ring of it."""
+FINE = 0.7
+"""Width of the Gaussian that a ridge of a few pixels is seen after, in pixels."""
 ALONG = 0.1
 """Part of its length that a track may run along the edge of the map."""
 MARGIN = 4
@@ -94,6 +96,9 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         depth = np.where(known, found.depth, smooth)
         band, track, length = track_across(depth, core, found.worn, noise, axis, pitch)
         scar = ndimage.binary_dilation(band, iterations=MARGIN, mask=band | ~piled)
+    # Smoothing has the scar's edge lie within such a ridge.
+    thin = _thin_ridges(found, scar & ~ndimage.binary_erosion(core, iterations=MARGIN))
+    scar = ndimage.binary_propagation(core & ~thin, mask=scar & ~thin)
     deep = core & (smooth > EDGE * np.max(smooth[core]))
     enclosed = ndimage.binary_fill_holes(deep) & ~deep & known
     return WornArea(
@@ -101,7 +106,7 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         known=known,
         core=core,
         scar=scar,
-        piled=ndimage.binary_dilation(piled, iterations=MARGIN) & ~scar,
+        piled=ndimage.binary_dilation(piled | thin, iterations=MARGIN) & ~scar,
         noise=noise,
         is_open=is_open,
         cut_off=_is_cut_off(deep, known, is_open),
@@ -109,6 +114,16 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         track=track,
         length=length,
     )
+
+
+def _thin_ridges(found: Registration, margin: Mask) -> Mask:
+    """Return what stands up in the margin of a scar, too thin for `_largest`, and more than noise."""
+    fine = smoothed(found.depth, FINE)
+    unworn = fine[found.unworn]
+    noise = robust_deviation(unworn) if unworn.size else found.noise
+    up = margin & (fine < 0)
+    ridges: Mask = ndimage.binary_propagation(up & (fine < -DEEP * noise), mask=up)
+    return ridges
 
 
 def _largest(depth: Array, marked: Mask) -> Mask:
