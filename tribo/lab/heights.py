@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import scipy.ndimage as ndimage
-from scipy.interpolate import griddata
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, TriboWarning
@@ -168,17 +167,35 @@ def smoothed(heights: Array, width: float = BLUR) -> Array:
 
 
 def interpolated(heights: Array, wanted: Mask) -> Array:
-    """Return heights with those wanted from straight lines between known ones around them.
+    """Return heights with those wanted from straight lines along x and y between known ones.
 
-    Outside of the hull of what is known, as at the map's edge, the nearest is taken.
+    A line counts by the inverse square of its error in a curved surface. Where known ones lie on
+    one side of both lines at most, as at the map's edge, the nearest is taken.
     """
+    total, weight = np.zeros((2, *heights.shape))
+    for turned in (False, True):
+        values, counts = _along_rows(heights.T if turned else heights)
+        total += (values * counts).T if turned else values * counts
+        weight += counts.T if turned else counts
     whole = heights.copy()
-    rim = ndimage.binary_dilation(wanted, iterations=2) & np.isfinite(heights)
-    places, missing = np.argwhere(rim), np.argwhere(wanted)
-    methods = ["nearest"]
-    if len(places) >= 4 and np.min(np.ptp(places, axis=0)) > 0:
-        methods.append("linear")
-    for method in methods if len(missing) else ():
-        values = griddata(places, heights[rim], missing, method=method)
-        whole[wanted] = np.where(np.isfinite(values), values, whole[wanted])
+    between = wanted & (weight > 0)
+    whole[between] = total[between] / weight[between]
+    beyond = wanted & (weight == 0)
+    if beyond.any():
+        whole[beyond] = nearest_filled(whole)[beyond]
     return whole
+
+
+def _along_rows(heights: Array) -> tuple[Array, Array]:
+    """Return heights on straight lines between known ones of a row, and how much each counts."""
+    rows, place = np.indices(heights.shape)
+    known, last = np.isfinite(heights), heights.shape[1] - 1
+    before = np.maximum.accumulate(np.where(known, place, -1), axis=1)
+    after = np.minimum.accumulate(np.where(known, place, last + 1)[:, ::-1], axis=1)[:, ::-1]
+    between = (before >= 0) & (after <= last)
+    ends = [heights[rows, np.clip(end, 0, last)] for end in (before, after)]
+    left, right = place - before, after - place
+    part = left / np.maximum(left + right, 1)
+    # The error of a chord of a parabola is the product of the distances to its ends.
+    counts = np.where(between, 1 / np.maximum(left * right, 1) ** 2, 0.0)
+    return np.where(between, ends[0] + part * (ends[1] - ends[0]), 0.0), counts

@@ -96,7 +96,8 @@ def sum_uncertainty(found: Registration, scar: Mask) -> float:
         sigma = np.where(around > 0.1, spread, sigma)
     holes, count = ndimage.label(missing)
     sizes = np.bincount(holes.ravel(), minlength=count + 1)[holes]
-    # In a round hole the mean square of the distance to what is known is a sixth of its radius'.
-    disk = 6 * np.pi * ndimage.distance_transform_edt(np.isnan(found.depth)) ** 2
+    # In a round hole the mean square of the distance to what is known is a sixth of its radius';
+    # twice that, as the rim of a wide one goes with the rest.
+    disk = 12 * np.pi * ndimage.distance_transform_edt(np.isnan(found.depth)) ** 2
     of_holes = np.sum((sigma**2 * np.minimum(sizes, disk))[missing])
     return math.sqrt(max(of_fit, 0.0) + of_noise + float(of_holes))

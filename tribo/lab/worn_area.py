@@ -117,7 +117,7 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
 
 
 def _thin_ridges(found: Registration, margin: Mask) -> Mask:
-    """Return what stands up in the margin of a scar, too thin for `_largest`, and more than noise."""
+    """Return what stands up in the margin of a scar beyond noise, too thin for `_largest`."""
     fine = smoothed(found.depth, FINE)
     unworn = fine[found.unworn]
     noise = robust_deviation(unworn) if unworn.size else found.noise
