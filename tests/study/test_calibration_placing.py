@@ -12,7 +12,7 @@ from scipy.stats import binom
 from tribo.cli.fitted import data_table
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
-from tribo.core.errors import NumericalError, OutOfWindow
+from tribo.core.errors import NumericalError, OutOfWindow, TriboError
 from tribo.lab.heights import Heights
 from tribo.simulation.run import Simulation
 from tribo.study.calibration import mapped
@@ -299,3 +299,26 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
         assert "the map of 'ball' lies 0.3 µm above 0" in level
     np.save(tmp_path / "map.npy", worn)
     assert not calibrate_maps(CASE, {"map.0": entry.model_copy(update={"centred": True})}).notes
+
+
+@pytest.mark.parametrize(
+    ("scale", "words"),
+    [
+        (-1.0, r"map\.0\.depth: the depths are negative"),
+        (
+            400.0,
+            r"map\.0\.depth: the largest depth was read as .* case gives .*depths in m",
+        ),
+        (1.0, r"check the maps' pitch, level and uncertainty, .*; no step"),
+    ],
+)
+def test_a_map_that_is_not_of_the_case_is_told(worn, tmp_path, monkeypatch, scale, words):
+    def failing(*given, **named):
+        raise NumericalError("no step")
+
+    monkeypatch.setattr(mapped, "fit_maps", failing)
+    np.save(tmp_path / "map.npy", scale * worn)
+    entry = {"body": "ball", "depth": str(tmp_path / "map.npy"), "pitch": PITCH}
+    entry = MapEntry(**entry, uncertainty=NOISE, length=1e-4)
+    with pytest.raises(TriboError, match=words):
+        calibrate_maps(CASE, {"map.0": entry})

@@ -110,7 +110,7 @@ def _write(found: MeasuredScar, path: Path, shape: tuple[int, ...]) -> Path:
 
     Return the file.
     """
-    if path.suffix == ".npy":
+    if path.suffix.lower() == ".npy":
         import numpy as np
 
         # The middle of the map stays where it is, which is that of the contact in a fit.
@@ -122,9 +122,12 @@ def _write(found: MeasuredScar, path: Path, shape: tuple[int, ...]) -> Path:
     from tribo.plotting.figures import write_figures
     from tribo.plotting.scar import measured_scar_map
 
-    (picture,) = write_figures(
-        {path.stem: lambda: measured_scar_map(found)}, path.parent, path.suffix or ".png"
-    )
+    try:
+        (picture,) = write_figures(
+            {path.stem: lambda: measured_scar_map(found)}, path.parent, path.suffix or ".png"
+        )
+    except CaseError as error:
+        raise CaseError(f"{error}; or give a .npy file for the depth map") from None
     return picture
 
 

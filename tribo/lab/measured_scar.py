@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, TriboWarning
@@ -208,7 +207,7 @@ def measured_scar(
     volume = area * float(np.sum(depth[scar]))
     if worn.cut_off:
         warn_of_edge(within=max(np.subtract(shape, found.depth.shape)) > MARGIN)
-    several = 1 if worn.track else ndimage.label(scar)[1]
+    several = 1 if worn.track else worn.count
     if several > 1:
         warn_of_several(several)
     if worn.is_ring:

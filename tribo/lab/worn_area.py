@@ -41,6 +41,8 @@ class WornArea:
         Pixels that were measured; that are worn beyond doubt; the whole scar; what stands up.
     noise : float
         Standard deviation of the smoothed depths of what is unworn, in m.
+    count : int
+        Number of areas apart from each other.
     is_open : list of bool
         Whether it reaches both edges of the map, along x and along y.
     cut_off : bool
@@ -59,6 +61,7 @@ class WornArea:
     scar: Mask
     piled: Mask
     noise: float
+    count: int
     is_open: list[bool]
     cut_off: bool
     is_ring: bool
@@ -96,6 +99,7 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         depth = np.where(known, found.depth, smooth)
         band, track, length = track_across(depth, core, found.worn, noise, axis, pitch)
         scar = ndimage.binary_dilation(band, iterations=MARGIN, mask=band | ~piled)
+    _, count = ndimage.label(scar)
     # Smoothing has the scar's edge lie within such a ridge.
     thin = _thin_ridges(found, scar & ~ndimage.binary_erosion(core, iterations=MARGIN))
     scar = ndimage.binary_propagation(core & ~thin, mask=scar & ~thin)
@@ -108,6 +112,7 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         scar=scar,
         piled=ndimage.binary_dilation(piled | thin, iterations=MARGIN) & ~scar,
         noise=noise,
+        count=count,
         is_open=is_open,
         cut_off=_is_cut_off(deep, known, is_open),
         is_ring=bool(np.count_nonzero(enclosed) > ENCLOSED * np.count_nonzero(core)),

@@ -12,13 +12,15 @@ import numpy as np
 from tribo.case import Case
 from tribo.config.load import case_tables, validate_case
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, located
+from tribo.core.errors import CaseError, NumericalError, located
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import on_cells, read_map
+from tribo.study.calibration.doubts import REFUSED
 from tribo.study.calibration.map_notes import off_level, off_middle, off_turn
 from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
-from tribo.study.calibration.measured import MapEntry
+from tribo.study.calibration.measured import MapEntry, data_error
+from tribo.study.calibration.quantities import DEPTH_MAP, in_si
 from tribo.study.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes
 from tribo.study.gradient.objective import View
 from tribo.study.variation import unknown_body
@@ -59,16 +61,35 @@ def calibrate_maps(
                 shift = find_shift(heights, worn, spacing, entry.uncertainty, 0.0)
                 far = [PRIOR_SHIFT * size for size in model.grid.size]
             depth, noise = on_cells(heights, worn.shape, spacing, shift.shift)
+            _check(depth[np.isfinite(depth)], entry.uncertainty, float(np.max(worn)))
         depths[entry.body], placed[entry.body] = (depth, entry.uncertainty * noise), far
         priors[entry.body] = Prior(entry.spread, entry.length)
         read.append(_Read(entry, depth, worn, shift.shift))
-    found = fit_maps(model, depths, priors, placed=placed, on_run=on_run)
+    try:
+        found = fit_maps(model, depths, priors, placed=placed, on_run=on_run)
+    except NumericalError as error:
+        raise type(error)(
+            f"the fit went too far from the case to be computed: check the maps' pitch, level and "
+            f"uncertainty, and the coefficients of the case; {error}"
+        ) from error
     remarks = (
         remark
         for each in read
         for remark in each.remarks(found.maps[each.entry.body].off, model.grid.spacing)
     )
     return replace(found, remarks=tuple(remarks))
+
+
+def _check(depths: Array, sigma: float, worn: float) -> None:
+    """Check that measured depths may be those of the case, whose largest is `worn`."""
+    if error := data_error(DEPTH_MAP, sigma, depths):
+        raise CaseError(error)
+    largest = float(np.max(depths))
+    if worn > 0 and not worn / REFUSED < max(largest, sigma) < worn * REFUSED:
+        raise CaseError(
+            f"the largest depth was read as {in_si(largest, 'm')}, and the case gives "
+            f"{in_si(worn, 'm')}: check the file, which has depths in m, and the case"
+        )
 
 
 class _Read(NamedTuple):

@@ -169,7 +169,7 @@ class MeasuredEntry(Table):
                 "say how well it was measured: uncertainty (a standard deviation), resolution, "
                 "or both"
             )
-        if error := data_error(self, self.values):
+        if error := data_error(self.quantity, self.sigma, self.values):
             raise ValueError(error)
         return self
 
@@ -228,16 +228,16 @@ def _check_gaps(values: Any, what: str) -> None:
             )
 
 
-def data_error(entry: MeasuredEntry, values: Array) -> str:
+def data_error(quantity: str, sigma: float, values: Array) -> str:
     """Return why values cannot be right: too exact, or depths negative in the mean; else empty."""
     mean, largest = float(np.mean(values)), float(np.max(np.abs(values)))
-    if entry.sigma < LEAST_UNCERTAINTY * largest:
+    if sigma < LEAST_UNCERTAINTY * largest:
         return (
-            f"known to {in_words(entry.quantity, entry.sigma)}, less than a millionth of "
-            f"{in_words(entry.quantity, largest)}: no run is that exact; check the "
+            f"known to {in_words(quantity, sigma)}, less than a millionth of "
+            f"{in_words(quantity, largest)}: no run is that exact; check the "
             "uncertainty, and the units of both"
         )
-    if not mean < -_SIGNIFICANT * entry.sigma / np.sqrt(len(values)):
+    if not mean < -_SIGNIFICANT * sigma / np.sqrt(len(values)):
         return ""
     return (
         f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards from "
