@@ -302,17 +302,14 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
 
 
 @pytest.mark.parametrize(
-    ("scale", "words"),
+    ("scale", "k", "words"),
     [
-        (-1.0, r"map\.0\.depth: the depths are negative"),
-        (
-            350.0,
-            r"map\.0\.depth: the largest depth was read as .* case gives .*depths in m",
-        ),
-        (1.0, r"check the maps' pitch, level and uncertainty, .*; no step"),
+        (-1.0, TRUE, r"map\.0\.depth: the depths are negative"),
+        (1.0, 1e-3 * TRUE, r"map\.0\.depth: the largest depth was read as .* gives .*depths in m"),
+        (1.0, TRUE, r"check the maps' pitch, level and uncertainty, .*; no step"),
     ],
 )
-def test_a_map_that_is_not_of_the_case_is_told(worn, tmp_path, monkeypatch, scale, words):
+def test_a_map_that_is_not_of_the_case_is_told(worn, tmp_path, monkeypatch, scale, k, words):
     def failing(*given, **named):
         raise NumericalError("no step")
 
@@ -321,4 +318,4 @@ def test_a_map_that_is_not_of_the_case_is_told(worn, tmp_path, monkeypatch, scal
     entry = {"body": "ball", "depth": str(tmp_path / "map.npy"), "pitch": PITCH}
     entry = MapEntry(**entry, uncertainty=NOISE, length=1e-4)
     with pytest.raises(TriboError, match=words):
-        calibrate_maps(CASE, {"map.0": entry})
+        calibrate_maps(apply_settings(CASE, {K: k}), {"map.0": entry})
