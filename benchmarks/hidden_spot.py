@@ -34,7 +34,8 @@ from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
 from tribo.simulation.positions import composed
 from tribo.study.calibration.cells import cell_means
-from tribo.study.calibration.maps import Prior, fit_maps
+from tribo.study.calibration.maps import fit_maps
+from tribo.study.calibration.prior import Prior
 from tribo.study.calibration.scar_shift import PRIOR_SHIFT
 from tribo.study.gradient.local import localised
 

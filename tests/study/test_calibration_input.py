@@ -36,6 +36,18 @@ def changed(**changes):
     return {key: value for key, value in {**GOOD, **changes}.items() if value is not None}
 
 
+def test_an_uncertainty_may_be_a_part_of_each_value():
+    entry = changed(value=["2 mg", "3 mg"], uncertainty="5 %", resolution="0.1 mg")
+    table = read_measurements({"measured": [entry]}).table()
+    step = 1e-7 / 6**0.5
+    assert table["sigma"].to_list() == pytest.approx(
+        [(1e-14 + step**2) ** 0.5, (2.25e-14 + step**2) ** 0.5], rel=1e-9, abs=0
+    )
+    weighed = changed(value=None, before="2.5 g", after="2.498 g", uncertainty="5 %")
+    (sigma,) = read_measurements({"measured": [weighed]}).table()["sigma"]
+    assert sigma == pytest.approx(1e-7, rel=1e-6, abs=0)
+
+
 def test_every_quantity_can_be_asked_for():
     assert set(get_args(MeasuredEntry.model_fields["quantity"].annotation)) == set(QUANTITIES)
 
@@ -52,6 +64,14 @@ def test_every_quantity_can_be_asked_for():
         ),
         ({"uncertainty": "0.1 mm"}, ".0.uncertainty", "is a length [m]"),
         ({"uncertainty": "-0.1 mg"}, ".0.uncertainty", "must be greater than 0"),
+        ({"uncertainty": "0 %"}, ".0.uncertainty", "is above 0 % and below 100 %"),
+        ({"uncertainty": "few %"}, ".0.uncertainty", "is no number of per cent; write '5 %'"),
+        ({"uncertainty": "5 %", "value": None}, ".0", "0.05 of a value that is not given; to plan"),
+        (
+            PROFILE | {"position": [0], "value": ["1 um"], "uncertainty": "5 %"},
+            ".0.uncertainty",
+            "of depths at many places give it with a unit",
+        ),
         (
             {"value": "-2 mg"},
             ".0.value",

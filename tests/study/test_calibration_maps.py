@@ -23,8 +23,9 @@ from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import on_cells
 from tribo.study.calibration.mapped import calibrate_maps
-from tribo.study.calibration.maps import Prior, _Posterior, fit_maps
+from tribo.study.calibration.maps import _Posterior, fit_maps
 from tribo.study.calibration.measured import MapEntry, read_measurements
+from tribo.study.calibration.prior import Prior
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.objective import View
 

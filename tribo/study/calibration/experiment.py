@@ -25,12 +25,9 @@ from tribo.study.calibration.cells import (
     read_map,
     surface_shape,
 )
+from tribo.study.calibration.exactness import data_error
 from tribo.study.calibration.linearised import Problem
-from tribo.study.calibration.measured import (
-    Measurements,
-    data_error,
-    read_measurements,
-)
+from tribo.study.calibration.measured import Measurements, read_measurements
 from tribo.study.calibration.parameters import Parameter, check_set, find_parameters
 from tribo.study.calibration.quantities import (
     AXES,
@@ -152,7 +149,7 @@ class Experiment:
         """Return a row of the table for each block of cells of a map."""
         (each,) = row.itertuples()
         depth, noise = self.on_cells(each.Index, shift)
-        if error := data_error(DEPTH_MAP, each.entry.sigma, depth[np.isfinite(depth)]):
+        if error := data_error(DEPTH_MAP, float(each.entry.sigma), depth[np.isfinite(depth)]):
             raise CaseError(error, f"{each.place}.depth")
         blocks = block_means(depth, noise, self.setups[each.setup].model.grid.spacing)
         if each.entry.depth is None:

@@ -17,9 +17,11 @@ from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import on_cells, read_map
 from tribo.study.calibration.doubts import REFUSED
+from tribo.study.calibration.exactness import data_error
 from tribo.study.calibration.map_notes import off_level, off_middle, off_turn
-from tribo.study.calibration.maps import FittedMaps, Prior, fit_maps
-from tribo.study.calibration.measured import MapEntry, data_error
+from tribo.study.calibration.maps import FittedMaps, fit_maps
+from tribo.study.calibration.measured import MapEntry
+from tribo.study.calibration.prior import Prior
 from tribo.study.calibration.quantities import DEPTH_MAP, in_si
 from tribo.study.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes
 from tribo.study.gradient.objective import View

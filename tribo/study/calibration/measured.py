@@ -23,7 +23,8 @@ from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.study.calibration.quantities import DEPTH_MAP, PROFILES, QUANTITIES, in_words
+from tribo.study.calibration.exactness import Part, data_error, part_of
+from tribo.study.calibration.quantities import DEPTH_MAP, PROFILES, QUANTITIES
 from tribo.study.sweeping.study_file import by_path
 
 
@@ -42,10 +43,6 @@ BesideFile = Annotated[str, AfterValidator(_beside)]
 ENTRIES = "entries [[measured]]"
 LOCAL = "local coefficients are fitted to maps of one test: give [[map]] in a file of its own"
 UNSEEN = "what was too little to be seen is given as a limit, '< 0.1 mg' say"
-LEAST_UNCERTAINTY = 1e-6
-"""Smallest relative uncertainty."""
-_SIGNIFICANT = 3.0
-"""Standard deviations by which a mean depth below 0 is not noise."""
 
 
 class MeasuredEntry(Table):
@@ -82,7 +79,7 @@ class MeasuredEntry(Table):
     pitch: Annotated[float, Quantity("m", above=0)] | None = None
     """Pixel pitch of a depth map."""
     uncertainty: float | None = None
-    """Standard deviation; of a profile that of each depth, of a map that of each cell."""
+    """Standard deviation, or a `Part`; of a profile that of each depth, of a map of each cell."""
     resolution: float | None = None
     """Smallest step that the instrument shows."""
     time: Annotated[float, Quantity("s", above=0)] | None = None
@@ -101,6 +98,8 @@ class MeasuredEntry(Table):
         def read(part: object) -> float:
             if is_value and isinstance(part, str) and part.lstrip().startswith(">"):
                 raise CaseError(f"{part!r}: only '<' marks a limit of detection, as '< 0.1 mg'")
+            if info.field_name == "uncertainty" and isinstance(part, str) and part.endswith("%"):
+                return part_of(part, name)
             is_limit = isinstance(part, str) and part.lstrip().startswith("<")
             if is_limit and is_value and not is_profile:
                 return Below(mark.read(str(part).lstrip()[1:].strip()))
@@ -169,7 +168,12 @@ class MeasuredEntry(Table):
                 "say how well it was measured: uncertainty (a standard deviation), resolution, "
                 "or both"
             )
-        if error := data_error(self.quantity, self.sigma, self.values):
+        if isinstance(self.uncertainty, Part) and np.isnan(self.values).any():
+            raise ValueError(
+                f"uncertainty: {self.uncertainty:.3g} of a value that is not given; to plan tests, "
+                "give it with a unit"
+            )
+        if error := data_error(self.quantity, float(np.min(self.sigma)), self.values):
             raise ValueError(error)
         return self
 
@@ -214,9 +218,12 @@ class MeasuredEntry(Table):
         return step * np.sqrt(readings / 12), step * readings / 2
 
     @property
-    def sigma(self) -> float:
+    def sigma(self) -> Array | float:
         """Standard deviation of each value, from uncertainty and resolution."""
-        return float(np.hypot(self.uncertainty or 0.0, self.from_resolution[0]))
+        own: Array | float = self.uncertainty or 0.0
+        if isinstance(self.uncertainty, Part):
+            own = self.uncertainty * self.values
+        return np.hypot(own, self.from_resolution[0])
 
 
 def _check_gaps(values: Any, what: str) -> None:
@@ -226,23 +233,6 @@ def _check_gaps(values: Any, what: str) -> None:
             raise ValueError(
                 f"entry {number} of {len(values)} is {each}; leave that {what} out of each list"
             )
-
-
-def data_error(quantity: str, sigma: float, values: Array) -> str:
-    """Return why values cannot be right: too exact, or depths negative in the mean; else empty."""
-    mean, largest = float(np.mean(values)), float(np.max(np.abs(values)))
-    if sigma < LEAST_UNCERTAINTY * largest:
-        return (
-            f"known to {in_words(quantity, sigma)}, less than a millionth of "
-            f"{in_words(quantity, largest)}: no run is that exact; check the "
-            "uncertainty, and the units of both"
-        )
-    if not mean < -_SIGNIFICANT * sigma / np.sqrt(len(values)):
-        return ""
-    return (
-        f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards from "
-        "the unworn surface, positive where it is worn: turn the sign round, or level them"
-    )
 
 
 class FitEntry(Table):

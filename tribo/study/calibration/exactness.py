@@ -1,0 +1,48 @@
+"""How exactly values were measured."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.study.calibration.quantities import FIELDS, in_words
+
+LEAST_UNCERTAINTY = 1e-6
+"""Smallest relative uncertainty."""
+_SIGNIFICANT = 3.0
+"""Standard deviations by which a mean depth below 0 is not noise."""
+
+
+class Part(float):
+    """An uncertainty as a part of each value, as ``"5 %"``."""
+
+
+def part_of(text: str, quantity: str) -> Part:
+    """Return the part of a value that a text in per cent says; CaseError if it cannot be one."""
+    if quantity in FIELDS:
+        raise CaseError(f"{text!r}: of depths at many places give it with a unit, as '10 nm'")
+    try:
+        part = float(text[:-1]) / 100
+    except ValueError:
+        raise CaseError(f"{text!r} is no number of per cent; write '5 %'") from None
+    if not 0 < part < 1:
+        raise CaseError(f"{text!r}: an uncertainty is above 0 % and below 100 %")
+    return Part(part)
+
+
+def data_error(quantity: str, sigma: float, values: Array) -> str:
+    """Return why values cannot be right: too exact, or depths negative in the mean; else empty."""
+    mean, largest = float(np.mean(values)), float(np.max(np.abs(values)))
+    if sigma < LEAST_UNCERTAINTY * largest:
+        return (
+            f"known to {in_words(quantity, sigma)}, less than a millionth of "
+            f"{in_words(quantity, largest)}: no run is that exact; check the "
+            "uncertainty, and the units of both"
+        )
+    if not mean < -_SIGNIFICANT * sigma / np.sqrt(len(values)):
+        return ""
+    return (
+        f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards from "
+        "the unworn surface, positive where it is worn: turn the sign round, or level them"
+    )
