@@ -380,6 +380,25 @@ def test_a_thin_low_ridge_along_the_edge_is_not_taken_off_the_volume(wide, heigh
     assert found.piled_up == pytest.approx(np.sum(ridge) * PITCH**2, rel=0.1, abs=0)
 
 
+@pytest.mark.parametrize("kind", ["relief", "outliers"])
+def test_neither_the_relief_of_a_worn_surface_nor_outliers_are_ridges_at_its_edge(kind):
+    before, after, lost = pair(sq=30e-9, noise=3e-9, shift=(0, 0), turn=0, missing=0.0)
+    off, piled = [], []
+    for seed in range(6):
+        random = np.random.default_rng(seed)
+        more, noise = np.zeros(lost.shape), 10e-9 * random.normal(size=lost.shape)
+        if kind == "relief":
+            more, noise = 60e-9 * random.normal(size=(1, lost.shape[1])) * (lost > 0), 0.0
+        else:
+            noise[random.random(lost.shape) < 0.01] += 100e-9
+        found = measured_scar(before, Heights(after.heights + more + noise, after.pitch))
+        volume = np.sum(lost - more) * PITCH**2
+        off.append((found.volume - volume) / found.volume_uncertainty)
+        piled.append(found.piled_up / found.volume)
+    assert np.sqrt(np.mean(np.square(off))) < 1.8
+    assert np.mean(piled) < 0.001
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_wide_low_ridges_along_a_track_are_piled_up_and_no_noise(seed):
     """They are as wide as a third of what is unworn, 5 times as high as the noise of a pixel."""

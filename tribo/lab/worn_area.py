@@ -23,6 +23,10 @@ ENCLOSED = 0.1
 """Part of a scar within its outline from which on what is not worn makes a ring of it."""
 FINE = 0.7
 """Width of the Gaussian that a ridge of a few pixels is seen after, in pixels."""
+RELIEF = 1.0
+"""That against which the relief of a worn surface is told, but not its curvature."""
+RIDGE = 4
+"""Pixels of such a ridge beyond noise, at least; fewer are outliers."""
 ALONG = 0.1
 """Part of its length that a track may run along the edge of the map."""
 MARGIN = 4
@@ -101,7 +105,7 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         scar = ndimage.binary_dilation(band, iterations=MARGIN, mask=band | ~piled)
     _, count = ndimage.label(scar)
     # Smoothing has the scar's edge lie within such a ridge.
-    thin = _thin_ridges(found, scar & ~ndimage.binary_erosion(core, iterations=MARGIN))
+    thin = _thin_ridges(found, scar, core)
     scar = ndimage.binary_propagation(core & ~thin, mask=scar & ~thin)
     deep = core & (smooth > EDGE * np.max(smooth[core]))
     enclosed = ndimage.binary_fill_holes(deep) & ~deep & known
@@ -121,13 +125,19 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
     )
 
 
-def _thin_ridges(found: Registration, margin: Mask) -> Mask:
-    """Return what stands up in the margin of a scar beyond noise, too thin for `_largest`."""
-    fine = smoothed(found.depth, FINE)
+def _thin_ridges(found: Registration, scar: Mask, core: Mask) -> Mask:
+    """Return what stands up in the margin of a scar, too thin for `_largest`.
+
+    Beyond noise, and beyond the relief of the worn surface, whose tops are no ridges.
+    """
+    fine, inner = smoothed(found.depth, FINE), ndimage.binary_erosion(core, iterations=MARGIN)
     unworn = fine[found.unworn]
     noise = robust_deviation(unworn) if unworn.size else found.noise
-    up = margin & (fine < 0)
-    ridges: Mask = ndimage.binary_propagation(up & (fine < -DEEP * noise), mask=up)
+    noise = max(noise, robust_deviation((fine - smoothed(found.depth, RELIEF))[inner]))
+    up = scar & ~inner & (fine < 0)
+    tops, count = ndimage.label(up & (fine < -DEEP * noise), np.ones((3, 3)))
+    sizes = np.bincount(tops.ravel(), minlength=count + 1)
+    ridges: Mask = ndimage.binary_propagation((tops > 0) & (sizes[tops] >= RIDGE), mask=up)
     return ridges
 
 
