@@ -589,7 +589,7 @@ def test_the_command_measures_and_draws(tmp_path):
     files = [str(tmp_path / name) for name in ("before.npy", "after.csv")]
     picture = tmp_path / "scar.png"
     given = [*files, "--pitch", "1 um", "--radius", "5 mm", "-o", str(picture)]
-    given += ["-o", str(tmp_path / "depth.npy")]
+    given += ["-o", str(tmp_path / "depth.NPY")]
     done = CliRunner().invoke(command, given, catch_exceptions=False)
     volume = 1e9 * np.sum(lost) * PITCH**2
     assert float(done.output.split("volume in the map, mm³")[1].split()[0]) == pytest.approx(
@@ -599,7 +599,7 @@ def test_the_command_measures_and_draws(tmp_path):
         assert words in done.output
     assert picture.stat().st_size > 10_000
     assert done.output.count("Wrote ") == 2
-    depth = np.load(tmp_path / "depth.npy")
+    depth = np.load(tmp_path / "depth.NPY")
     # Whole, so that its middle is that of the map after.
     assert depth.shape == after.heights.shape
     assert np.nansum(depth) == pytest.approx(np.sum(lost), rel=0.1)

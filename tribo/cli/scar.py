@@ -116,8 +116,9 @@ def _write(found: MeasuredScar, path: Path, shape: tuple[int, ...]) -> Path:
         # The middle of the map stays where it is, which is that of the contact in a fit.
         depths = np.full(shape, np.nan)
         depths[found.registration.part] = found.depths
-        with writing(path):
-            np.save(path, depths)
+        # To a file, as NumPy adds .npy to a name that ends in .NPY.
+        with writing(path), path.open("wb") as file:
+            np.save(file, depths)
         return path
     from tribo.plotting.figures import write_figures
     from tribo.plotting.scar import measured_scar_map
