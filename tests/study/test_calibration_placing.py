@@ -302,20 +302,29 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
 
 
 @pytest.mark.parametrize(
-    ("scale", "k", "words"),
+    ("scale", "k", "uncertainty", "words"),
     [
-        (-1.0, TRUE, r"map\.0\.depth: the depths are negative"),
-        (1.0, 1e-3 * TRUE, r"map\.0\.depth: the largest depth was read as .* gives .*depths in m"),
-        (1.0, TRUE, r"check the maps' pitch, level and uncertainty, .*; no step"),
+        (-1.0, TRUE, NOISE, r"map\.0\.depth: the depths are negative"),
+        (
+            1.0,
+            1e-3 * TRUE,
+            NOISE,
+            r"map\.0\.depth: the largest depth was read as .* gives .*depths in m",
+        ),
+        (1.0, TRUE, NOISE, r"check the maps' pitch, level and uncertainty, .*; no step"),
+        (1.0, 0.0, NOISE, r"map\.0\.body: 'ball' does not wear in this case"),
+        (1.0, TRUE, 20e-3, r"map\.0\.uncertainty: 0\.02 m is over 300 times the largest depth"),
     ],
 )
-def test_a_map_that_is_not_of_the_case_is_told(worn, tmp_path, monkeypatch, scale, k, words):
+def test_a_map_that_is_not_of_the_case_is_told(
+    worn, tmp_path, monkeypatch, scale, k, uncertainty, words
+):
     def failing(*given, **named):
         raise NumericalError("no step")
 
     monkeypatch.setattr(mapped, "fit_maps", failing)
     np.save(tmp_path / "map.npy", scale * worn)
     entry = {"body": "ball", "depth": str(tmp_path / "map.npy"), "pitch": PITCH}
-    entry = MapEntry(**entry, uncertainty=NOISE, length=1e-4)
+    entry = MapEntry(**entry, uncertainty=uncertainty, length=1e-4)
     with pytest.raises(TriboError, match=words):
         calibrate_maps(apply_settings(CASE, {K: k}), {"map.0": entry})

@@ -47,9 +47,15 @@ def calibrate_maps(
             raise unknown_body(entry.body, model.bodies, f"{place}.body")
         if entry.body in depths:
             raise CaseError(f"{entry.body!r} has two maps; give one", place)
-        if entry.body not in model.laws:
-            raise CaseError(f"{entry.body!r} does not wear in this case", f"{place}.body")
         spacing, worn = model.grid.spacing, clean.wear(entry.body)
+        if entry.body not in model.laws or not np.any(worn):
+            raise CaseError(f"{entry.body!r} does not wear in this case", f"{place}.body")
+        if entry.uncertainty > REFUSED * np.max(worn):
+            raise CaseError(
+                f"{in_si(entry.uncertainty, 'm')} is over {REFUSED:g} times the largest depth of "
+                f"the case, {in_si(float(np.max(worn)), 'm')}: check its unit, and the case",
+                f"{place}.uncertainty",
+            )
         if entry.length < min(spacing):
             raise CaseError(
                 f"{1e6 * entry.length:.3g} µm is less than a cell, {1e6 * min(spacing):.3g} µm: "
@@ -87,7 +93,7 @@ def _check(depths: Array, sigma: float, worn: float) -> None:
     if error := data_error(DEPTH_MAP, sigma, depths):
         raise CaseError(error)
     largest = float(np.max(depths))
-    if worn > 0 and not worn / REFUSED < max(largest, sigma) < worn * REFUSED:
+    if not worn / REFUSED < max(largest, sigma) < worn * REFUSED:
         raise CaseError(
             f"the largest depth was read as {in_si(largest, 'm')}, and the case gives "
             f"{in_si(worn, 'm')}: check the file, which has depths in m, and the case"
