@@ -37,7 +37,7 @@ def changed(**changes):
 
 
 def test_an_uncertainty_may_be_a_part_of_each_value():
-    entry = changed(value=["2 mg", "3 mg"], uncertainty="5 %", resolution="0.1 mg")
+    entry = changed(value=["2 mg", "3 mg"], uncertainty="5 % ", resolution="0.1 mg")
     table = read_measurements({"measured": [entry]}).table()
     step = 1e-7 / 6**0.5
     assert table["sigma"].to_list() == pytest.approx(
@@ -66,7 +66,7 @@ def test_every_quantity_can_be_asked_for():
         ({"uncertainty": "-0.1 mg"}, ".0.uncertainty", "must be greater than 0"),
         ({"uncertainty": "0 %"}, ".0.uncertainty", "is above 0 % and below 100 %"),
         ({"uncertainty": "few %"}, ".0.uncertainty", "is no number of per cent; write '5 %'"),
-        ({"uncertainty": "5 %", "value": None}, ".0", "0.05 of a value that is not given; to plan"),
+        ({"uncertainty": "5 %", "value": None}, ".0", "5 % of a value that is not given; to plan"),
         (
             PROFILE | {"position": [0], "value": ["1 um"], "uncertainty": "5 %"},
             ".0.uncertainty",

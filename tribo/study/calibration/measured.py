@@ -98,8 +98,8 @@ class MeasuredEntry(Table):
         def read(part: object) -> float:
             if is_value and isinstance(part, str) and part.lstrip().startswith(">"):
                 raise CaseError(f"{part!r}: only '<' marks a limit of detection, as '< 0.1 mg'")
-            if info.field_name == "uncertainty" and isinstance(part, str) and part.endswith("%"):
-                return part_of(part, name)
+            if info.field_name == "uncertainty" and str(part).rstrip().endswith("%"):
+                return part_of(str(part).strip(), name)
             is_limit = isinstance(part, str) and part.lstrip().startswith("<")
             if is_limit and is_value and not is_profile:
                 return Below(mark.read(str(part).lstrip()[1:].strip()))
@@ -170,8 +170,8 @@ class MeasuredEntry(Table):
             )
         if isinstance(self.uncertainty, Part) and np.isnan(self.values).any():
             raise ValueError(
-                f"uncertainty: {self.uncertainty:.3g} of a value that is not given; to plan tests, "
-                "give it with a unit"
+                f"uncertainty: {100 * self.uncertainty:.3g} % of a value that is not given; to "
+                "plan tests, give it with a unit"
             )
         if error := data_error(self.quantity, float(np.min(self.sigma)), self.values):
             raise ValueError(error)
