@@ -116,6 +116,7 @@ class _Read(NamedTuple):
             shift[axis] = self.shift[axis] + further
         moved = sum(shift[axis] * slope for axis, slope in along.items())
         if np.std(np.asarray(moved)[self.worn > 0]) > noise:
-            yield from off_middle(name, ScarShift((shift[0], shift[1])))
+            for note in off_middle(name, ScarShift((shift[0], shift[1]))):
+                yield f"{note}, as far as a coefficient that differs from side to side lets it tell"
         yield from off_level(name, self.depth, self.worn, noise)
         yield from off_turn(name, self.depth, self.worn)
