@@ -71,13 +71,12 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
     least, without_progress, outgrown = np.inf, 0, None
     for rounds in range(1, MOST_ROUNDS + 1):  # noqa: B007
         here, point = here.best()
-        before, predicted = here.residuals(here.point), here.residuals(point)
-        change = np.linalg.norm(predicted - before)
+        before = here.residuals(here.point)
+        change = np.linalg.norm(here.residuals(point) - before)
         if change > CONVERGED:
             point, responses, outgrown = _within(model, here.point, point)
-            if outgrown:
-                predicted = here.residuals(point)
-                change = np.linalg.norm(predicted - before)
+            predicted = here.residuals(point)
+            change = np.linalg.norm(predicted - before)
             residuals = problem.residuals(responses, here.weights)
             # Only the error in the column space of the Jacobian moves the next estimate.
             directions = np.linalg.svd(here.jacobian(point), full_matrices=False)[0]
