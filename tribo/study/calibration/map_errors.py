@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -22,9 +23,10 @@ class MapErrors:
 
     sigma: Array
     """Standard deviation of each cell, with that of the grid at a scar's edge, in m."""
+    far: Array
+    """Standard deviations of where the map lies along each axis of more than one cell, in m."""
     moves: Array
-    """Changes m of each measured cell, over its σ, by a standard deviation of where the map lies
-    along each axis, shape (axes, rows, ny)."""
+    """Changes m of each measured cell, over its σ, by these, shape (axes, rows, ny)."""
 
     @classmethod
     def of(
@@ -41,29 +43,34 @@ class MapErrors:
         """
         total = np.hypot(sigma, edge_sigma(worn, EDGE_CELL_SIGMA))
         along = slopes(cell_means(worn), spacing)
-        moves = np.array([placed[axis] * slope / total for axis, slope in along.items()])
-        return cls(total, np.where(np.isnan(depth), 0.0, moves))
+        far = np.array([placed[axis] for axis in along])
+        moves = np.array(
+            [each * slope / total for each, slope in zip(far, along.values(), strict=True)]
+        )
+        return cls(total, far, np.where(np.isnan(depth), 0.0, moves))
 
-    def places(self, off: Array) -> Array:
-        """Return where a map of these residuals lies, in standard deviations of that."""
-        whole = np.eye(len(self.moves)) + self._gram
-        return np.asarray(np.linalg.solve(whole, np.einsum("kij,ij->k", self.moves, off)))
+    def weighed(self, residuals: Array) -> Array:
+        """Return residuals weighed by the inverse of the covariance; over σ, 0 where missing."""
+        return residuals - self.moved(residuals)
 
-    def weighed(self, off: Array) -> Array:
-        """Return residuals over σ, 0 where missing, weighed by the inverse of the covariance."""
-        return np.asarray(off - np.einsum("k,kij->ij", self.places(off), self.moves))
+    def moved(self, residuals: Array) -> Array:
+        """Return the part of residuals that is due to where the map lies."""
+        return np.asarray(np.einsum("k,kij->ij", self._places(residuals), self.moves))
 
-    def moved(self, computed: Array, measured: Array) -> Array:
-        """Return computed depths as they are where the map lies."""
-        off = np.nan_to_num((computed - measured) / self.sigma)
-        return np.asarray(computed - self.sigma * (off - self.weighed(off)))
-
-    @property
-    def told(self) -> float:
-        """Degrees of freedom that the data tell of where the map lies."""
-        gram = self._gram
-        return float(np.trace(np.linalg.solve(np.eye(len(gram)) + gram, gram)))
+    def off(self, residuals: Array) -> tuple[float, ...]:
+        """Return how much further the scar lies than the map has it, along each axis, in m."""
+        return tuple(float(each) for each in self.far * self._places(residuals))
 
     @property
+    def degrees_of_freedom(self) -> float:
+        """How many numbers of where the map lies the data tell."""
+        return float(np.trace(np.linalg.solve(np.eye(len(self.far)) + self._gram, self._gram)))
+
+    def _places(self, residuals: Array) -> Array:
+        """Return where the map lies, in its standard deviations."""
+        along = np.einsum("kij,ij->k", self.moves, residuals)
+        return np.asarray(np.linalg.solve(np.eye(len(self.far)) + self._gram, along))
+
+    @cached_property
     def _gram(self) -> Array:
         return np.asarray(np.einsum("kij,lij->kl", self.moves, self.moves))

@@ -50,10 +50,11 @@ def calibrate_maps(
         spacing, worn = model.grid.spacing, clean.wear(entry.body)
         if entry.body not in model.laws or not np.any(worn):
             raise CaseError(f"{entry.body!r} does not wear in this case", f"{place}.body")
-        if entry.uncertainty > REFUSED * np.max(worn):
+        deepest = float(np.max(worn))
+        if entry.uncertainty > REFUSED * deepest:
             raise CaseError(
                 f"{in_si(entry.uncertainty, 'm')} is over {REFUSED:g} times the largest depth of "
-                f"the case, {in_si(float(np.max(worn)), 'm')}: check its unit, and the case",
+                f"the case, {in_si(deepest, 'm')}: check its unit, and the case",
                 f"{place}.uncertainty",
             )
         if entry.length < min(spacing):
@@ -69,7 +70,7 @@ def calibrate_maps(
                 shift = find_shift(heights, worn, spacing, entry.uncertainty, 0.0)
                 far = [PRIOR_SHIFT * size for size in model.grid.size]
             depth, noise = on_cells(heights, worn.shape, spacing, shift.shift)
-            _check(depth[np.isfinite(depth)], entry.uncertainty, float(np.max(worn)))
+            _check(depth[np.isfinite(depth)], entry.uncertainty, deepest)
         depths[entry.body], placed[entry.body] = (depth, entry.uncertainty * noise), far
         priors[entry.body] = Prior(entry.spread, entry.length)
         read.append(_Read(entry, depth, worn, shift.shift))
@@ -77,7 +78,7 @@ def calibrate_maps(
         found = fit_maps(model, depths, priors, placed=placed, on_run=on_run)
     except NumericalError as error:
         raise type(error)(
-            f"the fit went too far from the case to be computed: check the maps' pitch, level and "
+            "the fit went too far from the case to be computed: check the maps' pitch, level and "
             f"uncertainty, and the coefficients of the case; {error}"
         ) from error
     remarks = (

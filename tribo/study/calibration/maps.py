@@ -177,6 +177,7 @@ def fit_maps(
     )
     maps = {}
     for name, part in posterior.parts.items():
+        errors, off = posterior.errors[name], residuals[name]
         shape, prior = posterior.shapes[name], np.full(posterior.shapes[name], priors[name].spread)
         variance = prior**2 - reduction[part].reshape(shape)
         maps[name] = LocalMap(
@@ -185,19 +186,19 @@ def fit_maps(
             prior,
             posterior.model.grid.spacing,
             depths[name][0],
-            posterior.errors[name].moved(cell_means(fit.wear(name)), depths[name][0]),
-            posterior.errors[name].sigma,
-            posterior.off(name, residuals[name]),
+            cell_means(fit.wear(name)) - errors.sigma * errors.moved(off),
+            errors.sigma,
+            errors.off(off),
         )
-    read = sum(int(np.sum(~np.isnan(each))) for each in residuals.values())
-    told_of_places = sum(each.told for each in posterior.errors.values())
+    read = sum(int(np.sum(~np.isnan(depth))) for depth, _ in depths.values())
+    of_places = sum(each.degrees_of_freedom for each in posterior.errors.values())
     made = int(np.sum(np.isnan(misfits)))
     return FittedMaps(
         maps=maps,
         gradients=len(misfits) - made,
         products=made,
         chi_square=2 * posterior.misfit(fit)[0],
-        degrees_of_freedom=read - float(np.sum(values / (1 + values))) - told_of_places,
+        degrees_of_freedom=read - float(np.sum(values / (1 + values))) - of_places,
     )
 
 
@@ -330,27 +331,20 @@ class _Posterior:
         }
 
     def residuals(self, view: View) -> dict[str, Array]:
-        """Return the computed less the measured depths, in standard deviations."""
+        """Return computed less measured depths, in standard deviations; 0 where missing."""
         return {
-            name: (cell_means(view.wear(name)) - depth) / self.errors[name].sigma
+            name: np.nan_to_num((cell_means(view.wear(name)) - depth) / self.errors[name].sigma)
             for name, (depth, _) in self.depths.items()
         }
-
-    def off(self, name: str, residuals: Array) -> tuple[float, ...]:
-        """Return how much further a scar lies than its map has it, along each axis, in m."""
-        places = self.errors[name].places(np.nan_to_num(residuals))
-        far = self.placed.get(name, (0.0, 0.0))[-len(places) :]
-        return tuple(float(each) for each in far * places)
 
     def misfit(self, view: View) -> tuple[float, Seeds]:
         """Return half of the weighed sum of the squared residuals, and its derivative."""
         value, seeds = 0.0, {}
         for name, off in self.residuals(view).items():
-            own, errors = np.nan_to_num(off), self.errors[name]
-            weighed = errors.weighed(own)
-            value += 0.5 * float(np.sum(own * weighed))
+            weighed = self.errors[name].weighed(off)
+            value += 0.5 * float(np.sum(off * weighed))
             # `cell_means` is its own adjoint.
-            seeds[name] = cell_means(weighed / errors.sigma)
+            seeds[name] = cell_means(weighed / self.errors[name].sigma)
         return value, Seeds(seeds)
 
     def local(self, logs: Array) -> Model:
