@@ -101,12 +101,17 @@ def read_pairs(file: Path, what: str) -> Array:
     return rows
 
 
-def table_of_numbers(file: Path) -> Array:
-    """Return the numbers of a file as `read_numbers` does, NaN where some are missing."""
+def check_file(file: Path) -> None:
+    """Raise ValueError if there is no such file to read."""
     if not file.is_file():
         where = "" if file.is_absolute() else f" in {Path.cwd()}, where tribo was started"
         what = f"{file} is a folder" if file.is_dir() else f"there is no file {file}{where}"
         raise ValueError(f"{what}; correct path")
+
+
+def table_of_numbers(file: Path) -> Array:
+    """Return the numbers of a file as `read_numbers` does, NaN where some are missing."""
+    check_file(file)
     if file.stat().st_size == 0:
         raise ValueError(f"{file} is empty")
     try:

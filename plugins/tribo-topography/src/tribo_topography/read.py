@@ -14,6 +14,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 from tribo import Array, CaseError
+from tribo.core.files import check_file
 
 from tribo_topography.config import MeasuredFile
 
@@ -98,10 +99,10 @@ def _third_party(path: Path) -> Iterator[None]:
 
 
 def _checked_file(path: Path, expected: str | None) -> str:
-    if not path.is_file():
-        where = "" if path.is_absolute() else f" in {Path.cwd()}, where tribo was started"
-        what = f"{path} is a folder" if path.is_dir() else f"there is no file {path}{where}"
-        raise CaseError(f"{what}; correct path")
+    try:
+        check_file(path)
+    except ValueError as error:
+        raise CaseError(str(error)) from None
     size = path.stat().st_size
     # Not a zip file, or a broken one, is for the readers to tell.
     with suppress(zipfile.BadZipFile), zipfile.ZipFile(path) as archive:
