@@ -172,12 +172,14 @@ def interpolated(heights: Array, wanted: Mask) -> Array:
     A line counts by the inverse square of its error in a curved surface. Where known ones lie on
     one side of both lines at most, as at the map's edge, the nearest is taken.
     """
-    total, weight = np.zeros((2, *heights.shape))
-    for turned in (False, True):
-        values, counts = _along_rows(heights.T if turned else heights)
-        total += (values * counts).T if turned else values * counts
-        weight += counts.T if turned else counts
     whole = heights.copy()
+    if not wanted.any():
+        return whole
+    total, weight = np.zeros((2, *heights.shape))
+    for lines, sums, weights in ((heights, total, weight), (heights.T, total.T, weight.T)):
+        values, counts = _along_rows(lines)
+        sums += values * counts
+        weights += counts
     between = wanted & (weight > 0)
     whole[between] = total[between] / weight[between]
     beyond = wanted & (weight == 0)
