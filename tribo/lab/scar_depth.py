@@ -59,15 +59,15 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
     rough = float(np.std(smoothed(residuals)[bottom]))
     of_registration = max(float(found.uncertainty[top] ** 2 - found.noise**2), 0.0)
     of_noise = found.variance_inflation * found.noise**2
-    of_relief = max(rough**2 - noise**2, 0.0)
+    of_rest = of_registration + max(rough**2 - noise**2, 0.0) + of_holes**2
     mean, spread = float(np.nanmean(form)), float(np.nanvar(form))
     # The largest of what noise makes of a flat bottom lies above it.
     if spread < LEVEL * of_noise / len(places):
         # That of a curved one lies √3 standard deviations above the mean.
         of_form = of_noise / len(places) + 3 * spread
-        return mean, math.sqrt(of_form + of_registration + of_relief + of_holes**2)
+        return mean, math.sqrt(of_form + of_rest)
     of_coefficients = min(_leverage(places - np.array(top, dtype=float)) * of_noise, found.noise**2)
-    return float(form[top]), math.sqrt(of_coefficients + of_registration + of_relief + of_holes**2)
+    return float(form[top]), math.sqrt(of_coefficients + of_rest)
 
 
 def _leverage(places: Array) -> float:

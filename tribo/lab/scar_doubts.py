@@ -64,7 +64,10 @@ def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
     rest = without_form(unworn)
     found, noise = radius_across(unworn - rest, after.pitch), float(np.nanstd(rest))
     sag = after.grid.size[1] ** 2 / (8 * radius)
-    if sag > CURVED * noise and found > FLAT * radius:
+    if sag <= CURVED * noise:
+        # It is not known.
+        return True
+    if found > FLAT * radius:
         warnings.warn(
             f"the unworn surface is as good as flat, and the ball has a radius of "
             f"{1e3 * radius:.4g} mm: the formulas for a scar on a ball are left out",
@@ -72,7 +75,7 @@ def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
             stacklevel=3,
         )
         return False
-    if sag > CURVED * noise and abs(math.log(found / radius)) > RADIUS_OFF:
+    if abs(math.log(found / radius)) > RADIUS_OFF:
         warnings.warn(
             f"the unworn surface has a radius of {1e3 * found:.4g} mm, and the ball one of "
             f"{1e3 * radius:.4g} mm: check radius and pitch",

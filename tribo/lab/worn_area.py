@@ -76,9 +76,7 @@ class WornArea:
 def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -> WornArea:
     """Return what is worn; `CaseError` if nothing is. The map before may be an ideal shape."""
     smooth, known = smoothed(found.depth), np.isfinite(found.depth)
-    unworn = smooth[found.unworn]
-    # Robust, as a low ridge beside the scar may have been left in.
-    noise = max(robust_deviation(unworn), 1e-300) if unworn.size else found.noise
+    noise = _noise(smooth, found)
     core = _largest(smooth, smooth > DEEP * noise)
     piled = _largest(-smooth, -smooth > DEEP * noise)
     if not core.any():
@@ -125,15 +123,23 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
     )
 
 
+def _noise(depth: Array, found: Registration) -> float:
+    """Return the standard deviation of a smoothed depth where it is not worn, in m.
+
+    Robust, as a low ridge beside the scar may have been left in.
+    """
+    unworn = depth[found.unworn]
+    return max(robust_deviation(unworn), 1e-300) if unworn.size else found.noise
+
+
 def _thin_ridges(found: Registration, scar: Mask, core: Mask) -> Mask:
     """Return what stands up in the margin of a scar, too thin for `_largest`.
 
     Beyond noise, and beyond the relief of the worn surface, whose tops are no ridges.
     """
     fine, inner = smoothed(found.depth, FINE), ndimage.binary_erosion(core, iterations=MARGIN)
-    unworn = fine[found.unworn]
-    noise = robust_deviation(unworn) if unworn.size else found.noise
-    noise = max(noise, robust_deviation((fine - smoothed(found.depth, RELIEF))[inner]))
+    relief = robust_deviation((fine - smoothed(found.depth, RELIEF))[inner])
+    noise = max(_noise(fine, found), relief)
     up = scar & ~inner & (fine < 0)
     tops, count = ndimage.label(up & (fine < -DEEP * noise), np.ones((3, 3)))
     sizes = np.bincount(tops.ravel(), minlength=count + 1)
