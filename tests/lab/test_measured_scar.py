@@ -208,13 +208,20 @@ def worn(shape, **changes):
     ids=["an edge", "a track's end", "two adjacent edges", "along a track", "the common area"],
 )
 def test_a_scar_that_the_edge_cuts_off_is_told(shape, shift):
-    where = "area common to both maps" if any(shift) else "map"
-    with pytest.warns(TriboWarning, match=f"edge of the {where} cuts the scar off: .*larger area"):
+    where = "the area common to both maps" if any(shift) else "what was measured"
+    with pytest.warns(TriboWarning, match=f"the edge of {where} cuts the scar off: .*larger area"):
         found = measured_scar(*worn(shape, shift=shift, turn=0), radius=RADIUS)
     assert found.as_json()["cut_off"] is True
     assert (found.along, found.across) == (None, None)
     assert found.section is None
     assert found.inferred == ()
+
+
+def test_a_gap_that_cuts_a_scar_off_is_told():
+    before, after = worn(lambda x, y: 1 - ((x - 5) ** 2 + y**2) / 20**2, shift=(0, 0), turn=0)
+    after.heights[:, 40:52] = np.nan
+    with pytest.warns(TriboWarning, match="the edge of what was measured cuts the scar off"):
+        assert measured_scar(before, after).cut_off
 
 
 def test_whole_scars_and_tracks_are_not_cut_off(standard):

@@ -298,7 +298,13 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
         assert f"lies +{shift + 2}.0 µm along the sliding" in place
         assert "the map of 'ball' lies 0.3 µm above 0" in level
     np.save(tmp_path / "map.npy", worn)
-    assert not calibrate_maps(CASE, {"map.0": entry.model_copy(update={"centred": True})}).notes
+    centred = entry.model_copy(update={"centred": True})
+    assert not calibrate_maps(CASE, {"map.0": centred}).notes
+    for factor, words in ((4, "is 4 times as deep as the scar"), (0.2, "is 0.2 times as deep as")):
+        np.save(tmp_path / "map.npy", factor * worn)
+        assert words in calibrate_maps(CASE, {"map.0": centred}).notes[0]
+        wide = centred.model_copy(update={"spread": 1.0})
+        assert not calibrate_maps(CASE, {"map.0": wide}).notes
 
 
 @pytest.mark.parametrize(

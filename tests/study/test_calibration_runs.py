@@ -269,6 +269,20 @@ def test_repeats_that_scatter_evenly_are_rarely_called_unlike():
     assert 0 < count < 0.07 * 400
 
 
+@pytest.mark.parametrize("wrong", [100.0, 0.01])
+def test_a_repeat_far_from_the_others_is_named_though_uncertainties_grow_with_values(wrong):
+    entry = {"body": "ball", "quantity": "mass", "value": ["0.99 mg", "1 mg", "1.02 mg"]}
+    entry = {**entry, "value": [*entry["value"], f"{wrong} mg"], "uncertainty": "5 %"}
+    data = read_measurements({"measured": [entry]}).table()
+    (note,) = on_repeats(data.assign(setup=0, stated=data["sigma"]))
+    assert f"of {wrong:g} mg is not as in the other 3 tests" in note
+
+
+def test_each_value_is_set_against_its_own_uncertainty():
+    entry = {"body": "ball", "quantity": "mass", "uncertainty": "1 %"}
+    read_measurements({"measured": [entry | {"value": ["1 g", "1e-5 mg"]}]})
+
+
 def test_readings_in_coarse_steps_are_alike_by_chance():
     random, count = np.random.default_rng(0), 0
     for _ in range(400):

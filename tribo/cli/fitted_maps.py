@@ -52,6 +52,7 @@ def _arrays(each: LocalMap, level: float) -> dict[str, Any]:
         "measured_m": each.measured,
         "computed_m": each.computed,
         "uncertainty_m": each.uncertainty,
+        "off_m": np.array(each.off),
     }
 
 
@@ -62,7 +63,8 @@ def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
         keys = ("deviation", "prior_deviation", "measured_m", "computed_m", "uncertainty_m")
         logs, (dx, dy) = np.log(np.array(each["factor"], dtype=float)), each["spacing_m"]
         own, prior, measured, computed, sigma = (np.array(each[k], dtype=float) for k in keys)
-        maps[name] = LocalMap(logs, own, prior, (dx, dy), measured, computed, sigma)
+        off = tuple(each.get("off_m", ()))
+        maps[name] = LocalMap(logs, own, prior, (dx, dy), measured, computed, sigma, off)
     numbers = {key: found[key] for key in ("gradients", "products")}
     fit = {key: found[key] for key in ("chi_square", "degrees_of_freedom")}
     remarks = tuple(found.get("remarks", ()))

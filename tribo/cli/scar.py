@@ -17,7 +17,10 @@ if TYPE_CHECKING:
     from tribo.lab.measured_scar import MeasuredScar
     from tribo.surfaces.surface import Surface
 
+DEPTHS = ".npy"
+"""Suffix of a depth map."""
 LARGEST_PITCH = 1e-3
+"""That between two pixels, in m."""
 UNITS = ("m", "mm", "um", "µm", "nm")
 """Words that are parts of a length without quotes."""
 
@@ -76,6 +79,8 @@ def scar(
         check_folder(path)
         if path.resolve() in {each.resolve() for each in files}:
             raise CaseError(f"{path} is a measured map; give another name", "--output")
+        if path.suffix.lower() != DEPTHS:
+            _check_picture(path)
     if len(files) != (1 if ideal else 2):
         count = "1 file is" if len(files) == 1 else f"{len(files)} files are"
         raise CaseError(
@@ -105,12 +110,22 @@ def scar(
         click.echo(f"Wrote {path}")
 
 
+def _check_picture(path: Path) -> None:
+    """Check that pictures are written in the format that a name ends in."""
+    from tribo.plotting.figures import picture_format
+
+    try:
+        picture_format(path.suffix or ".png")
+    except CaseError as error:
+        raise CaseError(f"{error}, or {DEPTHS} for the depth map", "--output") from None
+
+
 def _write(found: MeasuredScar, path: Path, shape: tuple[int, ...]) -> Path:
     """Write the depth at each pixel of the map after, NaN where missing, or a picture.
 
     Return the file.
     """
-    if path.suffix.lower() == ".npy":
+    if path.suffix.lower() == DEPTHS:
         import numpy as np
 
         # The middle of the map stays where it is, which is that of the contact in a fit.
@@ -123,12 +138,8 @@ def _write(found: MeasuredScar, path: Path, shape: tuple[int, ...]) -> Path:
     from tribo.plotting.figures import write_figures
     from tribo.plotting.scar import measured_scar_map
 
-    try:
-        (picture,) = write_figures(
-            {path.stem: lambda: measured_scar_map(found)}, path.parent, path.suffix or ".png"
-        )
-    except CaseError as error:
-        raise CaseError(f"{error}; or give a .npy file for the depth map") from None
+    pictures = {path.stem: lambda: measured_scar_map(found)}
+    (picture,) = write_figures(pictures, path.parent, path.suffix or ".png")
     return picture
 
 

@@ -86,9 +86,10 @@ def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
 
 
 def warn_of_edge(*, within: bool) -> None:
-    """Warn that an edge cuts a scar off, that of the map or `within` it."""
+    """Warn that an edge cuts a scar off, that of the map, or of a gap, or `within` it."""
     warnings.warn(
-        f"the edge of {'the area common to both maps' if within else 'the map'} cuts the scar off: "
+        f"the edge of {'the area common to both maps' if within else 'what was measured'} cuts the "
+        "scar off: "
         "volume and depth are those of the part within, widths and formulas are left out; measure "
         f"a larger area{', the same before and after' if within else ''}",
         TriboWarning,

@@ -79,11 +79,7 @@ def write_figures(
     pictures: Mapping[str, Callable[[], Figure]], folder: Path, suffix: str = "png"
 ) -> list[Path]:
     """Draw pictures and write them to files of their names; see `save_figures`."""
-    suffix = suffix.removeprefix(".")
-    known = FigureCanvasBase.get_supported_filetypes()
-    if suffix not in known:
-        raise CaseError(f"pictures cannot be written as {suffix!r}; use one of {', '.join(known)}")
-    paths = []
+    suffix, paths = picture_format(suffix), []
     with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
         for name, draw in pictures.items():
@@ -93,6 +89,14 @@ def write_figures(
                 figure.savefig(path, metadata=_METADATA.get(suffix))
             paths.append(path)
     return paths
+
+
+def picture_format(suffix: str) -> str:
+    """Return the format of a suffix; `CaseError` if pictures are not written in it."""
+    suffix, known = suffix.removeprefix("."), FigureCanvasBase.get_supported_filetypes()
+    if suffix not in known:
+        raise CaseError(f"pictures cannot be written as {suffix!r}; use one of {', '.join(known)}")
+    return suffix
 
 
 def result_pictures(result: Result) -> dict[str, Callable[[], Figure]]:

@@ -31,16 +31,18 @@ def part_of(text: str, quantity: str) -> Part:
     return Part(part)
 
 
-def data_error(quantity: str, sigma: float, values: Array) -> str:
+def data_error(quantity: str, sigma: Array | float, values: Array) -> str:
     """Return why values cannot be right: too exact, or depths negative in the mean; else empty."""
-    mean, largest = float(np.mean(values)), float(np.max(np.abs(values)))
-    if sigma < LEAST_UNCERTAINTY * largest:
+    each = np.broadcast_to(sigma, values.shape)
+    if np.any(exact := each < LEAST_UNCERTAINTY * np.abs(values)):
+        worst = int(np.argmax(exact * np.abs(values)))
         return (
-            f"known to {in_words(quantity, sigma)}, less than a millionth of "
-            f"{in_words(quantity, largest)}: no run is that exact; check the "
+            f"known to {in_words(quantity, float(each[worst]))}, less than a millionth of "
+            f"{in_words(quantity, float(values[worst]))}: no run is that exact; check the "
             "uncertainty, and the units of both"
         )
-    if not mean < -_SIGNIFICANT * sigma / np.sqrt(len(values)):
+    mean = float(np.mean(values))
+    if not mean < -_SIGNIFICANT * np.max(each) / np.sqrt(len(values)):
         return ""
     return (
         f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards from "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -26,6 +27,9 @@ from tribo.study.calibration.quantities import DEPTH_MAP, in_si
 from tribo.study.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes
 from tribo.study.gradient.objective import View
 from tribo.study.variation import unknown_body
+
+FAR = 2.0
+"""Standard deviations of the prior by which the mean coefficient may be off without a note."""
 
 
 def calibrate_maps(
@@ -119,5 +123,18 @@ class _Read(NamedTuple):
         if np.std(np.asarray(moved)[self.worn > 0]) > noise:
             for note in off_middle(name, ScarShift((shift[0], shift[1]))):
                 yield f"{note}, as far as a coefficient that differs from side to side lets it tell"
+        yield from self._far(name)
         yield from off_level(name, self.depth, self.worn, noise)
         yield from off_turn(name, self.depth, self.worn)
+
+    def _far(self, name: str) -> Iterator[str]:
+        """Name a loss that is far from the case's, where the prior has the coefficient."""
+        known = np.isfinite(self.depth) & (self.worn > 0)
+        lost, own = float(np.sum(self.depth[known])), float(np.sum(self.worn[known]))
+        noise = self.entry.uncertainty * float(np.sum(known)) ** 0.5
+        if np.any(known) and abs(math.log(max(lost, noise) / own)) > FAR * self.entry.spread:
+            yield (
+                f"{name} is {lost / own:.2g} times as deep as the scar of the case, more than a "
+                f"spread of {self.entry.spread:g} allows for: do not trust the factors; check the "
+                "map, or first fit the k of the case to it, as a depth_map in [[measured]]"
+            )

@@ -173,7 +173,7 @@ class MeasuredEntry(Table):
                 f"uncertainty: {100 * self.uncertainty:.3g} % of a value that is not given; to "
                 "plan tests, give it with a unit"
             )
-        if error := data_error(self.quantity, float(np.min(self.sigma)), self.values):
+        if error := data_error(self.quantity, self.sigma, self.values):
             raise ValueError(error)
         return self
 

@@ -178,11 +178,13 @@ def on_repeats(data: pd.DataFrame) -> Iterator[str]:
         others = [np.delete(logs, i) for i in range(n)]
         means = np.array([np.mean(rest) for rest in others])
         scatter = np.array([np.std(rest, ddof=1) for rest in others])
-        # That of readings in coarse steps may be hidden by these.
-        at_least = np.maximum(scatter, stated / np.exp(means))
+        # That of the others, which readings in coarse steps may hide.
+        of_others = np.array([np.mean(np.delete(stated, i)) for i in range(n)])
+        at_least = np.maximum(scatter, of_others / np.exp(means))
         # Neither the scatter of the others nor the instrument makes it so.
         by_scatter = 2 * stdtr(n - 2, -np.abs(logs - means) / apart / at_least)
-        by_instrument = 2 * ndtr(-np.abs(measured - np.exp(means)) / apart / stated)
+        by_both = np.sqrt(stated**2 + of_others**2 / (n - 1))
+        by_instrument = 2 * ndtr(-np.abs(measured - np.exp(means)) / by_both)
         chance = n * np.maximum(by_scatter, by_instrument)
         worst = int(np.argmin(chance))
         if chance[worst] < _OUTLYING:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 from tribo import CaseError, Component, ExportFormat, HeightFormat, Heights, hookimpl
 
 from tribo_topography.config import MeasuredFile
 from tribo_topography.export import export_xyz
-from tribo_topography.read import read
+from tribo_topography.read import Unreadable, read
 from tribo_topography.surface import Measured
 
 
@@ -38,7 +37,7 @@ def _heights(path: Path) -> Heights:
         if not path.is_file():
             raise
         # Its advice is for a surface of a case, which has settings.
-        reason = re.split(r"; (?:add|set|export|if it is that, set) ", str(error))[0]
+        reason = error.reason if isinstance(error, Unreadable) else error
         raise CaseError(
             f"{reason}; export the map as .x3p, or as a .npy or .csv table of heights in m, whose "
             "pitch is given"

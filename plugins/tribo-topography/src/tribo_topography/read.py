@@ -24,6 +24,14 @@ MAX_PIXELS = 2**26
 """Number of pixels of the largest map that is read."""
 
 
+class Unreadable(CaseError):
+    """A file that is read with other settings, as `advice` says."""
+
+    def __init__(self, reason: str, advice: str) -> None:
+        super().__init__(f"{reason}; {advice}")
+        self.reason = reason
+
+
 @dataclass(frozen=True)
 class Map:
     """A height map as its file and the configuration give it.
@@ -141,28 +149,30 @@ def _open(path: Path, file: BinaryIO, name: str | None) -> Any:
     try:
         reader = open_topography(file, format=name)
     except CannotDetectFileFormat:
-        raise CaseError(_not_recognised(path, file, usual)) from None
+        raise _not_recognised(path, file, usual) from None
     except Exception as error:
         raise CaseError(f"{path} cannot be read as {name!r}: {_said(error)}") from error
     if name is None and usual and reader.format() not in {each.format() for each in usual}:
         found = reader.format()
-        raise CaseError(
-            f"{path} is named as {usual[0].name()}, but looks like {found!r} inside; if it is "
-            f"that, set format = {found!r}"
+        raise Unreadable(
+            f"{path} is named as {usual[0].name()}, but looks like {found!r} inside",
+            f"if it is that, set format = {found!r}",
         )
     return reader
 
 
-def _not_recognised(path: Path, file: BinaryIO, usual: list[Any]) -> str:
+def _not_recognised(path: Path, file: BinaryIO, usual: list[Any]) -> CaseError:
     for reader in usual:
         try:
             file.seek(0)
             reader(file)
         except Exception as error:
-            return f"{path} is named as {reader.name()}, but cannot be read as such: {_said(error)}"
-    return (
-        f"{path} is in none of the formats that are known; export it as .x3p, or set format if "
-        "you know it"
+            return CaseError(
+                f"{path} is named as {reader.name()}, but cannot be read as such: {_said(error)}"
+            )
+    return Unreadable(
+        f"{path} is in none of the formats that are known",
+        "export it as .x3p, or set format if you know it",
     )
 
 
@@ -193,9 +203,9 @@ def _checked_channel(path: Path, channel: Any, config: MeasuredFile) -> tuple[fl
     if config.size is not None:
         return 1.0, 1.0
     if channel.physical_sizes is None:
-        raise CaseError(
-            f"{path} does not say how large the measured area is; add size, as "
-            'size = ["1.24 mm", "0.94 mm"]'
+        raise Unreadable(
+            f"{path} does not say how large the measured area is",
+            'add size, as size = ["1.24 mm", "0.94 mm"]',
         )
     sx, sy = channel.physical_sizes
     return float(sx), float(sy)
@@ -207,7 +217,7 @@ def _metre(path: Path, stated: str | None, config: MeasuredFile) -> float:
 
     if stated is None:
         if config.unit is None:
-            raise CaseError(f"{path} states no unit for its heights; add unit, as unit = '1 um'")
+            raise Unreadable(f"{path} states no unit for its heights", "add unit, as unit = '1 um'")
         return config.unit
     if config.unit is not None:
         raise CaseError(
