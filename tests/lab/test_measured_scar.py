@@ -219,7 +219,7 @@ def test_a_scar_that_the_edge_cuts_off_is_told(shape, shift):
 
 def test_a_gap_that_cuts_a_scar_off_is_told():
     before, after = worn(lambda x, y: 1 - ((x - 5) ** 2 + y**2) / 20**2, shift=(0, 0), turn=0)
-    after.heights[:, 40:52] = np.nan
+    after.heights[:, 56:64] = np.nan
     with pytest.warns(TriboWarning, match="the edge of what was measured cuts the scar off"):
         assert measured_scar(before, after).cut_off
 
