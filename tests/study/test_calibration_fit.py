@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import least_squares
 from scipy.stats import binom, norm, t
 
 from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.core.errors import CaseError, NumericalError, OutOfWindow
 from tribo.study.calibration.fit import fit, interval, limit
-from tribo.study.calibration.linearised import Problem, Weights
+from tribo.study.calibration.linearised import Problem, Weights, root_covariance
 
 TRUE = np.array([7.08e-15, 7.08e-16])
 NAMES = ("ball", "disk")
@@ -70,6 +71,43 @@ def test_far_from_the_start_slopes_are_taken_anew():
     found = fit(model, problem(worn(TRUE), 0.01 * worn(TRUE), start=start), start)
     assert np.exp(found.point) == pytest.approx(TRUE, rel=1e-3, abs=0)
     assert model.runs <= 8
+
+
+def depths(values):
+    """Depths at two loads and many pressures, whose law has an exponent, relative to its scale."""
+    k, exponent = values
+    return k * np.concatenate([load * np.linspace(0.1, 2, 50) ** exponent for load in (0.4, 1)])
+
+
+def test_a_fit_that_errors_of_its_steps_shake_settles():
+    """As those of adaptive steps, each a little of a depth's uncertainty, but of all alike."""
+    truth, sigma, off = np.array([5.0, 1.35]), 0.01, []
+    for seed in range(20):
+        random = np.random.default_rng(seed)
+
+        def shaken(values, random=random):
+            tilt = np.linspace(-1, 1, 100)
+            return depths(values) * (1 + 3e-5 * (random.normal() + random.normal() * tilt))
+
+        observed = depths(truth) + sigma * random.standard_normal(100)
+        model, near = Counted(shaken), truth * [0.9, 0.96]
+        given = problem(observed, np.full(100, sigma), small=1.0, names=("k", "n"), start=near)
+        found = fit(model, given, near)
+        assert model.runs <= 20
+        deviations = np.sqrt(np.sum(root_covariance(found.sensitivity()) ** 2, axis=1))
+        off.append((found.point - np.log(truth)) / deviations)
+    assert np.std(off) < 1.2
+
+
+def test_a_misfit_does_not_pull_the_estimate_off_the_least_squares():
+    """Slopes over long steps would, where residuals are far larger than their uncertainties."""
+    truth, sigma = np.array([5.0, 1.35]), np.full(100, 1e-3)
+    observed = depths(truth) + 0.05 * np.sin(np.arange(100.0) ** 2)
+    given = problem(observed, sigma, small=1.0, names=("k", "n"), start=truth)
+    found = fit(depths, given, truth)
+    exact = least_squares(lambda log: (depths(np.exp(log)) - observed) / sigma, np.log(truth))
+    deviations = np.sqrt(np.sum(root_covariance(found.sensitivity()) ** 2, axis=1))
+    assert np.all(np.abs(found.point - exact.x) < 3 * deviations)
 
 
 def in_window(k):

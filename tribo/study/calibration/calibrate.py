@@ -19,8 +19,16 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, NumericalError, OutOfWindow
 from tribo.study.calibration.doubts import doubts, far_off
 from tribo.study.calibration.experiment import Experiment
-from tribo.study.calibration.fit import ABOVE_ROUNDING, NO_EFFECT, fit, interval, limit
-from tribo.study.calibration.linearised import Linearised, Weights, root_covariance
+from tribo.study.calibration.fit import (
+    ABOVE_ROUNDING,
+    NO_EFFECT,
+    Unsettled,
+    fit,
+    interval,
+    limit,
+    steps,
+)
+from tribo.study.calibration.linearised import Linearised, Problem, Weights, root_covariance
 from tribo.study.calibration.map_notes import map_notes
 from tribo.study.calibration.measured import Measurements
 from tribo.study.calibration.notes import disagrees, notes
@@ -210,13 +218,15 @@ def calibrate(
         return found
 
     try:
-        fitted = fit(responses, problem, experiment.start)
+        fitted, unsettled = _first_fit(responses, problem, experiment.start)
         estimate, before = np.exp(fitted.point), problem.sigma
         experiment = experiment.centred(estimate)
         problem = experiment.problem(estimate)
         if problem.common.size or np.any(np.abs(problem.sigma - before) > SIGMA_CHANGE * before):
             estimate = np.where(fitted.limited(), experiment.start, estimate)
-            fitted = fit(responses, problem, estimate)
+            fitted = fit(responses, problem, estimate, steps(fitted))
+        elif unsettled:
+            raise unsettled
     except (CaseError, NumericalError) as error:
         words = [*doubts(experiment, error), str(error)]
         if far:
@@ -232,6 +242,18 @@ def calibrate(
     return replace(
         found, runs=experiment.run_count, parameters=parameters, notes=(*found.notes, note)
     )
+
+
+def _first_fit(
+    model: Callable[[Array], Array], problem: Problem, start: Array
+) -> tuple[Linearised, Unsettled | None]:
+    """Return the fit by the uncertainties at the start, which may be too far off to settle it."""
+    try:
+        return fit(model, problem, start), None
+    except Unsettled as error:
+        if error.stalled is None:
+            raise
+        return error.stalled, error
 
 
 def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibration:

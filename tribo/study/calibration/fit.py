@@ -21,6 +21,10 @@ from tribo.study.calibration.linearised import (
 
 STEP = 0.2
 """Change of a logarithm for a finite difference; large, since computed scars are rounded."""
+LEAST_STEP = 0.05
+"""The least, which errors of the steps of a run do not hide."""
+FAR = 20.0
+"""Change of all data together, in standard deviations, beyond which a difference is shortened."""
 TRUST_RADIUS = np.log(2.0)
 """Distance, in logarithms, up to which slopes are kept."""
 PREDICTION_ERROR = 0.3
@@ -33,7 +37,10 @@ CONVERGED = 0.01
 """Change of all data together, in standard deviations, that ends the fit; and the relative fall of
 χ² that counts as progress."""
 STALLED = 0.1
-"""The change that ends the fit where χ² no longer falls."""
+"""The change that ends the fit where χ² no longer falls, relative to the residuals."""
+NUMERICAL = 0.5
+"""The change that errors of the steps of a run may make, which ends it as well; no slopes are
+updated for less."""
 NO_EFFECT = 1e-3
 """Change of a datum, in standard deviations, per change of a parameter by a factor e, below which
 nothing depends on the parameter."""
@@ -45,24 +52,31 @@ MOST_HALVINGS = 5
 """Times that a step is halved whose scar outgrows the window."""
 MOST_ROUNDS = 12
 """Rounds after which a fit fails."""
-MOST_WITHOUT_PROGRESS = 4
-"""Rounds without a lower χ² after which it ends."""
+WITHOUT_PROGRESS, MOST_WITHOUT_PROGRESS = 2, 4
+"""Rounds without a lower χ² after which a small change ends it, and after which it fails."""
 
 
 class Unsettled(NumericalError):
-    """A fit does not converge."""
+    """A fit does not converge; `stalled` is its last model, whose χ² no longer fell."""
+
+    stalled: Linearised | None = None
 
 
-def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Linearised:
+def fit(
+    model: Callable[[Array], Array],
+    problem: Problem,
+    start: Array,
+    changes: Array | float = STEP,
+) -> Linearised:
     """Return the model linearised about its last run, whose parameters are the estimate.
 
     Gauss-Newton in logarithms: each step goes to the least χ² of the linearised model. Slopes are
-    finite differences, updated where they predicted a step badly or were taken far away. CaseError
-    if no datum depends on a parameter; NumericalError if the estimate does not converge. A step
-    that outgrows the window is halved.
+    finite differences, at first by `changes`, updated where they predicted a step badly or were
+    taken far away. CaseError if no datum depends on a parameter; NumericalError if the estimate
+    does not converge. A step that outgrows the window is halved.
     """
     origin = np.log(start)
-    here = differenced(model, problem, origin, model(np.exp(origin)))
+    here = differenced(model, problem, origin, model(np.exp(origin)), changes)
     check_effect(here)
     if np.any(limited := here.limited()):
         origin = np.where(limited, _unseen(here), origin)
@@ -72,36 +86,41 @@ def fit(model: Callable[[Array], Array], problem: Problem, start: Array) -> Line
     for rounds in range(1, MOST_ROUNDS + 1):  # noqa: B007
         here, point = here.best()
         before = here.residuals(here.point)
-        change = np.linalg.norm(here.residuals(point) - before)
+        change = float(np.linalg.norm(here.residuals(point) - before))
         if change > CONVERGED:
             point, responses, outgrown = _within(model, here.point, point)
             predicted = here.residuals(point)
-            change = np.linalg.norm(predicted - before)
+            change = float(np.linalg.norm(predicted - before))
             residuals = problem.residuals(responses, here.weights)
             # Only the error in the column space of the Jacobian moves the next estimate.
             directions = np.linalg.svd(here.jacobian(point), full_matrices=False)[0]
-            error = np.linalg.norm((residuals - predicted) @ directions)
+            error = float(np.linalg.norm((residuals - predicted) @ directions))
             here = replace(here, point=point, responses=responses)
-            if error > PREDICTION_ERROR * change:
-                origin, here = point, differenced(model, problem, point, responses)
+            if error > max(PREDICTION_ERROR * change, NUMERICAL):
+                origin, here = point, differenced(model, problem, point, responses, steps(here))
             misfit = float(np.sum(residuals**2))
             without_progress = 0 if misfit < (1 - CONVERGED) * least else without_progress + 1
             least = min(least, misfit)
-            if without_progress == MOST_WITHOUT_PROGRESS:
-                # A wrong model cannot fit the data any better.
-                if change > STALLED * max(1.0, (least / len(problem.observed)) ** 0.5):
-                    break
+            # A wrong model cannot fit the data any better.
+            small = max(NUMERICAL, STALLED * (least / len(problem.observed)) ** 0.5)
+            if without_progress >= WITHOUT_PROGRESS and change < small:
                 return here.best()[0]
+            if without_progress == MOST_WITHOUT_PROGRESS:
+                break
         elif np.max(np.abs(here.point - origin)) > TRUST_RADIUS:
             origin = here.point
-            here = differenced(model, problem, origin, here.responses)
+            here = differenced(model, problem, origin, here.responses, steps(here))
         else:
             return here
-    raise outgrown or Unsettled(
+    if outgrown:
+        raise outgrown
+    unsettled = Unsettled(
         f"the estimates have not settled after {rounds} rounds: χ² has come down to {least:.3g}, "
         f"and computed values still change by {change:.2g} of their uncertainty; refine "
-        "grid.cells, start nearer, or state the uncertainties larger"
+        "grid.cells, lower stepping.depth_tolerance, start nearer, or state larger uncertainties"
     )
+    unsettled.stalled = here if without_progress == MOST_WITHOUT_PROGRESS else None
+    raise unsettled
 
 
 def interval(here: Linearised, direction: Array, level: float) -> tuple[float, float]:
@@ -177,15 +196,25 @@ def limit(here: Linearised, axis: Array, level: float) -> float:
     return end
 
 
+def steps(here: Linearised) -> Array:
+    """Return the changes of the logarithms for differences at a run nearby."""
+    size = normalised(here.sensitivity())[0]
+    return np.asarray(np.clip(FAR / size, LEAST_STEP, STEP))
+
+
 def differenced(
-    model: Callable[[Array], Array], problem: Problem, point: Array, responses: Array
+    model: Callable[[Array], Array],
+    problem: Problem,
+    point: Array,
+    responses: Array,
+    changes: Array | float = STEP,
 ) -> Linearised:
     """Return the model linearised about a run, by one more run for each parameter."""
     columns = []
-    for i in range(len(point)):
+    for i, far in enumerate(np.broadcast_to(changes, point.shape)):
         below, above = point[i] - problem.lower[i], problem.upper[i] - point[i]
         # Where bounds leave no room for a whole step, step to the farther bound.
-        step = min(STEP, above) if above >= min(STEP, below) else -min(STEP, below)
+        step = min(far, above) if above >= min(far, below) else -min(far, below)
         moved = point.copy()
         moved[i] += step
         moved, found, _ = _within(model, point, moved)
