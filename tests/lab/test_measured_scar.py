@@ -468,6 +468,17 @@ def test_a_radius_or_a_shape_that_the_unworn_surface_has_not_is_told():
         measured_scar(before, after, radius=RADIUS)
 
 
+@pytest.mark.parametrize("factor", [0.85, 1.15])
+def test_a_wrong_radius_is_told_under_the_relief_of_a_ball(factor):
+    """Though the curvature that is left is less than the relief."""
+    _, after, _ = pair(on=RADIUS, shift=(0, 0), turn=0, n=192)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        measured_scar(Sphere(radius=RADIUS), after)
+    with pytest.warns(TriboWarning, match="differ by a curvature: check the shape given"):
+        measured_scar(Sphere(radius=factor * RADIUS), after)
+
+
 @pytest.mark.parametrize("wide", [16, 24])
 def test_a_map_twice_as_wide_as_its_scar_is_large_enough(wide):
     """With few pixels too, though smoothing widens the scar by some."""

@@ -34,6 +34,8 @@ from tribo.surfaces.surface import Surface
 
 MOST = 0.65
 """Part of the map that a scar may cover, with its margin."""
+LITTLE = 2e-3
+"""Part of a volume that does not matter."""
 SHORTER = 0.95
 """Length of a track over that within the map, below which it is refused."""
 SURE = 0.3
@@ -199,12 +201,16 @@ def measured_scar(
         )
     worn = worn_area(found, after.pitch, ideal=ideal)
     smooth, known, scar = worn.smooth, worn.known, worn.scar
-    if form == 1:
-        warn_of_curvature(np.where(found.unworn, found.depth, np.nan), ideal=ideal)
     holes = interpolated(np.where(known, smooth, np.nan), ~known & (scar | worn.piled))
     depth = np.where(known, found.depth, holes)
     area = after.grid.cell_area
     volume = area * float(np.sum(depth[scar]))
+    volume_uncertainty = area * sum_uncertainty(found, scar)
+    if form == 1:
+        # Where the maps were laid on each other may leave out what a curvature lifts.
+        beside = np.where(scar | worn.piled, np.nan, found.depth)
+        sure = max(volume_uncertainty, LITTLE * volume) / (area * np.count_nonzero(scar))
+        warn_of_curvature(beside, sure, ideal=ideal)
     if worn.cut_off:
         warn_of_edge(within=max(np.subtract(shape, found.depth.shape)) > MARGIN)
     several = 1 if worn.track else worn.count
@@ -229,7 +235,7 @@ def measured_scar(
         scar=scar,
         piled=worn.piled,
         volume=volume,
-        volume_uncertainty=area * sum_uncertainty(found, scar),
+        volume_uncertainty=volume_uncertainty,
         piled_up=-area * float(np.sum(depth[worn.piled])),
         piled_up_uncertainty=area * sum_uncertainty(found, worn.piled),
         depth=largest,

@@ -283,7 +283,7 @@ class _Fit:
             worn=self.worn[part],
             slopes=slopes[:, *part],
             covariance=covariance,
-            variance_inflation=_variance_inflation(np.where(used, depth, np.nan)),
+            variance_inflation=variance_inflation(np.where(used, depth, np.nan)),
         )
 
 
@@ -305,7 +305,7 @@ def _quadratic(places: Array, scale: float) -> Array:
     return np.stack([value, np.array(along) / scale, np.array(across) / scale])
 
 
-def _variance_inflation(values: Array) -> float:
+def variance_inflation(values: Array) -> float:
     """Return the variance of a sum of values, relative to that of independent ones."""
     known = np.isfinite(values)
     centred = np.where(known, values - np.mean(values[known]), 0.0)

@@ -10,6 +10,7 @@ import numpy as np
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.lab.heights import Heights
+from tribo.lab.registration import variance_inflation
 from tribo.lab.roughness import without_form
 
 ZEROS = 10
@@ -17,6 +18,8 @@ ZEROS = 10
 values."""
 CURVED = 20.0
 """Sag of the map, relative to its relief, from which on the radius of its surface is known."""
+BENT = 20.0
+"""χ² of the three terms of a curvature from which on it is told, which relief alone hardly has."""
 FLAT = 20.0
 """Radius of a surface over a ball's, from which on it is not the ball's."""
 RADIUS_OFF = 0.05
@@ -43,9 +46,15 @@ def warn_of_zeros(heights: Heights, which: str) -> None:
         )
 
 
-def warn_of_curvature(unworn: Array, *, ideal: bool) -> None:
-    """Warn if what is unworn differs by a curvature more than by all else."""
-    if np.nanvar(without_form(unworn)) < 0.5 * np.nanvar(unworn):
+def warn_of_curvature(unworn: Array, sure: float, *, ideal: bool) -> None:
+    """Warn if what is unworn differs by a curvature, beyond what relief and noise make of it.
+
+    Not if it is less than how `sure` (m) the mean depth of the scar is.
+    """
+    rest = without_form(unworn)
+    free = np.count_nonzero(np.isfinite(rest)) / variance_inflation(rest)
+    bent, by_chance = np.nanvar(unworn) - np.nanvar(rest), BENT / free * np.nanvar(rest)
+    if bent > max(by_chance, sure**2):
         doubt = (
             "check the shape given and the pitch"
             if ideal
