@@ -29,6 +29,7 @@ def maps_json(found: FittedMaps, level: float) -> dict[str, Any]:
         "products": found.products,
         "chi_square": found.chi_square,
         "degrees_of_freedom": found.degrees_of_freedom,
+        "by_grid": found.by_grid,
         "p_value": found.p_value,
         "remarks": found.remarks,
         "notes": found.notes,
@@ -67,6 +68,7 @@ def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
         maps[name] = LocalMap(logs, own, prior, (dx, dy), measured, computed, sigma, off)
     numbers = {key: found[key] for key in ("gradients", "products")}
     fit = {key: found[key] for key in ("chi_square", "degrees_of_freedom")}
+    fit["by_grid"] = found.get("by_grid", 0.0)
     remarks = tuple(found.get("remarks", ()))
     return FittedMaps(maps=maps, **numbers, **fit, remarks=remarks), found["level"]
 

@@ -71,7 +71,7 @@ def calibrate_maps(
         shift, far = ScarShift(), [0.0, 0.0]
         with located(f"{place}.depth"):
             if not entry.centred:
-                shift = find_shift(heights, worn, spacing, entry.uncertainty, 0.0)
+                shift = find_shift(heights, worn, spacing, entry.uncertainty)
                 far = [PRIOR_SHIFT * size for size in model.grid.size]
             depth, noise = on_cells(heights, worn.shape, spacing, shift.shift)
             _check(depth[np.isfinite(depth)], entry.uncertainty, deepest)
@@ -85,12 +85,12 @@ def calibrate_maps(
             "the fit went too far from the case to be computed: check the maps' pitch, level and "
             f"uncertainty, and the coefficients of the case; {error}"
         ) from error
-    remarks = (
+    remarks = [
         remark
         for each in read
         for remark in each.remarks(found.maps[each.entry.body].off, model.grid.spacing)
-    )
-    return replace(found, remarks=tuple(remarks))
+    ]
+    return replace(found, remarks=(*remarks, *map(str, last.state.notices)))
 
 
 def _check(depths: Array, sigma: float, worn: float) -> None:

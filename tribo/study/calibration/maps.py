@@ -101,6 +101,8 @@ class FittedMaps:
     degrees_of_freedom: float
     """Measured cells, less Σ λ/(1 + λ) over the eigenvalues λ of the information, and less the same
     of where the maps lie."""
+    by_grid: float = 0.0
+    """Degrees of freedom that count for errors of the grid, which may be less than stated."""
     remarks: tuple[str, ...] = ()
     """Notes on the measured maps."""
 
@@ -119,10 +121,11 @@ class FittedMaps:
                 f"{self.chi_square:.4g} where about {self.degrees_of_freedom:.4g} is expected; the "
                 "model leaves something out, or the uncertainty is larger, or the length shorter"
             )
-        if self.p_value > 1 - TOO_SMALL:
+        least = max(self.degrees_of_freedom - self.by_grid, 1.0)
+        if chdtrc(least, self.chi_square) > 1 - TOO_SMALL:
             notes.append(
                 f"the depths differ from the fit by less than their uncertainty: χ² is "
-                f"{self.chi_square:.3g} where about {self.degrees_of_freedom:.3g} is expected; is "
+                f"{self.chi_square:.3g} where at least {least:.3g} is expected; is "
                 "it that of a cell, or of a line along a track, and not of a pixel?"
             )
         notes += self.remarks
@@ -192,6 +195,10 @@ def fit_maps(
         )
     read = sum(int(np.sum(~np.isnan(depth))) for depth, _ in depths.values())
     of_places = sum(each.degrees_of_freedom for each in posterior.errors.values())
+    by_grid = sum(
+        float(np.sum((1 - (sigma / posterior.errors[name].sigma) ** 2)[~np.isnan(depth)]))
+        for name, (depth, sigma) in depths.items()
+    )
     made = int(np.sum(np.isnan(misfits)))
     return FittedMaps(
         maps=maps,
@@ -199,6 +206,7 @@ def fit_maps(
         products=made,
         chi_square=2 * posterior.misfit(fit)[0],
         degrees_of_freedom=read - float(np.sum(values / (1 + values))) - of_places,
+        by_grid=by_grid,
     )
 
 

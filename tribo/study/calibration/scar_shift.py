@@ -12,7 +12,7 @@ from tribo.lab.heights import Heights
 from tribo.study.calibration.cells import on_cells
 
 LEAST_SHIFT = 0.1
-"""Shift, in cells, above which a map is moved."""
+"""Shift, in cells, above which a map is moved, if it is significant too."""
 PRIOR_SHIFT = 0.25
 """Prior standard deviation of the shift of a map, relative to the size of the surface."""
 SIGNIFICANT = 3.0
@@ -49,7 +49,6 @@ def find_shift(
     depth: Array,
     spacing: tuple[float, float],
     sigma: float,
-    least: float = LEAST_SHIFT,
 ) -> ScarShift:
     """Find the shift of a map's scar, by least squares with the model's; also its level and tilt.
 
@@ -63,8 +62,6 @@ def find_shift(
         Edge lengths of a cell, in m.
     sigma : float
         Standard deviation of a measured cell, in m; that of the residuals if larger.
-    least : float
-        Shift that counts, in cells, if it is significant too.
     """
     along = slopes(depth, spacing)
     ramps = [np.indices(depth.shape)[axis] / depth.shape[axis] - 0.5 for axis in along]
@@ -94,7 +91,9 @@ def find_shift(
     inverse = np.linalg.inv(columns[known].T @ columns[known])
     sigmas = np.full(2, np.inf)
     sigmas[axes] = max(sigma, residual) * np.sqrt(np.diag(inverse))[1 : 1 + len(axes)] / parts[0]
-    found = np.where(np.abs(shift) > np.maximum(SIGNIFICANT * sigmas, least * cell), shift, 0.0)
+    found = np.where(
+        np.abs(shift) > np.maximum(SIGNIFICANT * sigmas, LEAST_SHIFT * cell), shift, 0.0
+    )
     return ScarShift((found[0], found[1]), (sigmas[0], sigmas[1]))
 
 
