@@ -17,6 +17,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.effects.effect import Effect
+from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation import march
 from tribo.simulation.positions import composed
 from tribo.study.gradient import tape
@@ -276,6 +277,18 @@ def test_a_coarse_run_tells_what_rules_the_depth():
     assert found.percent["load.normal"] == pytest.approx(fine["load.normal"], abs=0.1)
     in_layers = sensitivity(composed(run(bodies=layered(("0.05 um", archard(2 * K))))), 1e-4)
     assert in_layers.off > found.off
+
+
+@pytest.mark.parametrize("end", [{"duration": 60.0}, {"cycles": 600}])
+def test_a_motion_that_ends_in_a_reversal_follows_its_length_in_the_mean(end):
+    """The derivative is 0 there, but not the change by whole cycles."""
+    motion = {"stroke": "2 mm", "frequency": 10.0, "positions": "average", **end}
+    even, wavy = (
+        sensitivity(composed(run(kinematics=Reciprocating(**motion, waveform=waveform))), 1e-4)
+        for waveform in ("constant_speed", "sinusoidal")
+    )
+    for path in even.percent:
+        assert wavy.percent[path] == pytest.approx(even.percent[path], abs=0.03)
 
 
 def test_where_nothing_is_told_there_is_a_reason():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from pydantic import ConfigDict, Field, Tag, field_validator, model_validator
@@ -24,6 +24,8 @@ LONG, FEW = 4.0, 17
 """Stroke in half-widths up to which an estimate takes positions, and how many."""
 PHASES = 6
 """Speeds of a sinusoidal cycle: means of its powers up to the third are exact to 1e-6."""
+MANY = 50
+"""Half cycles from on which an estimate may end a part of one away."""
 SAMPLES = 16
 """Of a sinusoidal half cycle, between two positions."""
 
@@ -176,9 +178,21 @@ class Reciprocating(Kinematics):
         return stroke.passed(times, 0.5 * self.stroke * np.sin(phases))
 
     def coarsened(self, half_width_x: float) -> Reciprocating:
-        """Return the motion with the track average, or a few positions of a short stroke."""
+        """Return the motion with the track average, or a few positions of a short stroke.
+
+        A sinusoidal one of many cycles ends where it slides at the mean speed, and not in a
+        reversal, where it would follow neither frequency nor duration.
+        """
         few = "average" if self._averages or self.stroke > LONG * half_width_x else FEW
-        return self.model_copy(update={"positions": few, "allow_short_stroke": True})
+        changes: dict[str, Any] = {"positions": few, "allow_short_stroke": True}
+        if self.waveform == "sinusoidal":
+            half_cycles = math.floor(2 * self._steady * self.end_time)
+            cycles = 0.5 * (half_cycles - math.asin(2 / math.pi) / math.pi)
+            time = cycles / self._steady
+            ends = {"duration": time, "cycles": cycles, "distance": self.distance_at(time)}
+            if half_cycles > MANY:
+                changes |= {key: end for key, end in ends.items() if getattr(self, key) is not None}
+        return self.model_copy(update=changes)
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return a track as long as the stroke for the swept body, or its rows along the stroke."""
