@@ -77,6 +77,16 @@ def test_keys_of_the_new_type_survive_in_any_order(reverse):
     assert result["contact"] == {"type": "winkler", "modulus": 1}
 
 
+def test_a_value_that_is_short_for_a_table_is_one():
+    """As the validation reads them."""
+    data = {"load": "40 N", "friction": 0.1, "begin": "former.h5"}
+    changed = apply_settings(data, ["load.normal=25 N", "friction.coefficient=0.2"])
+    assert changed == data | {"load": {"normal": "25 N"}, "friction": {"coefficient": 0.2}}
+    assert apply_settings(data, "load.along=[1, 2]")["load"] == {"normal": "40 N", "along": [1, 2]}
+    stages = {"load": [{"until": 1, "force": 2}]}
+    assert apply_settings(stages, "load.0.force=3") == {"load": [{"until": 1, "force": 3}]}
+
+
 def test_a_name_alone_is_a_table_with_its_type():
     ball = changed("bodies.ball.surface.tilt=1")["bodies"]["ball"]
     assert ball["surface"] == {"type": "flat", "tilt": 1}

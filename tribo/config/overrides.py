@@ -14,6 +14,10 @@ from tribo.core.units import Quantity, quantities
 from tribo.core.words import shown
 
 
+SHORT = {"load": "normal", "friction": "coefficient", "begin": "result"}
+"""Tables of a case for which the value of one key is short."""
+
+
 def apply_settings(
     data: Mapping[str, Any], settings: Mapping[str, Any] | Sequence[str] | str
 ) -> dict[str, Any]:
@@ -112,6 +116,9 @@ def _changed(inside: Any, keys: list[str], value: Any, above: tuple[str, ...] = 
     if not keys:
         return value
     key, *rest = keys
+    short = SHORT.get(".".join(above))
+    if short and not (isinstance(inside, Mapping) or key.isdigit()):
+        inside = {short: inside}
     if isinstance(inside, str):
         # The name of a component is short for a table with its type.
         inside = {"type": inside}
