@@ -13,7 +13,6 @@ from tribo.core.errors import CaseError
 from tribo.core.units import Quantity, quantities
 from tribo.core.words import shown
 
-
 SHORT = {"load": "normal", "friction": "coefficient", "begin": "result"}
 """Tables of a case for which the value of one key is short."""
 
