@@ -12,7 +12,6 @@ from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.lab.heights import smoothed
 from tribo.lab.registration import Registration
-from tribo.lab.roughness import without_form
 
 MISSED = 0.2
 """Part of the bottom of the scar that may lie in holes."""
@@ -36,6 +35,7 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
     worn = np.where(core, smooth, -np.inf)
     areas, _ = ndimage.label(worn >= BOTTOM * np.max(worn), np.ones((3, 3)))
     bottom = areas == areas[np.unravel_index(int(np.argmax(worn)), core.shape)]
+    bottom |= ndimage.binary_fill_holes(bottom) & np.isnan(found.depth)
     missing = bottom & np.isnan(found.depth)
     holes = ndimage.binary_opening(missing, np.ones((3, 3)))
     of_holes = 0.0
@@ -43,7 +43,7 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
         # The deepest may lie in them, and what is known ends at the bottom's edge.
         of_holes = (1 - BOTTOM) * float(np.max(worn))
         warnings.warn(
-            "pixels are missing where the scar is deepest: the largest depth is that of the others",
+            "pixels are missing where the scar is deepest: the largest depth follows from the others",
             TriboWarning,
             stacklevel=3,
         )
@@ -52,28 +52,43 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
             "hardly any pixel of the bottom of the scar was measured; measure again, with fewer "
             "missing pixels"
         )
-    residuals = without_form(np.where(bottom, found.depth, np.nan))
-    form = found.depth - residuals
-    places = np.argwhere(np.isfinite(residuals))
-    top: tuple[int, ...] = tuple(places[int(np.argmax(form[tuple(places.T)]))])
-    rough = float(np.std(smoothed(residuals)[bottom]))
-    of_registration = max(float(found.uncertainty[top] ** 2 - found.noise**2), 0.0)
+    known = bottom & ~missing
+    places, inside, depths = np.argwhere(known), np.argwhere(bottom), found.depth[known]
+    centre, scale = np.mean(places, axis=0), float(np.max(np.ptp(places, axis=0)))
+    coefficients = np.linalg.lstsq(_paraboloid((places - centre) / scale).T, depths)[0]
+
+    def form(at: Array) -> Array:
+        return np.asarray(np.sum(coefficients[:, None] * _paraboloid(at), axis=0))
+
+    # The deepest may lie in a hole.
+    top = inside[int(np.argmax(form((inside - centre) / scale)))]
+    smoothly = form((places - centre) / scale)
+    residuals = np.full(bottom.shape, np.nan)
+    residuals[known] = depths - smoothly
+    rough = float(np.std(smoothed(residuals)[known]))
+    near = tuple(places[int(np.argmin(np.sum((places - top) ** 2, axis=1)))])
+    of_registration = max(float(found.uncertainty[near] ** 2 - found.noise**2), 0.0)
     of_noise = found.variance_inflation * found.noise**2
     of_rest = of_registration + max(rough**2 - noise**2, 0.0) + of_holes**2
-    mean, spread = float(np.nanmean(form)), float(np.nanvar(form))
+    mean, spread = float(np.mean(smoothly)), float(np.var(smoothly))
     # The largest of what noise makes of a flat bottom lies above it.
     if spread < LEVEL * of_noise / len(places):
         # That of a curved one lies √3 standard deviations above the mean.
         of_form = of_noise / len(places) + 3 * spread
         return mean, math.sqrt(of_form + of_rest)
-    of_coefficients = min(_leverage(places - np.array(top, dtype=float)) * of_noise, found.noise**2)
-    return float(form[top]), math.sqrt(of_coefficients + of_rest)
+    of_coefficients = min(_leverage((places - top) / scale) * of_noise, found.noise**2)
+    return float(form((top[None] - centre) / scale)[0]), math.sqrt(of_coefficients + of_rest)
+
+
+def _paraboloid(places: Array) -> Array:
+    """Return the terms of a paraboloid at places (n, 2), shape (6, n)."""
+    x, y = places.T
+    return np.stack([np.ones_like(x), x, y, x**2, x * y, y**2])
 
 
 def _leverage(places: Array) -> float:
     """Return the variance at the origin of a paraboloid fitted at places (n, 2), by unit noise."""
-    x, y = (places / np.max(np.ptp(places, axis=0))).T
-    terms = np.stack([np.ones_like(x), x, y, x**2, x * y, y**2])
+    terms = _paraboloid(places)
     # The constant alone counts there.
     return float(np.linalg.pinv(np.einsum("kn,ln->kl", terms, terms), hermitian=True)[0, 0])
 

@@ -9,6 +9,7 @@ import numpy as np
 import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
+from tribo.core.errors import CaseError
 from tribo.lab.heights import BLUR
 from tribo.lab.registration import DEEP
 
@@ -115,7 +116,13 @@ def track_across(
     profile, beside = np.mean(straight, axis=1), np.mean(worn_part, axis=1) < BESIDE
     if np.count_nonzero(beside) > LINES:
         noise = float(np.std(profile[beside]))
-    first, last = np.flatnonzero(np.mean(core_part, axis=1) > BESIDE)[[0, -1]]
+    along_core = np.flatnonzero(np.mean(core_part, axis=1) > BESIDE)
+    if not along_core.size:
+        raise CaseError(
+            "what is worn runs across the map, but along no line: check that both maps are of one "
+            "body"
+        )
+    first, last = along_core[[0, -1]]
     shallow = np.flatnonzero(profile <= noise)
     first = int(np.max(shallow[shallow < first], initial=-1)) + 1
     last = int(np.min(shallow[shallow > last], initial=len(profile))) - 1
