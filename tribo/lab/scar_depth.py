@@ -43,7 +43,7 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
         # The deepest may lie in them, and what is known ends at the bottom's edge.
         of_holes = (1 - BOTTOM) * float(np.max(worn))
         warnings.warn(
-            "pixels are missing where the scar is deepest: the largest depth follows from the others",
+            "pixels are missing where the scar is deepest: its depth there follows from the others",
             TriboWarning,
             stacklevel=3,
         )

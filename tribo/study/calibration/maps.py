@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 from scipy.fft import dctn, idctn
-from scipy.optimize import minimize
 from scipy.special import chdtrc, ndtri
 
 from tribo.case import Case
@@ -22,6 +21,7 @@ from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
 from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import cell_means, surface_shape
+from tribo.study.calibration.descent import descended
 from tribo.study.calibration.lanczos import eigenpairs
 from tribo.study.calibration.map_errors import MapErrors
 from tribo.study.calibration.notes import TOO_SMALL, UNLIKELY
@@ -38,10 +38,6 @@ FIRST_ITERATIONS = 10
 """Steps of L-BFGS before the information is computed."""
 ITERATIONS = 100
 """Largest number of steps after it."""
-MEMORY = 30
-"""Steps that L-BFGS remembers."""
-FALL = 0.05
-"""Fall of −ln p that ends it."""
 FINE = 0.125
 """Cell size, in correlation lengths, below which the fit starts on a grid of half as many cells."""
 FEWEST = 16
@@ -309,9 +305,7 @@ class _Posterior:
             self.tell(2 * value)
             return value + 0.5 * float(np.sum(z * z)), preconditioned(self.adjoint(slope) + z)
 
-        options = {"maxiter": steps, "ftol": 2 * FALL / self.size, "maxcor": MEMORY}
-        found = minimize(posterior, 0 * near, jac=True, method="L-BFGS-B", options=options)
-        return np.asarray(near + preconditioned(found.x))
+        return np.asarray(near + preconditioned(descended(posterior, 0 * near, steps)))
 
     def logs(self, z: Array) -> Array:
         """Return ln(k/k₀) of amplitudes."""
