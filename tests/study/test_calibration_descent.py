@@ -6,7 +6,7 @@ import pytest
 from tribo.core.errors import NumericalError
 from tribo.study.calibration.descent import descended
 
-LEAST, SIZES = np.array([1.0, -2.0, 0.5]), np.array([1.0, 30.0, 400.0])
+LEAST, SIZES = np.array([1.0, -2.0, 0.5]), np.array([1.0, 3.0, 10.0])
 
 
 def bowl(point, sizes=SIZES):

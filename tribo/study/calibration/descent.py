@@ -16,7 +16,9 @@ from tribo.core.errors import NumericalError
 MEMORY = 30
 """Steps that L-BFGS remembers."""
 FALL = 0.05
-"""Fall of −ln p in a step that ends it: less is hidden by errors of the steps of a run."""
+"""Fall of −ln p that errors of the steps of a run hide."""
+SMALL = 2
+"""Steps in a row that fall by less, which end it."""
 
 
 class _TooFar(Exception):
@@ -28,7 +30,7 @@ def descended(function: Callable[[Array], tuple[float, Array]], start: Array, st
 
     A step to where it cannot be computed ends the descent; `NumericalError` only at the start.
     """
-    best, least, former = start, math.inf, math.inf
+    best, least, former, small = start, math.inf, math.inf, 0
 
     def tried(point: Array) -> tuple[float, Array]:
         nonlocal best, least
@@ -43,9 +45,10 @@ def descended(function: Callable[[Array], tuple[float, Array]], start: Array, st
         return value, slope
 
     def settled(intermediate_result: Any) -> None:
-        nonlocal former
+        nonlocal former, small
         before, former = former, float(intermediate_result.fun)
-        if before - former < FALL:
+        small = small + 1 if before - former < FALL else 0
+        if small == SMALL:
             raise StopIteration
 
     options = {"maxiter": steps, "ftol": 0.0, "maxcor": MEMORY}
