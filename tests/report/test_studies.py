@@ -113,6 +113,15 @@ def test_a_calibration_tells_its_estimates(tmp_path):
     assert (tmp_path / "fit-report.html").stat().st_size < 200_000
 
 
+def test_where_data_and_model_disagree_the_report_begins_with_that(tmp_path):
+    (tmp_path / "fit.json").write_text(
+        json.dumps(FIT | {"chi_square": 402.0, "degrees_of_freedom": 1})
+    )
+    tribo.write_report(tmp_path / "fit.json", tmp_path / "report.html")
+    first, *_ = answers(tmp_path / "report.html")
+    assert first.startswith("Data and model disagree, p &lt; 1e-6: the values below are not to be ")
+
+
 def test_a_narrow_interval_is_told_with_digits_enough(tmp_path):
     narrow = ESTIMATE | {"lower": 7.0795e-15, "upper": 7.0805e-15}
     (tmp_path / "fit.json").write_text(json.dumps(FIT | {"parameters": [narrow]}))

@@ -28,7 +28,8 @@ from tribo.report.result import CITATION, facts
 from tribo.report.tables import for_page
 from tribo.result.provenance import environment
 from tribo.study.calibration.calibrate import DATA, Calibration
-from tribo.study.calibration.quantities import in_si
+from tribo.study.calibration.notes import UNLIKELY
+from tribo.study.calibration.quantities import in_si, p_words
 
 
 def calibration_file_page(path: Path) -> str:
@@ -99,7 +100,12 @@ def calibration_page(found: Calibration, title: str) -> str:
 
 
 def _answers(found: Calibration) -> Iterator[str]:
-    """Return each estimate and its interval in a sentence."""
+    """Return each estimate and its interval in a sentence, after a doubt of all of them."""
+    if found.p_value is not None and found.p_value < UNLIKELY:
+        yield (
+            f"Data and model disagree, {p_words(found.p_value)}: the values below are not to be "
+            "trusted before the reason is known; see the notes."
+        )
     for each in found.parameters.itertuples():
         words = f"{each.path} is {in_si(each.value, each.unit)}"
         if each.held:
