@@ -361,6 +361,7 @@ def test_a_track_has_a_section_and_the_volume_of_its_length():
     assert found.section == pytest.approx(section, rel=0.01, abs=0)
     unworn, ends = found.inferred
     assert found.track_volume == pytest.approx(2e-3 * section, rel=0.01, abs=0)
+    assert measured_scar(before, after).track_volume is None
     assert unworn.relative_error == pytest.approx(0, abs=0.05)
     assert ends.volume_m3 > unworn.volume_m3
 
@@ -486,6 +487,27 @@ def test_a_radius_or_a_shape_that_the_unworn_surface_has_not_is_told():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         measured_scar(before, after, radius=RADIUS)
+
+
+def test_a_steep_ball_has_its_radius():
+    """A paraboloid through 0.6 of a radius bends a tenth more than its middle."""
+    grid = Grid(160 * 15e-6, 160)
+    ball, noise = Sphere(radius=3e-3).height(grid), np.random.default_rng(0)
+    maps = [
+        Heights(each + noise.normal(0, 3e-8, ball.shape), (15e-6, 15e-6))
+        for each in (ball, np.minimum(ball, -1e-4))
+    ]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        measured_scar(*maps, radius=3e-3)
+    with pytest.warns(TriboWarning, match=r"has a radius of 2.9.* mm, and the ball one of 3.3 mm"):
+        measured_scar(*maps, radius=3.3e-3)
+
+
+def test_maps_of_half_the_pixels_are_refused():
+    before, after, _ = pair(missing=0)
+    with pytest.raises(CaseError, match="one map has 2 times as many pixels along both axes"):
+        measured_scar(before, Heights(after.heights[::2, ::2], after.pitch))
 
 
 @pytest.mark.parametrize("factor", [0.85, 1.15])

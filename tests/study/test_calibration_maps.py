@@ -144,6 +144,12 @@ def test_a_groove_off_the_middle_of_its_map_has_no_other_coefficient(tmp_path):
     assert np.all(firm.maps["disk"].deviation <= found.maps["disk"].deviation + 1e-6)
 
 
+def test_a_length_without_its_unit_is_refused():
+    entry = MapEntry(body="disk", depth="d.npy", pitch=1e-6, uncertainty=1e-8, length=0.1)
+    with pytest.raises(CaseError, match=r"map\.0\.length: 0\.1 m is over 20 times the window"):
+        calibrate_maps(CASE, {"map.0": entry})
+
+
 def test_a_length_below_a_cell_is_refused():
     entry = MapEntry(body="disk", depth="map.npy", uncertainty=NOISE, length="1 um")
     with pytest.raises(CaseError, match=r"map\.0\.length: 1 µm is less than a cell, 62\.5 µm"):

@@ -19,6 +19,7 @@ from tribo.lab.roughness import without_form
 from tribo.lab.scar import Scar
 from tribo.lab.scar_depth import deepest, sum_uncertainty
 from tribo.lab.scar_doubts import (
+    check_scales,
     may_be_ball,
     radius_across,
     warn_of_curvature,
@@ -73,8 +74,8 @@ class MeasuredScar:
         Mean cross-section of a track, across its direction, in m²; None for a scar that ends within
         the map.
     track_volume : float or None
-        Of the whole track, its mean section times its length (ASTM G133, D7755), in m³; None for a
-        scar that ends within the map.
+        Of the whole track, its mean section times its length (ASTM G133, D7755), in m³; None where
+        that is not given, and for a scar that ends within the map.
     inferred : tuple of InferredVolume
         Volumes by formulas, and their difference from the measured one.
     """
@@ -111,7 +112,7 @@ class MeasuredScar:
 
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data, in SI units, without the maps."""
-        found = self.registration
+        found, turned = self.registration, self.registration.rotation_uncertainty
         return {
             "volume_m3": self.volume,
             "volume_uncertainty_m3": self.volume_uncertainty,
@@ -129,13 +130,14 @@ class MeasuredScar:
             "track_volume_m3": self.track_volume,
             "missing": self.missing,
             "noise_m": found.noise,
+            # What the map after shows lies off by these, as the table says.
             "shift_m": [
-                shift if math.isfinite(sure) else None
+                -shift if math.isfinite(sure) else None
                 for shift, sure in zip(found.shift, found.shift_uncertainty, strict=True)
             ],
             "shift_uncertainty_m": list(found.shift_uncertainty),
-            "rotation_rad": found.rotation,
-            "rotation_uncertainty_rad": found.rotation_uncertainty,
+            "rotation_rad": -found.rotation if math.isfinite(turned) else None,
+            "rotation_uncertainty_rad": turned,
             "inferred_volumes": [each._asdict() for each in self.inferred],
         }
 
@@ -188,6 +190,7 @@ def measured_scar(
     else:
         if np.array_equal(before.heights, after.heights, equal_nan=True):
             raise CaseError("the maps before and after are the same; give two that differ")
+        check_scales(before, after)
         warn_of_zeros(before, "before")
     warn_of_zeros(after, "after")
     found = register(before, after, form)
@@ -279,11 +282,11 @@ def _sizes(
                 "within the map alone; give the length of all of it",
                 "track_length",
             )
-        track_volume = planimetric_volume(section, length)
-        formulas = _track_volumes(track_volume, worn.track.value, length, radius)
+        whole = planimetric_volume(section, length)
+        formulas = _track_volumes(whole, worn.track.value, length, radius)
         ends = (Width(math.inf, 0.0), worn.track)
         along, across = ends if worn.is_open[0] else ends[::-1]
-        return _Sizes(along, across, section, track_volume, formulas)
+        return _Sizes(along, across, section, whole if track_length else None, formulas)
     # Correlated noise does not average out over neighbours.
     of_lines = found.noise * math.sqrt(min(found.variance_inflation / LINES, 1.0))
     noise, smooth = (of_lines, worn.noise), worn.smooth

@@ -12,6 +12,7 @@ from tribo.core.errors import CaseError, TriboWarning
 from tribo.lab.heights import Heights
 from tribo.lab.registration import variance_inflation
 from tribo.lab.roughness import without_form
+from tribo.surfaces.sphere import Sphere
 
 ZEROS = 10
 """Ratio of the number of zeros to that of any other height above which zeros may be missing
@@ -46,6 +47,19 @@ def warn_of_zeros(heights: Heights, which: str) -> None:
         )
 
 
+def check_scales(before: Heights, after: Heights) -> None:
+    """Refuse maps of which one has a whole part of the other's pixels along both axes."""
+    ratios = np.divide(before.heights.shape, after.heights.shape)
+    for ratio in (ratios, 1 / ratios):
+        whole = round(float(ratio[0]))
+        if whole > 1 and np.all(ratio == whole) and np.allclose(before.pitch, after.pitch):
+            raise CaseError(
+                f"one map has {whole} times as many pixels along both axes as the other, and the "
+                "same pitch: if both show the same area, average the finer one over blocks, or "
+                "state each pitch in its file; else cut the larger one"
+            )
+
+
 def warn_of_curvature(unworn: Array, sure: float, *, ideal: bool) -> None:
     """Warn if what is unworn differs by a curvature, beyond what relief and noise make of it.
 
@@ -72,6 +86,7 @@ def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
     unworn = np.where(scar, np.nan, after.heights)
     rest = without_form(unworn)
     found, noise = radius_across(unworn - rest, after.pitch), float(np.nanstd(rest))
+    found *= radius / _of_ball(after, scar, radius)
     sag = after.grid.size[1] ** 2 / (8 * radius)
     if sag <= CURVED * noise:
         # It is not known.
@@ -92,6 +107,15 @@ def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
             stacklevel=3,
         )
     return True
+
+
+def _of_ball(after: Heights, scar: Mask, radius: float) -> float:
+    """Return the radius that a ball's surface is read to have, which is less where it is steep."""
+    try:
+        ball = np.where(scar, np.nan, Sphere(radius=radius).height(after.grid))
+    except CaseError:
+        return radius
+    return radius_across(ball - without_form(ball), after.pitch)
 
 
 def warn_of_edge(*, within: bool) -> None:

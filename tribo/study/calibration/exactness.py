@@ -8,6 +8,8 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.study.calibration.quantities import FIELDS, in_words
 
+MOST_UNCERTAINTY = 1e4
+"""Largest relative uncertainty of a number: more is a wrong unit."""
 LEAST_UNCERTAINTY = 1e-6
 """Smallest relative uncertainty."""
 _SIGNIFICANT = 3.0
@@ -32,7 +34,7 @@ def part_of(text: str, quantity: str) -> Part:
 
 
 def data_error(quantity: str, sigma: Array | float, values: Array) -> str:
-    """Return why values cannot be right: too exact, or depths negative in the mean; else empty."""
+    """Return why values cannot be right: in another unit, or depths negative; else empty."""
     each = np.broadcast_to(sigma, values.shape)
     if np.any(exact := each < LEAST_UNCERTAINTY * np.abs(values)):
         worst = int(np.argmax(exact * np.abs(values)))
@@ -40,6 +42,11 @@ def data_error(quantity: str, sigma: Array | float, values: Array) -> str:
             f"known to {in_words(quantity, float(each[worst]))}, less than a millionth of "
             f"{in_words(quantity, float(values[worst]))}: no run is that exact; check the "
             "uncertainty, and the units of both"
+        )
+    if quantity not in FIELDS and np.all(each > MOST_UNCERTAINTY * np.abs(values)):
+        return (
+            f"known to {in_words(quantity, float(each[0]))}, over {MOST_UNCERTAINTY:g} times "
+            f"{in_words(quantity, float(values[0]))}: check the uncertainty, and the units of both"
         )
     mean = float(np.mean(values))
     if not mean < -_SIGNIFICANT * np.max(each) / np.sqrt(len(values)):

@@ -31,6 +31,9 @@ from tribo.study.variation import unknown_body
 FAR = 2.0
 """Standard deviations of the prior by which the mean coefficient may be off without a note."""
 
+LONGEST = 20.0
+"""Correlation length over the window from which on the coefficient would be one number."""
+
 
 def calibrate_maps(
     case: Case | Mapping[str, Any] | str | Path,
@@ -65,6 +68,13 @@ def calibrate_maps(
             raise CaseError(
                 f"{1e6 * entry.length:.3g} µm is less than a cell, {1e6 * min(spacing):.3g} µm: "
                 "raise grid.cells or length",
+                f"{place}.length",
+            )
+        if entry.length > LONGEST * max(model.grid.size):
+            raise CaseError(
+                f"{in_si(entry.length, 'm')} is over {LONGEST:g} times the window, "
+                f"{in_si(max(model.grid.size), 'm')}: check its unit, or fit one coefficient to a "
+                "depth_map in [[measured]]",
                 f"{place}.length",
             )
         heights = read_map(entry.depth, entry.pitch, place)
