@@ -502,6 +502,8 @@ def test_a_steep_ball_has_its_radius():
         measured_scar(*maps, radius=3e-3)
     with pytest.warns(TriboWarning, match=r"has a radius of 2.9.* mm, and the ball one of 3.3 mm"):
         measured_scar(*maps, radius=3.3e-3)
+    with pytest.warns(TriboWarning, match="surfaces differ by more than a curvature: check the"):
+        measured_scar(Sphere(radius=3.1e-3), maps[1], form=2)
 
 
 def test_maps_of_half_the_pixels_are_refused():

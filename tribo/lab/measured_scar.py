@@ -22,8 +22,8 @@ from tribo.lab.scar_doubts import (
     check_scales,
     may_be_ball,
     radius_across,
-    warn_of_curvature,
     warn_of_edge,
+    warn_of_form,
     warn_of_ring,
     warn_of_several,
     warn_of_zeros,
@@ -209,11 +209,10 @@ def measured_scar(
     area = after.grid.cell_area
     volume = area * float(np.sum(depth[scar]))
     volume_uncertainty = area * sum_uncertainty(found, scar)
-    if form == 1:
-        # Where the maps were laid on each other may leave out what a curvature lifts.
-        beside = np.where(scar | worn.piled, np.nan, found.depth)
-        sure = max(volume_uncertainty, LITTLE * volume) / (area * np.count_nonzero(scar))
-        warn_of_curvature(beside, sure, ideal=ideal)
+    # Where the maps were laid on each other may leave out what a curvature lifts.
+    beside = np.where(scar | worn.piled, np.nan, found.depth)
+    sure = max(volume_uncertainty, LITTLE * volume) / (area * np.count_nonzero(scar))
+    warn_of_form(beside, sure, form, ideal=ideal)
     if worn.cut_off:
         warn_of_edge(within=max(np.subtract(shape, found.depth.shape)) > MARGIN)
     several = 1 if worn.track else worn.count

@@ -19,8 +19,9 @@ ZEROS = 10
 values."""
 CURVED = 20.0
 """Sag of the map, relative to its relief, from which on the radius of its surface is known."""
-BENT = 20.0
-"""χ² of the three terms of a curvature from which on it is told, which relief alone hardly has."""
+BENT = {2: 20.0, 3: 30.0}
+"""χ² of the terms of a form of an order from which on it is told, which relief alone hardly has; a
+steep ball that was shifted leaves a cubic."""
 FLAT = 20.0
 """Radius of a surface over a ball's, from which on it is not the ball's."""
 RADIUS_OFF = 0.05
@@ -60,22 +61,29 @@ def check_scales(before: Heights, after: Heights) -> None:
             )
 
 
-def warn_of_curvature(unworn: Array, sure: float, *, ideal: bool) -> None:
-    """Warn if what is unworn differs by a curvature, beyond what relief and noise make of it.
+def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
+    """Warn if what is unworn differs by a form, beyond what relief and noise make of it.
 
-    Not if it is less than how `sure` (m) the mean depth of the scar is.
+    Not if it is less than how `sure` (m) the mean depth of the scar is. That of the order `form`
+    was taken off.
     """
-    rest = without_form(unworn)
-    free = np.count_nonzero(np.isfinite(rest)) / variance_inflation(rest)
-    bent, by_chance = np.nanvar(unworn) - np.nanvar(rest), BENT / free * np.nanvar(rest)
-    if bent > max(by_chance, sure**2):
+    is_bent = False
+    for order, most in BENT.items():
+        rest = without_form(unworn, order)
+        free = np.count_nonzero(np.isfinite(rest)) / variance_inflation(rest)
+        by_chance = most / free * np.nanvar(rest)
+        is_bent |= bool(np.nanvar(unworn) - np.nanvar(rest) > max(by_chance, sure**2))
+    if is_bent:
         doubt = (
             "check the shape given and the pitch"
             if ideal
             else "check that the maps belong together"
         )
+        what = "a curvature" if form == 1 else "more than a curvature"
+        off = ", or take it off with form 2" if form == 1 else ""
         warnings.warn(
-            f"the unworn surfaces differ by a curvature: {doubt}, or take it off with form 2",
+            f"the unworn surfaces differ by {what}: {doubt}{off}; volume and depth are off by more "
+            "than their uncertainties",
             TriboWarning,
             stacklevel=3,
         )
