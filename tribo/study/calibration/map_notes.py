@@ -25,8 +25,8 @@ MARGIN = 2
 """Cells around the worn area that may be worn."""
 SIGNIFICANT = 4.0
 """Standard deviations above which a deviation is not noise."""
-FEWEST = 4
-"""Values of a median or of a profile's slope."""
+FEWEST, FEW = 4, 2
+"""Values of a profile's slope, and of a median."""
 MEDIAN_SIGMA = 1.25
 """Standard deviation of a median, relative to that of a mean."""
 TURNED = 0.25
@@ -82,7 +82,7 @@ def off_level(name: str, measured: Array, depth: Array, sigma: float) -> Iterato
     ]
     worst, where = 0.0, ""
     for part, words in ((unworn, ""), *((side, " on one side") for side in sides)):
-        if (count := int(np.sum(part))) >= FEWEST:
+        if (count := int(np.sum(part))) >= FEW:
             level = float(np.median(measured[part]))
             noise = SIGNIFICANT * MEDIAN_SIGMA * sigma / count**0.5
             limit = max(noise, DEPTH_SIGMA * largest, 2 * abs(worst))
