@@ -124,6 +124,18 @@ def test_the_deepest_may_lie_in_a_hole():
     assert found.depth_uncertainty < 2e-9
 
 
+def test_what_is_missing_within_a_ring_is_not_of_its_bottom():
+    far = np.hypot(*Grid(160 * PITCH, 160).mesh) / PITCH
+    lost = 1e-6 * np.maximum(1 - ((far - 50) / 12) ** 2, 0)
+    whole = np.random.default_rng(0).normal(0, 3e-9, far.shape) - lost
+    depths = []
+    for missing in (0, 25):
+        after = Heights(np.where(far < missing, np.nan, whole), (PITCH, PITCH))
+        with pytest.warns(TriboWarning, match="the scar encloses what is not worn"):
+            depths.append(measured_scar(Flat(), after).depth)
+    assert depths[1] == pytest.approx(depths[0], rel=1e-3, abs=0)
+
+
 def test_maps_of_two_bodies_are_refused():
     """A flat before, a ball after."""
     grid = Grid(160 * 15e-6, 160)
@@ -487,6 +499,18 @@ def test_a_radius_or_a_shape_that_the_unworn_surface_has_not_is_told():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         measured_scar(before, after, radius=RADIUS)
+
+
+def test_a_pit_in_a_corner_is_no_form():
+    """A corner weighs most in a form."""
+    grid = Grid(160 * PITCH, 160)
+    x, y = grid.mesh
+    lost = np.maximum(1e-6 * (1 - (x**2 + y**2) / (40 * PITCH) ** 2), 0)
+    after = np.random.default_rng(0).normal(0, 3e-9, lost.shape) - lost
+    after[2:8, 2:8] -= 1e-7
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        measured_scar(Flat(), Heights(after, (PITCH, PITCH)))
 
 
 def test_a_steep_ball_has_its_radius():

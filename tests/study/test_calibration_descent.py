@@ -32,13 +32,18 @@ def test_errors_of_runs_do_not_keep_it_going():
     assert found == pytest.approx(LEAST, abs=1e-3)
 
 
-def test_a_step_to_where_nothing_can_be_computed_ends_it():
-    def walled(point):
-        if point[0] > 0.1:
-            raise NumericalError("no step")
-        return bowl(point)
+def test_a_step_to_where_nothing_can_be_computed_is_shortened():
+    """The first step of L-BFGS has the length 1."""
+    refused = 0
 
-    found = descended(walled, np.zeros(3), 100)
-    assert bowl(found)[0] <= bowl(np.zeros(3))[0]
+    def walled(point):
+        nonlocal refused
+        if np.max(np.abs(point - LEAST)) > 0.3:
+            refused += 1
+            raise NumericalError("no step")
+        return bowl(point, 1e3 * SIZES)
+
+    assert descended(walled, LEAST + 0.2, 100) == pytest.approx(LEAST, abs=0.02)
+    assert refused > 0
     with pytest.raises(NumericalError, match="no step"):
-        descended(walled, np.ones(3), 100)
+        descended(walled, LEAST + 1, 100)

@@ -300,7 +300,7 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
     np.save(tmp_path / "map.npy", worn)
     centred = entry.model_copy(update={"centred": True})
     assert not calibrate_maps(CASE, {"map.0": centred}).notes
-    for factor, words in ((4, "is 4 times as deep as the scar"), (0.2, "is 0.2 times as deep as")):
+    for factor, words in ((4, "has 4 times the volume"), (0.2, "has 0.2 times the volume")):
         np.save(tmp_path / "map.npy", factor * worn)
         assert words in calibrate_maps(CASE, {"map.0": centred}).notes[0]
         wide = centred.model_copy(update={"spread": 1.0})

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, TriboWarning
@@ -35,6 +36,8 @@ from tribo.surfaces.surface import Surface
 
 MOST = 0.65
 """Part of the map that a scar may cover, with its margin."""
+PIT = 0.03
+"""Part of the map below which what differs beside the scar is a pit or a scratch."""
 LITTLE = 2e-3
 """Part of a volume that does not matter."""
 SHORTER = 0.95
@@ -210,7 +213,7 @@ def measured_scar(
     volume = area * float(np.sum(depth[scar]))
     volume_uncertainty = area * sum_uncertainty(found, scar)
     # Where the maps were laid on each other may leave out what a curvature lifts.
-    beside = np.where(scar | worn.piled, np.nan, found.depth)
+    beside = np.where(scar | worn.piled | _small(found.worn), np.nan, found.depth)
     sure = max(volume_uncertainty, LITTLE * volume) / (area * np.count_nonzero(scar))
     warn_of_form(beside, sure, form, ideal=ideal)
     if worn.cut_off:
@@ -252,6 +255,13 @@ def measured_scar(
         track_volume=sizes.track_volume,
         inferred=tuple(sizes.formulas),
     )
+
+
+def _small(marked: Mask) -> Mask:
+    """Return the small ones of some areas: pits and scratches."""
+    places, count = ndimage.label(marked)
+    small: Mask = np.bincount(places.ravel(), minlength=count + 1)[places] < PIT * marked.size
+    return marked & small
 
 
 class _Sizes(NamedTuple):

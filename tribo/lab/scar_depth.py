@@ -13,6 +13,8 @@ from tribo.core.errors import CaseError, TriboWarning
 from tribo.lab.heights import smoothed
 from tribo.lab.registration import Registration
 
+MOSTLY = 0.8
+"""Part of what the bottom encloses that is missing where it is a hole of the map."""
 MISSED = 0.2
 """Part of the bottom of the scar that may lie in holes."""
 FEWEST_OF_BOTTOM = 12
@@ -35,7 +37,7 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
     worn = np.where(core, smooth, -np.inf)
     areas, _ = ndimage.label(worn >= BOTTOM * np.max(worn), np.ones((3, 3)))
     bottom = areas == areas[np.unravel_index(int(np.argmax(worn)), core.shape)]
-    bottom |= ndimage.binary_fill_holes(bottom) & np.isnan(found.depth)
+    bottom |= _holes(bottom, np.isnan(found.depth))
     missing = bottom & np.isnan(found.depth)
     holes = ndimage.binary_opening(missing, np.ones((3, 3)))
     of_holes = 0.0
@@ -78,6 +80,14 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
         return mean, math.sqrt(of_form + of_rest)
     of_coefficients = min(_leverage((places - top) / scale) * of_noise, found.noise**2)
     return float(form((top[None] - centre) / scale)[0]), math.sqrt(of_coefficients + of_rest)
+
+
+def _holes(area: Mask, missing: Mask) -> Mask:
+    """Return what an area encloses that is missing, but for what is missing in a ring's middle."""
+    places, count = ndimage.label(ndimage.binary_fill_holes(area) & ~area)
+    parts = np.array([1.0, *ndimage.mean(missing, places, np.arange(1, count + 1))])
+    found: Mask = missing & (places > 0) & (parts[places] > MOSTLY)
+    return found
 
 
 def _paraboloid(places: Array) -> Array:

@@ -19,6 +19,8 @@ ZEROS = 10
 values."""
 CURVED = 20.0
 """Sag of the map, relative to its relief, from which on the radius of its surface is known."""
+FEWEST = 100
+"""Pixels beside a scar that a form is looked for in."""
 BENT = {2: 20.0, 3: 30.0}
 """χ² of the terms of a form of an order from which on it is told, which relief alone hardly has; a
 steep ball that was shifted leaves a cubic."""
@@ -53,7 +55,7 @@ def check_scales(before: Heights, after: Heights) -> None:
     ratios = np.divide(before.heights.shape, after.heights.shape)
     for ratio in (ratios, 1 / ratios):
         whole = round(float(ratio[0]))
-        if whole > 1 and np.all(ratio == whole) and np.allclose(before.pitch, after.pitch):
+        if whole > 1 and np.all(ratio == whole) and np.allclose(before.pitch, after.pitch, atol=0):
             raise CaseError(
                 f"one map has {whole} times as many pixels along both axes as the other, and the "
                 "same pitch: if both show the same area, average the finer one over blocks, or "
@@ -70,6 +72,9 @@ def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
     is_bent = False
     for order, most in BENT.items():
         rest = without_form(unworn, order)
+        if np.count_nonzero(np.isfinite(rest)) < FEWEST:
+            # It covers as good as all of the map.
+            continue
         free = np.count_nonzero(np.isfinite(rest)) / variance_inflation(rest)
         by_chance = most / free * np.nanvar(rest)
         is_bent |= bool(np.nanvar(unworn) - np.nanvar(rest) > max(by_chance, sure**2))

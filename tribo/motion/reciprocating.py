@@ -25,7 +25,7 @@ LONG, FEW = 4.0, 17
 PHASES = 6
 """Speeds of a sinusoidal cycle: means of its powers up to the third are exact to 1e-6."""
 MANY = 50
-"""Half cycles from on which an estimate may end a part of one away."""
+"""Half cycles above which an estimate may end a part of one away."""
 SAMPLES = 16
 """Of a sinusoidal half cycle, between two positions."""
 
@@ -180,14 +180,15 @@ class Reciprocating(Kinematics):
     def coarsened(self, half_width_x: float) -> Reciprocating:
         """Return the motion with the track average, or a few positions of a short stroke.
 
-        A sinusoidal one of many cycles ends where it slides at the mean speed, and not in a
+        A sinusoidal one of many cycles ends nearby where it slides at the mean speed, and not in a
         reversal, where it would follow neither frequency nor duration.
         """
         few = "average" if self._averages or self.stroke > LONG * half_width_x else FEW
         changes: dict[str, Any] = {"positions": few, "allow_short_stroke": True}
         if self.waveform == "sinusoidal":
-            half_cycles = math.floor(2 * self._steady * self.end_time)
-            cycles = 0.5 * (half_cycles - math.asin(2 / math.pi) / math.pi)
+            half_cycles, part = 2 * self._steady * self.end_time, math.asin(2 / math.pi) / math.pi
+            ends_at = (round(half_cycles) - part, round(half_cycles) + part)
+            cycles = 0.5 * min(ends_at, key=lambda end: abs(end - half_cycles))
             time = cycles / self._steady
             ends = {"duration": time, "cycles": cycles, "distance": self.distance_at(time)}
             if half_cycles > MANY:

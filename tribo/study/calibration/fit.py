@@ -81,7 +81,7 @@ def fit(
     if np.any(limited := here.limited()):
         origin = np.where(limited, _unseen(here), origin)
         problem = replace(problem, lower=np.where(limited, origin, problem.lower))
-        here = differenced(model, problem, origin, model(np.exp(origin)))
+        here = differenced(model, problem, origin, model(np.exp(origin)), changes)
     least, without_progress, outgrown = np.inf, 0, None
     for rounds in range(1, MOST_ROUNDS + 1):  # noqa: B007
         here, point = here.best()

@@ -19,7 +19,7 @@ from tribo.simulation.run import Simulation
 from tribo.study.calibration.cells import on_cells, read_map
 from tribo.study.calibration.doubts import REFUSED
 from tribo.study.calibration.exactness import data_error
-from tribo.study.calibration.map_notes import off_level, off_middle, off_turn
+from tribo.study.calibration.map_notes import SIGNIFICANT, off_level, off_middle, off_turn
 from tribo.study.calibration.maps import FittedMaps, fit_maps
 from tribo.study.calibration.measured import MapEntry
 from tribo.study.calibration.prior import Prior
@@ -141,10 +141,11 @@ class _Read(NamedTuple):
         """Name a loss that is far from the case's, where the prior has the coefficient."""
         known = np.isfinite(self.depth) & (self.worn > 0)
         lost, own = float(np.sum(self.depth[known])), float(np.sum(self.worn[known]))
-        noise = self.entry.uncertainty * float(np.sum(known)) ** 0.5
-        if np.any(known) and abs(math.log(max(lost, noise) / own)) > FAR * self.entry.spread:
+        noise = SIGNIFICANT * self.entry.uncertainty * float(np.sum(known)) ** 0.5
+        far = math.exp(FAR * self.entry.spread)
+        if np.any(known) and not (lost + noise > own / far and lost - noise < own * far):
             yield (
-                f"{name} is {lost / own:.2g} times as deep as the scar of the case, more than a "
-                f"spread of {self.entry.spread:g} allows for: do not trust the factors; check the "
-                "map, or first fit the k of the case to it, as a depth_map in [[measured]]"
+                f"{name} has {lost / own:.2g} times the volume that the case wears there, which a "
+                f"spread of {self.entry.spread:g} does not allow for: do not trust the factors; "
+                "check the map, or first fit the case's k to it, as a depth_map in [[measured]]"
             )

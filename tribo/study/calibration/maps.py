@@ -117,8 +117,8 @@ class FittedMaps:
                 f"{self.chi_square:.4g} where about {self.degrees_of_freedom:.4g} is expected; the "
                 "model leaves something out, or the uncertainty is larger, or the length shorter"
             )
-        least = max(self.degrees_of_freedom - self.by_grid, 1.0)
-        if chdtrc(least, self.chi_square) > 1 - TOO_SMALL:
+        least = self.degrees_of_freedom - self.by_grid
+        if least > 1 and chdtrc(least, self.chi_square) > 1 - TOO_SMALL:
             notes.append(
                 f"the depths differ from the fit by less than their uncertainty: χ² is "
                 f"{self.chi_square:.3g} where at least {least:.3g} is expected; is "

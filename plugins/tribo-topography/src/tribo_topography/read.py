@@ -25,11 +25,16 @@ MAX_PIXELS = 2**26
 
 
 class Unreadable(CaseError):
-    """A file that is read with other settings, as `advice` says."""
+    """A file that is read with other settings, as the message says after its `reason`."""
 
-    def __init__(self, reason: str, advice: str) -> None:
-        super().__init__(f"{reason}; {advice}")
-        self.reason = reason
+    reason = ""
+
+    @classmethod
+    def of(cls, reason: str, advice: str) -> Unreadable:
+        """Return the error of a reason, with advice."""
+        error = cls(f"{reason}; {advice}")
+        error.reason = reason
+        return error
 
 
 @dataclass(frozen=True)
@@ -154,7 +159,7 @@ def _open(path: Path, file: BinaryIO, name: str | None) -> Any:
         raise CaseError(f"{path} cannot be read as {name!r}: {_said(error)}") from error
     if name is None and usual and reader.format() not in {each.format() for each in usual}:
         found = reader.format()
-        raise Unreadable(
+        raise Unreadable.of(
             f"{path} is named as {usual[0].name()}, but looks like {found!r} inside",
             f"if it is that, set format = {found!r}",
         )
@@ -170,7 +175,7 @@ def _not_recognised(path: Path, file: BinaryIO, usual: list[Any]) -> CaseError:
             return CaseError(
                 f"{path} is named as {reader.name()}, but cannot be read as such: {_said(error)}"
             )
-    return Unreadable(
+    return Unreadable.of(
         f"{path} is in none of the formats that are known",
         "export it as .x3p, or set format if you know it",
     )
@@ -203,7 +208,7 @@ def _checked_channel(path: Path, channel: Any, config: MeasuredFile) -> tuple[fl
     if config.size is not None:
         return 1.0, 1.0
     if channel.physical_sizes is None:
-        raise Unreadable(
+        raise Unreadable.of(
             f"{path} does not say how large the measured area is",
             'add size, as size = ["1.24 mm", "0.94 mm"]',
         )
@@ -217,7 +222,9 @@ def _metre(path: Path, stated: str | None, config: MeasuredFile) -> float:
 
     if stated is None:
         if config.unit is None:
-            raise Unreadable(f"{path} states no unit for its heights", "add unit, as unit = '1 um'")
+            raise Unreadable.of(
+                f"{path} states no unit for its heights", "add unit, as unit = '1 um'"
+            )
         return config.unit
     if config.unit is not None:
         raise CaseError(
