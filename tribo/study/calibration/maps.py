@@ -15,7 +15,7 @@ from scipy.special import chdtrc, ndtri
 
 from tribo.case import Case
 from tribo.core.arrays import Array, Mask
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, NumericalError
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
@@ -27,7 +27,7 @@ from tribo.study.calibration.map_errors import MapErrors
 from tribo.study.calibration.notes import TOO_SMALL, UNLIKELY
 from tribo.study.calibration.prior import Prior
 from tribo.study.gradient.backwards import swept_back
-from tribo.study.gradient.gradient import ValueAndGradient
+from tribo.study.gradient.gradient import FURTHEST, ValueAndGradient
 from tribo.study.gradient.local import localised
 from tribo.study.gradient.objective import Seeds, View
 from tribo.study.gradient.tape import Tape, recorded
@@ -301,7 +301,10 @@ class _Posterior:
 
         def posterior(y: Array) -> tuple[float, Array]:
             z = near + preconditioned(y)
-            value, slope = self.gradient(self.logs(z))
+            logs = self.logs(z)
+            if (most := float(np.max(np.abs(logs)))) > FURTHEST:
+                raise NumericalError(f"a step went {most:.3g} away in the logarithm of a factor")
+            value, slope = self.gradient(logs)
             self.tell(2 * value)
             return value + 0.5 * float(np.sum(z * z)), preconditioned(self.adjoint(slope) + z)
 
