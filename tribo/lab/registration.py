@@ -137,14 +137,14 @@ class _Fit:
         self.places = np.stack(np.broadcast_arrays(*after.grid.mesh))
         self.lever = float(np.sqrt(np.mean(np.sum(self.places**2, axis=0))))
         places = np.stack(np.broadcast_arrays(*before.grid.mesh))
-        terms, known = _quadratic(places, self.lever)[0], np.isfinite(before.heights)
+        terms, known = quadratic(places, self.lever)[0], np.isfinite(before.heights)
         middle, terms_of = np.mean(before.heights[known]), terms[:, known]
         inverse = np.linalg.pinv(np.einsum("kn,ln->kl", terms_of, terms_of), hermitian=True)
         centred = np.einsum("kn,n->k", terms_of, before.heights[known] - middle)
         self.quadratic = np.einsum("kl,l->k", inverse, centred)
         """The form of the map before."""
         self.relief = nearest_filled(before.heights - np.tensordot(self.quadratic, terms, 1))
-        own = np.tensordot(self.quadratic, _quadratic(self.places, self.lever)[0], 1)
+        own = np.tensordot(self.quadratic, quadratic(self.places, self.lever)[0], 1)
         self.filled = own + nearest_filled(after.heights - own)
         x, y = self.places / np.max(np.abs(self.places))
         self.form = np.stack([x**i * y**j for i in range(form + 1) for j in range(form + 1 - i)])
@@ -170,7 +170,7 @@ class _Fit:
         at = position / self.pitch[:, None, None] + middle[:, None, None]
         # Without form, as blur is one-sided at the border and would bend it.
         form, *bends = (
-            np.tensordot(self.quadratic, each, 1) for each in _quadratic(position, self.lever)
+            np.tensordot(self.quadratic, each, 1) for each in quadratic(position, self.lever)
         )
         relief = self.relief
         rest = self.filled - form - np.tensordot(self.factors, self.form, 1)
@@ -296,7 +296,7 @@ def _common_area(depth: Array) -> tuple[slice, slice]:
     return along, across
 
 
-def _quadratic(places: Array, scale: float) -> Array:
+def quadratic(places: Array, scale: float) -> Array:
     """Return the terms of a quadratic form at places, and their derivatives along x and y."""
     x, y = places / scale
     one, none = np.ones_like(x), np.zeros_like(x)

@@ -11,7 +11,7 @@ import scipy.ndimage as ndimage
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.lab.heights import smoothed
-from tribo.lab.registration import Registration
+from tribo.lab.registration import Registration, quadratic
 
 MOSTLY = 0.8
 """Part of what the bottom encloses that is missing where it is a hole of the map."""
@@ -55,31 +55,29 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
             "missing pixels"
         )
     known = bottom & ~missing
-    places, inside, depths = np.argwhere(known), np.argwhere(bottom), found.depth[known]
+    places, inside = (np.argwhere(each).astype(float) for each in (known, bottom))
     centre, scale = np.mean(places, axis=0), float(np.max(np.ptp(places, axis=0)))
-    coefficients = np.linalg.lstsq(_paraboloid((places - centre) / scale).T, depths)[0]
-
-    def form(at: Array) -> Array:
-        return np.asarray(np.sum(coefficients[:, None] * _paraboloid(at), axis=0))
-
+    terms, everywhere = (quadratic((each - centre).T, scale)[0] for each in (places, inside))
+    coefficients = np.linalg.lstsq(terms.T, found.depth[known])[0]
+    form, whole = (np.sum(coefficients[:, None] * each, axis=0) for each in (terms, everywhere))
     # The deepest may lie in a hole.
-    top = inside[int(np.argmax(form((inside - centre) / scale)))]
-    smoothly = form((places - centre) / scale)
+    top = int(np.argmax(whole))
+    off = places - inside[top]
     residuals = np.full(bottom.shape, np.nan)
-    residuals[known] = depths - smoothly
+    residuals[known] = found.depth[known] - form
     rough = float(np.std(smoothed(residuals)[known]))
-    near = tuple(places[int(np.argmin(np.sum((places - top) ** 2, axis=1)))])
-    of_registration = max(float(found.uncertainty[near] ** 2 - found.noise**2), 0.0)
+    beside = found.uncertainty[known][int(np.argmin(np.sum(off**2, axis=1)))]
+    of_registration = max(float(beside**2 - found.noise**2), 0.0)
     of_noise = found.variance_inflation * found.noise**2
     of_rest = of_registration + max(rough**2 - noise**2, 0.0) + of_holes**2
-    mean, spread = float(np.mean(smoothly)), float(np.var(smoothly))
+    mean, spread = float(np.mean(form)), float(np.var(form))
     # The largest of what noise makes of a flat bottom lies above it.
     if spread < LEVEL * of_noise / len(places):
         # That of a curved one lies √3 standard deviations above the mean.
         of_form = of_noise / len(places) + 3 * spread
         return mean, math.sqrt(of_form + of_rest)
-    of_coefficients = min(_leverage((places - top) / scale) * of_noise, found.noise**2)
-    return float(form((top[None] - centre) / scale)[0]), math.sqrt(of_coefficients + of_rest)
+    of_coefficients = min(_leverage(off, scale) * of_noise, found.noise**2)
+    return float(whole[top]), math.sqrt(of_coefficients + of_rest)
 
 
 def _holes(area: Mask, missing: Mask) -> Mask:
@@ -90,15 +88,9 @@ def _holes(area: Mask, missing: Mask) -> Mask:
     return found
 
 
-def _paraboloid(places: Array) -> Array:
-    """Return the terms of a paraboloid at places (n, 2), shape (6, n)."""
-    x, y = places.T
-    return np.stack([np.ones_like(x), x, y, x**2, x * y, y**2])
-
-
-def _leverage(places: Array) -> float:
+def _leverage(places: Array, scale: float) -> float:
     """Return the variance at the origin of a paraboloid fitted at places (n, 2), by unit noise."""
-    terms = _paraboloid(places)
+    terms = quadratic(places.T, scale)[0]
     # The constant alone counts there.
     return float(np.linalg.pinv(np.einsum("kn,ln->kl", terms, terms), hermitian=True)[0, 0])
 

@@ -69,15 +69,16 @@ def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
     Not if it is less than how `sure` (m) the mean depth of the scar is. That of the order `form`
     was taken off.
     """
+    count = np.count_nonzero(np.isfinite(unworn))
+    if count < FEWEST:
+        # The scar covers as good as all of the map.
+        return
     is_bent = False
     for order, most in BENT.items():
         rest = without_form(unworn, order)
-        if np.count_nonzero(np.isfinite(rest)) < FEWEST:
-            # It covers as good as all of the map.
-            continue
-        free = np.count_nonzero(np.isfinite(rest)) / variance_inflation(rest)
-        by_chance = most / free * np.nanvar(rest)
-        is_bent |= bool(np.nanvar(unworn) - np.nanvar(rest) > max(by_chance, sure**2))
+        left = np.nanvar(rest)
+        by_chance = most / (count / variance_inflation(rest)) * left
+        is_bent |= bool(np.nanvar(unworn) - left > max(by_chance, sure**2))
     if is_bent:
         doubt = (
             "check the shape given and the pitch"
@@ -99,11 +100,11 @@ def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
     unworn = np.where(scar, np.nan, after.heights)
     rest = without_form(unworn)
     found, noise = radius_across(unworn - rest, after.pitch), float(np.nanstd(rest))
-    found *= radius / _of_ball(after, scar, radius)
     sag = after.grid.size[1] ** 2 / (8 * radius)
     if sag <= CURVED * noise:
         # It is not known.
         return True
+    found *= radius / _of_ball(after, scar, radius)
     if found > FLAT * radius:
         warnings.warn(
             f"the unworn surface is as good as flat, and the ball has a radius of "
@@ -135,9 +136,8 @@ def warn_of_edge(*, within: bool) -> None:
     """Warn that an edge cuts a scar off, that of the map, or of a gap, or `within` it."""
     warnings.warn(
         f"the edge of {'the area common to both maps' if within else 'what was measured'} cuts the "
-        "scar off: "
-        "volume and depth are those of the part within, widths and formulas are left out; measure "
-        f"a larger area{', the same before and after' if within else ''}",
+        "scar off: volume and depth are those of the part within, widths and formulas are left "
+        f"out; measure a larger area{', the same before and after' if within else ''}",
         TriboWarning,
         stacklevel=3,
     )
