@@ -185,14 +185,14 @@ class Reciprocating(Kinematics):
         """
         few = "average" if self._averages or self.stroke > LONG * half_width_x else FEW
         changes: dict[str, Any] = {"positions": few, "allow_short_stroke": True}
-        if self.waveform == "sinusoidal":
-            half_cycles, part = 2 * self._steady * self.end_time, math.asin(2 / math.pi) / math.pi
+        is_sine = self.waveform == "sinusoidal"
+        if is_sine and (half_cycles := 2 * self._steady * self.end_time) > MANY:
+            part = math.asin(2 / math.pi) / math.pi
             ends_at = (round(half_cycles) - part, round(half_cycles) + part)
             cycles = 0.5 * min(ends_at, key=lambda end: abs(end - half_cycles))
             time = cycles / self._steady
             ends = {"duration": time, "cycles": cycles, "distance": self.distance_at(time)}
-            if half_cycles > MANY:
-                changes |= {key: end for key, end in ends.items() if getattr(self, key) is not None}
+            changes |= {key: end for key, end in ends.items() if getattr(self, key) is not None}
         return self.model_copy(update=changes)
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:

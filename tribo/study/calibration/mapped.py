@@ -30,7 +30,6 @@ from tribo.study.variation import unknown_body
 
 FAR = 2.0
 """Standard deviations of the prior by which the mean coefficient may be off without a note."""
-
 LONGEST = 20.0
 """Correlation length over the window from which on the coefficient would be one number."""
 
