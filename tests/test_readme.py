@@ -14,7 +14,7 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w*)\n(.*?)^```$", README, re.S | re.M)
 CODE = [text for kind, text in BLOCKS if kind == "python"]
 SHOWN = [text for kind, text in BLOCKS if kind == "text"]
-WALL_TIME = re.compile(r"\d+\.\d s\.")
+WALL_TIME = re.compile(r"(?<=contact solves, )[\d.e-]+(?= s\.$)")
 RESOLVED = re.compile(r"(?<=\d) +[\d.]+$|(?<=groove )\d+(?= % too deep: docs)")
 QUICK = (
     "kinematics.positions=25",
@@ -86,4 +86,4 @@ def _comparable(text):
     lines = [line.rstrip() for line in text.strip().splitlines()]
     resolved = lines.index("After 360 m")
     lines[resolved + 1 :] = [RESOLVED.sub("…", line) for line in lines[resolved + 1 :]]
-    return [ROUND_OFF.sub("…", WALL_TIME.sub("… s.", line)) for line in lines]
+    return [ROUND_OFF.sub("…", WALL_TIME.sub("…", line)) for line in lines]

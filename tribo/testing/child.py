@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import pickle
 import subprocess
@@ -86,9 +87,16 @@ def _begin() -> subprocess.Popen[bytes]:
         stdout=subprocess.PIPE,
         env=environment,
     )
+    atexit.register(_end, process)
     assert process.stdout is not None
     process.stdout.read(len(_READY))
     return process
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    process.kill()
+    with process:  # Closes its pipes, and waits for it.
+        pass
 
 
 def serve() -> None:
