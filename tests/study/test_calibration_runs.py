@@ -10,7 +10,7 @@ from calibrations import cheap, kept_runs, on_springs
 from rich.console import Console
 from scipy.stats import norm
 
-from tribo.cli.fitted import predictions_table
+from tribo.cli.fitted import estimates_table, predictions_table
 from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
@@ -177,11 +177,16 @@ def test_the_start_leaves_no_trace_in_the_uncertainties(monkeypatch):
         return Run(np.array(found), off * found, {}, ())
 
     monkeypatch.setattr("tribo.study.calibration.experiment.make_run", made)
-    data = [BALL_LOSS, measured("ball", "crown", 6e-6)]
+    data, told = [BALL_LOSS, measured("ball", "crown", 6e-6)], []
     near, far = (
-        calibrate(CASE, {"measured": data, "fit": fitting(BALL_K, start=start)})
+        calibrate(
+            CASE,
+            {"measured": data, "fit": fitting(BALL_K, start=start)},
+            on_run=lambda run, misfit: told.append(run),
+        )
         for start in (BALL, 100 * BALL)
     )
+    assert told == [*range(1, near.runs + 1), *range(1, far.runs + 1)]
     np.testing.assert_allclose(far.data["sigma"], near.data["sigma"], rtol=0.05)
     assert far.chi_square == pytest.approx(near.chi_square, rel=0.1)
     assert far.parameters["value"][0] == pytest.approx(near.parameters["value"][0], rel=1e-3, abs=0)
@@ -520,6 +525,9 @@ def test_an_estimate_held_by_its_bound_has_no_interval_and_data_and_model_disagr
     ball, disk = held.parameters.itertuples()
     assert ball.value == pytest.approx(1.2 * BALL, rel=1e-6, abs=0)
     assert (ball.held, disk.held) == (True, False)
+    console = Console(width=80, record=True)
+    console.print(estimates_table(held))
+    assert console.export_text().count("held by its upper bound") == 1
     assert (ball.lower, ball.upper) == (0, 1.2 * BALL)
     assert held.chi_square == pytest.approx(64)
     assert held.brief["residual"].iloc[0] == pytest.approx(-8)

@@ -15,6 +15,7 @@ from tribo.cli.console import Console, titled
 from tribo.core.words import digits_of, signed
 from tribo.study.calibration.calibrate import Calibration
 from tribo.study.calibration.choice import Choice
+from tribo.study.calibration.notes import bound
 from tribo.study.calibration.plan import Plan
 from tribo.study.calibration.quantities import in_si, in_words, p_words, percent
 
@@ -112,7 +113,7 @@ def estimates_table(found: Calibration) -> Table:
         digits = digits_of(each.lower, each.upper)
         ends, relative = _interval(each, f"{each.lower:.{digits}g}", f"{each.upper:.{digits}g}")
         if each.held:
-            ends = "held by its bound"
+            ends = f"held by its {bound(each)} bound"
         value = in_si(each.value, each.unit, digits)
         if each.limited:
             value, ends = f"below {in_si(each.upper, each.unit)}", "upper bound"

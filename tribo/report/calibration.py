@@ -28,7 +28,7 @@ from tribo.report.result import CITATION, facts
 from tribo.report.tables import for_page
 from tribo.result.provenance import environment
 from tribo.study.calibration.calibrate import DATA, Calibration
-from tribo.study.calibration.notes import UNLIKELY
+from tribo.study.calibration.notes import UNLIKELY, bound
 from tribo.study.calibration.quantities import in_si, p_words
 
 
@@ -109,7 +109,7 @@ def _answers(found: Calibration) -> Iterator[str]:
     for each in found.parameters.itertuples():
         words = f"{each.path} is {in_si(each.value, each.unit)}"
         if each.held:
-            yield f"{words}, held by its bound."
+            yield f"{words}, held by its {bound(each)} bound."
         elif each.limited:
             yield f"{each.path} is below {in_si(each.upper, each.unit)}, as nothing was detected."
         elif math.isinf(each.upper):

@@ -206,13 +206,15 @@ def calibrate(
     # Correlated errors of a map scale with its depth, which is known near the estimate only.
     problem = experiment.problem(experiment.start).without_common()
 
-    least = math.inf
+    least, told = math.inf, 0
 
     def responses(values: Array) -> Array:
         found = experiment.run(values).responses
         misfit = float(np.sum(problem.residuals(found, problem.weights()) ** 2))
-        nonlocal least
-        on_run(experiment.run_count, misfit if misfit < least else math.nan)
+        nonlocal least, told
+        if experiment.run_count > told:
+            told = experiment.run_count
+            on_run(told, misfit if misfit < least else math.nan)
         least = min(least, misfit)
         return found
 

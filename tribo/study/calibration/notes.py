@@ -68,12 +68,11 @@ def _on_parameters(
     for each, effect, column in zip(estimates.itertuples(), effects, jacobian.T, strict=True):
         is_open = {"below": each.lower == 0, "above": math.isinf(each.upper)}
         if each.held:
-            below = each.value - each.lower < each.upper - each.value
             steep = abs(float(np.sum(column * data["alone"]))) / float(np.sqrt(np.sum(column**2)))
             met = "without the bound the data would be met better"
             yield (
-                f"{each.path}: the estimate lies on its {'lower' if below else 'upper'} bound, "
-                f"{in_si(each.lower if below else each.upper, each.unit)}, and has no interval; "
+                f"{each.path}: the estimate lies on its {bound(each)} bound, "
+                f"{in_si(each.value, each.unit)}, and has no interval; "
                 f"{met if steep > STEEP else 'the data hardly tell it'}"
             )
         elif each.limited:
@@ -99,6 +98,11 @@ def _on_parameters(
                 f"the {named(entry)} read to {in_words(entry.quantity, entry.step)} "
                 f"leaves ±{percent(each.resolution_limit)} % open"
             )
+
+
+def bound(estimate: Any) -> str:
+    """Return which bound holds an estimate."""
+    return "lower" if estimate.value - estimate.lower < estimate.upper - estimate.value else "upper"
 
 
 def _on_collinearity(paths: Sequence[str], jacobian: Array) -> Iterator[str]:
