@@ -180,16 +180,17 @@ class Reciprocating(Kinematics):
     def coarsened(self, half_width_x: float) -> Reciprocating:
         """Return the motion with the track average, or a few positions of a short stroke.
 
-        A sinusoidal one of many cycles ends nearby where it slides at the mean speed, and not in a
-        reversal, where it would follow neither frequency nor duration.
+        A sinusoidal one of many cycles ends just before, where it slides at the mean speed, and not
+        in a reversal, where it would follow neither frequency nor duration.
         """
         few = "average" if self._averages or self.stroke > LONG * half_width_x else FEW
         changes: dict[str, Any] = {"positions": few, "allow_short_stroke": True}
         is_sine = self.waveform == "sinusoidal"
         if is_sine and (half_cycles := 2 * self._steady * self.end_time) > MANY:
             part = math.asin(2 / math.pi) / math.pi
-            ends_at = (round(half_cycles) - part, round(half_cycles) + part)
-            cycles = 0.5 * min(ends_at, key=lambda end: abs(end - half_cycles))
+            whole = math.floor(half_cycles)
+            ends_at = (whole - part, whole + part, whole + 1 - part)
+            cycles = 0.5 * max(end for end in ends_at if end <= half_cycles)
             time = cycles / self._steady
             ends = {"duration": time, "cycles": cycles, "distance": self.distance_at(time)}
             changes |= {key: end for key, end in ends.items() if getattr(self, key) is not None}
