@@ -293,6 +293,7 @@ def test_smooth_maps_tell_no_orientation_but_swapped_shapes_may():
         register(first, Heights(second.heights.T, second.pitch))
 
 
+@pytest.mark.filterwarnings("ignore:.*in one gap")
 def test_the_volume_of_a_hole_in_the_scar_is_interpolated_and_its_uncertainty_says_so(standard):
     before, after, lost, whole = standard
     x, y = after.grid.mesh
@@ -501,6 +502,21 @@ def test_a_radius_or_a_shape_that_the_unworn_surface_has_not_is_told():
         measured_scar(before, after, radius=RADIUS)
 
 
+@pytest.mark.parametrize(("missing", "told"), [(25, False), (36, False), (38, True), (44, True)])
+def test_a_volume_that_lies_in_a_gap_is_told(missing, told):
+    """The track begins 38 pixels from the middle of its circle."""
+    far = np.hypot(*Grid(160 * PITCH, 160).mesh) / PITCH
+    lost = 1e-6 * np.maximum(1 - ((far - 50) / 12) ** 2, 0)
+    after = np.random.default_rng(0).normal(0, 3e-9, far.shape) - lost
+    after = Heights(np.where(far < missing, np.nan, after), (PITCH, PITCH))
+    with warnings.catch_warnings(record=True) as warned:
+        warnings.simplefilter("always")
+        found = measured_scar(Flat(), after)
+    assert any("in one gap" in str(each.message) for each in warned) == told
+    off = abs(found.volume / (PITCH**2 * np.sum(lost)) - 1)
+    assert off > 0.2 if told else off < 0.1
+
+
 def test_a_pit_in_a_corner_is_no_form():
     """A corner weighs most in a form."""
     grid = Grid(160 * PITCH, 160)
@@ -533,7 +549,7 @@ def test_a_steep_ball_has_its_radius():
 def test_maps_of_half_the_pixels_are_refused():
     before, after, _ = pair(missing=0)
     with pytest.raises(CaseError, match="one map has 2 times as many pixels along both axes"):
-        measured_scar(before, Heights(after.heights[::2, ::2], after.pitch))
+        measured_scar(before, Heights(after.heights[::2, ::2], np.multiply(1.0005, after.pitch)))
 
 
 @pytest.mark.parametrize("factor", [0.85, 1.15])
@@ -827,3 +843,10 @@ def test_a_file_of_a_format_that_nothing_reads_is_refused(tmp_path, monkeypatch)
         read_heights(tmp_path / "list.csv", (PITCH, PITCH))
     with pytest.raises(CaseError, match=r"there is no file .*map\.npy"):
         read_heights(tmp_path / "map.npy")
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+def test_nothing_is_known_of_a_radius_where_the_scar_covers_the_map():
+    x, y = Grid(32 * PITCH, 32).mesh
+    lost = np.maximum(1e-6 * (1 - (x**2 + y**2) / (6.4 * PITCH) ** 2), 0)
+    measured_scar(Flat(), Heights(-lost, (PITCH, PITCH)), radius=1e-3)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -30,6 +31,11 @@ ALIKE = 0.5
 """Correlation below which a map may be mirrored or turned."""
 BETTER = 1.5
 """Ratio of correlations from which on a map is mirrored or turned."""
+
+
+def same_pitch(one: Sequence[float], other: Sequence[float]) -> bool:
+    """Whether maps of these distances between pixels may be laid on each other."""
+    return np.allclose(one, other, rtol=SAME, atol=0)
 
 
 class Alignment(NamedTuple):
@@ -90,7 +96,7 @@ def align(before: Heights, after: Heights) -> Alignment:
 
 
 def _warn_of_orientation(before: Heights, after: Heights, correlation: float) -> None:
-    square = np.isclose(*after.pitch, rtol=SAME, atol=0)
+    square = same_pitch(after.pitch, after.pitch[::-1])
     correlations = {
         each: _cross_correlated(before, Heights(each.of(after.heights), after.pitch), every=3)[0]
         for each in ORIENTATIONS

@@ -25,6 +25,7 @@ from tribo.lab.scar_doubts import (
     radius_across,
     warn_of_edge,
     warn_of_form,
+    warn_of_gap,
     warn_of_ring,
     warn_of_several,
     warn_of_zeros,
@@ -218,6 +219,8 @@ def measured_scar(
     warn_of_form(beside, sure, form, ideal=ideal)
     if worn.cut_off:
         warn_of_edge(within=max(np.subtract(shape, found.depth.shape)) > MARGIN)
+    else:
+        warn_of_gap(scar, known, depth)
     several = 1 if worn.track else worn.count
     if several > 1:
         warn_of_several(several)

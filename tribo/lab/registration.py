@@ -9,7 +9,7 @@ import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError
-from tribo.lab.alignment import OVERLAP, SAME, align, robust_deviation, rotation
+from tribo.lab.alignment import OVERLAP, align, robust_deviation, rotation, same_pitch
 from tribo.lab.heights import Heights, nearest_filled, smoothed
 
 TEXTURE = 3.0
@@ -107,11 +107,11 @@ def register(before: Heights, after: Heights, form: int = 1) -> Registration:
     Comput. Vis. 56, 221-255. White, H. (1980), A heteroskedasticity-consistent covariance matrix
     estimator, Econometrica 48, 817-838.
     """
-    if not np.allclose(before.pitch, after.pitch, rtol=SAME, atol=0):
+    if not same_pitch(before.pitch, after.pitch):
         first, second = (
             " × ".join(f"{1e6 * each:.6g}" for each in m.pitch) + " µm" for m in (before, after)
         )
-        swapped = np.allclose(before.pitch, after.pitch[::-1], rtol=SAME, atol=0)
+        swapped = same_pitch(before.pitch, after.pitch[::-1])
         raise CaseError(
             f"the map before has a pixel every {first}, and that after every {second}; "
             + ("swap the axes of one, or " if swapped else "")

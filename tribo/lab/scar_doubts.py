@@ -6,9 +6,11 @@ import math
 import warnings
 
 import numpy as np
+import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, TriboWarning
+from tribo.lab.alignment import same_pitch
 from tribo.lab.heights import Heights
 from tribo.lab.registration import variance_inflation
 from tribo.lab.roughness import without_form
@@ -26,6 +28,8 @@ BENT = {2: 20.0, 3: 30.0}
 steep ball that was shifted leaves a cubic."""
 FLAT = 20.0
 """Radius of a surface over a ball's, from which on it is not the ball's."""
+GAP = 0.15
+"""Part of the volume in one gap of the map from which on it is told."""
 RADIUS_OFF = 0.05
 """Relative difference of a radius that is told."""
 
@@ -55,7 +59,7 @@ def check_scales(before: Heights, after: Heights) -> None:
     ratios = np.divide(before.heights.shape, after.heights.shape)
     for ratio in (ratios, 1 / ratios):
         whole = round(float(ratio[0]))
-        if whole > 1 and np.all(ratio == whole) and np.allclose(before.pitch, after.pitch, atol=0):
+        if whole > 1 and np.all(ratio == whole) and same_pitch(before.pitch, after.pitch):
             raise CaseError(
                 f"one map has {whole} times as many pixels along both axes as the other, and the "
                 "same pitch: if both show the same area, average the finer one over blocks, or "
@@ -69,11 +73,9 @@ def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
     Not if it is less than how `sure` (m) the mean depth of the scar is. That of the order `form`
     was taken off.
     """
-    count = np.count_nonzero(np.isfinite(unworn))
-    if count < FEWEST:
-        # The scar covers as good as all of the map.
+    if _is_covered(unworn):
         return
-    is_bent = False
+    count, is_bent = np.count_nonzero(np.isfinite(unworn)), False
     for order, most in BENT.items():
         rest = without_form(unworn, order)
         left = np.nanvar(rest)
@@ -95,14 +97,21 @@ def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
         )
 
 
+def _is_covered(unworn: Array) -> bool:
+    """Whether a scar covers as good as all of a map."""
+    return bool(np.count_nonzero(np.isfinite(unworn)) < FEWEST)
+
+
 def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
     """Whether the unworn surface may be that of a ball; warn if not, or of another radius."""
     unworn = np.where(scar, np.nan, after.heights)
+    if _is_covered(unworn):
+        # It is not known.
+        return True
     rest = without_form(unworn)
     found, noise = radius_across(unworn - rest, after.pitch), float(np.nanstd(rest))
     sag = after.grid.size[1] ** 2 / (8 * radius)
     if sag <= CURVED * noise:
-        # It is not known.
         return True
     found *= radius / _of_ball(after, scar, radius)
     if found > FLAT * radius:
@@ -130,6 +139,21 @@ def _of_ball(after: Heights, scar: Mask, radius: float) -> float:
     except CaseError:
         return radius
     return radius_across(ball - without_form(ball), after.pitch)
+
+
+def warn_of_gap(scar: Mask, known: Mask, depth: Array) -> None:
+    """Warn of a large gap in a scar, which may be the middle of a ring."""
+    # Not of pixels that are missing here and there.
+    gaps, count = ndimage.label(ndimage.binary_opening(scar & ~known, np.ones((3, 3))))
+    volumes = ndimage.sum(depth, gaps, np.arange(1, count + 1))
+    part = float(np.max(volumes, initial=0.0) / np.sum(depth[scar]))
+    if part > GAP:
+        warnings.warn(
+            f"{100 * part:.0f} % of the volume lie in one gap of what was measured, by the depths "
+            "around it: too much if it is not worn there, as in the middle of a circular track",
+            TriboWarning,
+            stacklevel=3,
+        )
 
 
 def warn_of_edge(*, within: bool) -> None:
