@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -162,3 +163,6 @@ def test_local_coefficients_are_told_with_their_fit(tmp_path):
     page = path.read_text(encoding="utf-8")
     assert "ball: the data say nothing of 1 cells" in page
     assert page.count("<figure") == 2
+    assert not found.is_refuted
+    assert replace(found, chi_square=30.0).is_refuted
+    assert not replace(found, chi_square=1e-7, degrees_of_freedom=1e-4).is_refuted

@@ -300,11 +300,21 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
     np.save(tmp_path / "map.npy", worn)
     centred = entry.model_copy(update={"centred": True})
     assert not calibrate_maps(CASE, {"map.0": centred}).notes
-    for factor, words in ((4, "has 4 times the volume"), (0.2, "has 0.2 times the volume")):
+    words = {4: "has 3.99 times the", 0.2: "has 0.2 times the", 0: "has none of the volume"}
+    for factor, told in words.items():
         np.save(tmp_path / "map.npy", factor * worn)
-        assert words in calibrate_maps(CASE, {"map.0": centred}).notes[0]
-        wide = centred.model_copy(update={"spread": 1.0})
-        assert not calibrate_maps(CASE, {"map.0": wide}).notes
+        assert told in calibrate_maps(CASE, {"map.0": centred}).notes[0]
+    np.save(tmp_path / "map.npy", 0.2 * worn)
+    wide = centred.model_copy(update={"spread": 1.0})
+    assert not calibrate_maps(CASE, {"map.0": wide}).notes
+
+    def failed(*given, **more):
+        raise NumericalError("a step failed")
+
+    # Only words on the map tell why.
+    monkeypatch.setattr(mapped, "fit_maps", failed)
+    with pytest.raises(NumericalError, match=r"has 0\.2 times the volume .*; a step failed"):
+        calibrate_maps(CASE, {"map.0": centred})
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,6 @@ from tribo.report.result import CITATION
 from tribo.report.tables import for_page
 from tribo.result.provenance import environment
 from tribo.study.calibration.maps import FittedMaps
-from tribo.study.calibration.notes import UNLIKELY
 from tribo.study.calibration.quantities import p_words
 
 
@@ -53,7 +52,7 @@ def _called(name: str) -> str:
 
 def _answers(found: FittedMaps, level: float) -> Iterator[str]:
     """Say by which factors each coefficient differs, and where that is sure, after a doubt."""
-    if found.p_value < UNLIKELY:
+    if found.is_refuted:
         yield (
             f"No map that varies so smoothly explains the depths, {p_words(found.p_value)}; see "
             "the notes."

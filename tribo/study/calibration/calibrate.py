@@ -224,7 +224,7 @@ def calibrate(
         experiment = experiment.centred(estimate)
         problem = experiment.problem(estimate)
         if problem.common.size or np.any(np.abs(problem.sigma - before) > SIGMA_CHANGE * before):
-            estimate = np.where(fitted.limited(), experiment.start, estimate)
+            estimate, least = np.where(fitted.limited(), experiment.start, estimate), math.inf
             fitted = fit(responses, problem, estimate, steps(fitted))
         elif unsettled:
             raise unsettled

@@ -87,19 +87,21 @@ def calibrate_maps(
         depths[entry.body], placed[entry.body] = (depth, entry.uncertainty * noise), far
         priors[entry.body] = Prior(entry.spread, entry.length)
         read.append(_Read(entry, depth, worn, shift.shift))
+    doubts = [doubt for each in read for doubt in each.doubts()]
     try:
         found = fit_maps(model, depths, priors, placed=placed, on_run=on_run)
     except NumericalError as error:
+        words = "check the maps' pitch, level and uncertainty, and the coefficients of the case"
         raise type(error)(
-            "the fit went too far from the case to be computed: check the maps' pitch, level and "
-            f"uncertainty, and the coefficients of the case; {error}"
+            "the fit went too far from the case to be computed: "
+            f"{'; '.join(doubts) if doubts else words}; {error}"
         ) from error
-    remarks = [
-        remark
+    places = [
+        place
         for each in read
-        for remark in each.remarks(found.maps[each.entry.body].off, model.grid.spacing)
+        for place in each.off_middle(found.maps[each.entry.body].off, model.grid.spacing)
     ]
-    return replace(found, remarks=(*remarks, *map(str, last.state.notices)))
+    return replace(found, remarks=(*places, *doubts, *map(str, last.state.notices)))
 
 
 def _check(depths: Array, sigma: float, worn: float) -> None:
@@ -122,29 +124,37 @@ class _Read(NamedTuple):
     worn: Array
     shift: tuple[float, float]
 
-    def remarks(self, off: Sequence[float], spacing: tuple[float, float]) -> Iterator[str]:
-        """Name a map that is off the middle of the contact, further `off` in m, or not levelled."""
-        name, noise = f"the map of {self.entry.body!r}", self.entry.uncertainty
+    @property
+    def name(self) -> str:
+        """The map in words."""
+        return f"the map of {self.entry.body!r}"
+
+    def off_middle(self, off: Sequence[float], spacing: tuple[float, float]) -> Iterator[str]:
+        """Name a map that is off the middle of the contact, further `off` in m."""
         along, shift = slopes(self.worn, spacing), [0.0, 0.0]
         for axis, further in zip(along, off, strict=True):
             shift[axis] = self.shift[axis] + further
         moved = sum(shift[axis] * slope for axis, slope in along.items())
-        if np.std(np.asarray(moved)[self.worn > 0]) > noise:
-            for note in off_middle(name, ScarShift((shift[0], shift[1]))):
+        if np.std(np.asarray(moved)[self.worn > 0]) > self.entry.uncertainty:
+            for note in off_middle(self.name, ScarShift((shift[0], shift[1]))):
                 yield f"{note}, as far as a coefficient that differs from side to side lets it tell"
-        yield from self._far(name)
-        yield from off_level(name, self.depth, self.worn, noise)
-        yield from off_turn(name, self.depth, self.worn)
 
-    def _far(self, name: str) -> Iterator[str]:
+    def doubts(self) -> Iterator[str]:
+        """Name a map that is far from the case's, not levelled or turned."""
+        yield from self._far()
+        yield from off_level(self.name, self.depth, self.worn, self.entry.uncertainty)
+        yield from off_turn(self.name, self.depth, self.worn)
+
+    def _far(self) -> Iterator[str]:
         """Name a loss that is far from the case's, where the prior has the coefficient."""
         known = np.isfinite(self.depth) & (self.worn > 0)
         lost, own = float(np.sum(self.depth[known])), float(np.sum(self.worn[known]))
         noise = SIGNIFICANT * self.entry.uncertainty * float(np.sum(known)) ** 0.5
         far = math.exp(FAR * self.entry.spread)
         if np.any(known) and not (lost + noise > own / far and lost - noise < own * far):
+            times = f"{lost / own:.3g} times" if lost > noise else "none of"
             yield (
-                f"{name} has {lost / own:.2g} times the volume that the case wears there, which a "
-                f"spread of {self.entry.spread:g} does not allow for: do not trust the factors; "
-                "check the map, or first fit the case's k to it, as a depth_map in [[measured]]"
+                f"{self.name} has {times} the volume that the case wears there, which a spread of "
+                f"{self.entry.spread:g} does not allow for: do not trust the factors; check the "
+                "map, or first fit the case's k to it, as a depth_map in [[measured]]"
             )

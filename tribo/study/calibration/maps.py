@@ -108,10 +108,15 @@ class FittedMaps:
         return float(chdtrc(self.degrees_of_freedom, self.chi_square))
 
     @property
+    def is_refuted(self) -> bool:
+        """Whether no map that varies so smoothly explains the depths."""
+        return self.degrees_of_freedom > 1 and self.p_value < UNLIKELY
+
+    @property
     def notes(self) -> list[str]:
         """Notes on the maps and the fit."""
         notes = []
-        if self.p_value < UNLIKELY:
+        if self.is_refuted:
             notes.append(
                 "no map that varies so smoothly explains the depths: χ² is "
                 f"{self.chi_square:.4g} where about {self.degrees_of_freedom:.4g} is expected; the "
