@@ -71,7 +71,9 @@ def pair(random, kind, pitch, sigma, width):
         heights = heights + noise(random, heights.shape, sigma, width)
         heights[random.random(heights.shape) < 0.01] = np.nan
         maps.append(Heights(heights, (pitch, pitch)))
-    truth = {"shift": pitch * shift, "rotation": turn, "depth": depth, "width": 2 * half}
+    # Where the middle of the map before lies in that after.
+    seen = -pitch * np.array([c * shift[0] + s * shift[1], c * shift[1] - s * shift[0]])
+    truth = {"shift": seen, "rotation": -turn, "depth": depth, "width": 2 * half}
     return *maps, depths, truth
 
 

@@ -211,10 +211,10 @@ def _print(found: MeasuredScar) -> None:
     if found.inferred:
         console.print(inferred_table(found.inferred))
     moves = [
-        (f"{-1e6 * shift:+.3g} ± {1e6 * sure:.2g} µm along {axis}", sure)
+        (f"{1e6 * shift:+.3g} ± {1e6 * sure:.2g} µm along {axis}", sure)
         for axis, shift, sure in zip("xy", laid.shift, laid.shift_uncertainty, strict=True)
     ]
-    turn, sure = -1e3 * laid.rotation, 1e3 * laid.rotation_uncertainty
+    turn, sure = 1e3 * laid.rotation, 1e3 * laid.rotation_uncertainty
     moves.append((f"turned by {turn:+.3g} ± {sure:.2g} mrad", sure))
     told = [words for words, sure in moves if math.isfinite(sure)]
     names = ("the shift along x", "the shift along y", "the rotation")

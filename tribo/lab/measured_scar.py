@@ -134,13 +134,12 @@ class MeasuredScar:
             "track_volume_m3": self.track_volume,
             "missing": self.missing,
             "noise_m": found.noise,
-            # What the map after shows lies off by these, as the table says.
             "shift_m": [
-                -shift if math.isfinite(sure) else None
+                shift if math.isfinite(sure) else None
                 for shift, sure in zip(found.shift, found.shift_uncertainty, strict=True)
             ],
             "shift_uncertainty_m": list(found.shift_uncertainty),
-            "rotation_rad": -found.rotation if math.isfinite(turned) else None,
+            "rotation_rad": found.rotation if math.isfinite(turned) else None,
             "rotation_uncertainty_rad": turned,
             "inferred_volumes": [each._asdict() for each in self.inferred],
         }

@@ -51,11 +51,11 @@ class Registration:
     uncertainty : ndarray, shape (nx, ny)
         Standard uncertainty of the depth, by noise and registration, in m.
     shift, shift_uncertainty : tuple of float
-        Position of the middle of the map after in the map before, from its middle, in m. The
-        uncertainty is infinite where the maps do not determine it: a shift of a smooth ball looks
-        like a tilt. If nothing is determined the map is not moved.
+        How far what is in the middle of the map before lies from the middle of the map after, in
+        m. The uncertainty is infinite where the maps do not determine it: a shift of a smooth ball
+        looks like a tilt. If nothing is determined the map is not moved.
     rotation, rotation_uncertainty : float
-        Anticlockwise, of the map after against that before, in rad.
+        Anticlockwise, of what is in the map after against the map before, in rad.
     noise : float
         Standard deviation of the unworn differences, in m.
     worn : ndarray of bool, shape (nx, ny)
@@ -268,16 +268,21 @@ class _Fit:
         noise = robust_deviation(depth[used])
         from_fit = np.einsum("kxy,kl,lxy->xy", slopes, covariance, slopes, optimize=True)
         uncertainty = np.sqrt(noise**2 + np.maximum(from_fit, 0))
-        sigmas = np.sqrt(np.maximum(np.diag(covariance)[:3], 0))
+        # The middle of the map before lies in that after where the middle of that one comes from.
+        back = rotation(-self.angle)
+        by_turn = rotation(0.5 * np.pi - self.angle) @ self.shift / self.lever
+        moves = np.block([[-back, by_turn[:, None]], [np.zeros(2), -1.0]])
+        sigmas = np.sqrt(np.maximum(np.diag(moves @ covariance[:3, :3] @ moves.T), 0))
         sigmas[np.diag(basis)[:3] < 0.5] = np.inf
+        x, y = -back @ self.shift
         part = _common_area(depth)
         return Registration(
             part=part,
             depth=depth[part],
             uncertainty=np.where(np.isfinite(depth), uncertainty, np.nan)[part],
-            shift=(float(self.shift[0]), float(self.shift[1])),
+            shift=(float(x), float(y)),
             shift_uncertainty=(float(sigmas[0]), float(sigmas[1])),
-            rotation=float(self.angle),
+            rotation=-float(self.angle),
             rotation_uncertainty=float(sigmas[2] / self.lever),
             noise=noise,
             worn=self.worn[part],
