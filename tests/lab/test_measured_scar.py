@@ -502,11 +502,32 @@ def test_a_radius_or_a_shape_that_the_unworn_surface_has_not_is_told():
     before, after, _ = pair(on=RADIUS, sq=5e-9, noise=1e-9)
     with pytest.warns(TriboWarning, match=r"radius of 5.* mm, and the ball one of 3 mm"):
         measured_scar(before, after, radius=3e-3)
-    with pytest.warns(TriboWarning, match="differ by a curvature: check the shape given"):
+    with (
+        pytest.warns(TriboWarning, match="differ by a curvature: check the shape given"),
+        pytest.warns(TriboWarning, match=r"radius of 5.* mm, and the ball one of 4 mm"),
+    ):
         measured_scar(Sphere(radius=0.8 * RADIUS), after)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        measured_scar(before, after, radius=RADIUS)
+        found = measured_scar(before, after, radius=RADIUS)
+        # An ideal ball has a radius of its own.
+        ideal = measured_scar(Sphere(radius=RADIUS), after)
+    assert len(found.inferred) == len(ideal.inferred) > 0
+
+
+@pytest.mark.parametrize(("high", "wide"), [(3e-7, 8), (3e-7, 3), (8e-7, 13)])
+def test_a_ridge_that_rises_at_the_edge_takes_nothing_off_the_volume(high, wide):
+    """Of a ball worn flat; smoothing would move the border into the scar by half a pixel."""
+    off, n, deep = [], 200, 6e-7
+    far = np.hypot(*Grid(n * PITCH, n).mesh) / PITCH
+    lost = np.maximum(deep * (1 - (far / 40) ** 2), 0)
+    ridge = high * np.sin(np.pi * np.clip((far - 40) / wide, 0, 1))
+    for seed in range(3):
+        noise = np.random.default_rng(seed).normal(0, 1e-8, far.shape)
+        found = measured_scar(Flat(), Heights(noise + ridge - lost, (PITCH, PITCH)))
+        errors = found.volume - np.sum(lost) * PITCH**2, found.piled_up - np.sum(ridge) * PITCH**2
+        off.append(np.divide(errors, (found.volume_uncertainty, found.piled_up_uncertainty)))
+    assert np.max(np.abs(np.mean(off, axis=0))) < 2
 
 
 @pytest.mark.parametrize(("missing", "told"), [(25, False), (36, False), (38, True), (44, True)])
@@ -583,6 +604,14 @@ def test_a_map_twice_as_wide_as_its_scar_is_large_enough(wide):
     )
     found = measured_scar(before, after)
     assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.02, abs=0)
+
+
+def test_few_pixels_are_told_where_the_margin_of_a_scar_is_much_of_the_map():
+    far = np.hypot(*Grid(24 * PITCH, 24).mesh) / PITCH
+    after = np.random.default_rng(0).normal(0, 1e-10, far.shape)
+    after -= np.maximum(1e-5 * (1 - (far / 5) ** 2), 0)
+    with pytest.raises(CaseError, match=r"of the 24 × 24 pixels differ, .*or with smaller pixels"):
+        measured_scar(Flat(), Heights(after, (PITCH, PITCH)))
 
 
 @pytest.mark.parametrize("along", [0, 1])
@@ -680,7 +709,9 @@ def test_maps_that_do_not_fit_are_refused(standard):
         measured_scar(*pair(depth=0)[:2])
     with pytest.raises(CaseError, match=r"nothing is worn .*is the map after the test given first"):
         measured_scar(after, before)
-    with pytest.raises(CaseError, match=r"% of the map differ|if over half of the map is worn"):
+    with pytest.raises(
+        CaseError, match=r"% of the 96 × 96 pixels differ|if over half of the map is worn"
+    ):
         measured_scar(*track(wide=29 * PITCH)[:2])
     with pytest.raises(
         CaseError, match=r"radius: a ball of 0\.01 mm radius cannot have .* radius or pitch"

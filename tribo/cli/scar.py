@@ -29,7 +29,7 @@ UNITS = ("m", "mm", "um", "µm", "nm")
 @click.argument("files", nargs=-1, required=True, type=PATH, metavar="[BEFORE] AFTER")
 @click.option("--ideal", metavar="SURFACE", help="Shape in place of BEFORE, as in a case.")
 @click.option("--pitch", multiple=True, metavar="LENGTH", help="Of pixels; twice for x and y.")
-@click.option("--radius", metavar="LENGTH", help="Of the ball, for a lab's formulas.")
+@click.option("--radius", metavar="LENGTH", help="Of the ball, for a lab's formulas; of --ideal.")
 @click.option("--track-length", metavar="LENGTH", help="Of the whole track; the map's.")
 @click.option("--form", type=int, default=1, help="2 takes a curvature off too.")
 @click.option(
@@ -222,5 +222,8 @@ def _print(found: MeasuredScar) -> None:
     if told:
         console.print(f"In the map after all lies {', '.join(told)}.", markup=False)
     if untold:
-        console.print(f"The unworn surface does not tell {', '.join(untold)}.")
+        console.print(
+            f"The unworn surface does not tell {', '.join(untold)}: it is smooth, or not the same "
+            "in both maps."
+        )
     console.print(f"Noise of the unworn difference {1e9 * laid.noise:.3g} nm.", markup=False)

@@ -30,10 +30,11 @@ def signed(value: float, decimals: int) -> str:
 
 
 def digits_of(lower: float, upper: float) -> int:
-    """Return how many digits of its ends show an interval's half-width to two digits; 3 or more."""
+    """Return how many digits of its ends show an interval's half-width to two digits; 3 to 7."""
     if not 0 < upper - lower < math.inf:
         return 3
-    return max(3, 2 + math.floor(math.log10(upper)) - math.floor(math.log10((upper - lower) / 2)))
+    digits = 2 + math.floor(math.log10(upper)) - math.floor(math.log10((upper - lower) / 2))
+    return min(max(3, digits), 7)
 
 
 def readable(value: float, form: str) -> str:

@@ -33,10 +33,13 @@ from tribo.lab.scar_doubts import (
 from tribo.lab.track import circular_groove_area, planimetric_volume, reciprocating_track_volume
 from tribo.lab.widths import LINES, Width, scar_width
 from tribo.lab.worn_area import MARGIN, WornArea, worn_area
+from tribo.surfaces.sphere import Sphere
 from tribo.surfaces.surface import Surface
 
 MOST = 0.65
 """Part of the map that a scar may cover, with its margin."""
+FEW_PIXELS = 64
+"""Pixels along an edge of a map below which the margin of a scar is much of it."""
 PIT = 0.03
 """Part of the map below which what differs beside the scar is a pit or a scratch."""
 LITTLE = 2e-3
@@ -162,7 +165,7 @@ def measured_scar(
     after : Heights
         The surface after the test, x along the sliding direction.
     radius : float, optional
-        Radius of the ball, in m, for the formulas that need it.
+        Radius of the ball, in m, for the formulas that need it; that of an ideal sphere by default.
     track_length : float, optional
         Length of the whole track, in m: the stroke, or 2πr. By default its length in the map.
     form : int, optional
@@ -183,6 +186,8 @@ def measured_scar(
     if form not in (1, 2):
         raise CaseError(f"form is 1 (a tilt) or 2 (a curvature as well), not {form}", "form")
     ideal = isinstance(before, Surface)
+    if radius is None and isinstance(before, Sphere):
+        radius = before.radius
     if isinstance(before, Surface):
         try:
             before = Heights(before.height(after.grid), after.pitch)
@@ -201,9 +206,11 @@ def measured_scar(
     after = Heights(after.heights[found.part], after.pitch)
     covered = float(np.mean(found.worn))
     if covered > MOST:
+        few = ", or with smaller pixels" if min(shape) < FEW_PIXELS else ""
         raise CaseError(
-            f"{100 * covered:.0f} % of the map differ, too much to register the maps by the rest; "
-            "measure a larger area, half of it unworn"
+            f"{100 * covered:.0f} % of the {shape[0]} × {shape[1]} pixels differ, or lie within a "
+            "few of those that do, too much to register the maps by the rest; measure a larger "
+            f"area, half of it unworn{few}"
         )
     worn = worn_area(found, after.pitch, ideal=ideal)
     smooth, known, scar = worn.smooth, worn.known, worn.scar

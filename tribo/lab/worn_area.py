@@ -25,6 +25,9 @@ FINE = 0.7
 """Width of the Gaussian that a ridge of a few pixels is seen after, in pixels."""
 RELIEF = 1.0
 """That against which the relief of a worn surface is told, but not its curvature."""
+BORDER, STEEP = 2, 2.0
+"""Pixels on each side of the border of a scar with what is piled up that are sorted by their sign,
+and the least slope there, in standard deviations of the noise per pixel."""
 RIDGE = 4
 """Pixels of such a ridge beyond noise, at least; fewer are outliers."""
 ALONG = 0.1
@@ -83,7 +86,10 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         doubt = "check the shape given" if ideal else "check that both maps are of one body"
         why = f"if over half of the map is worn, measure a larger area; or {doubt}"
         if piled.any():
-            why = "but some of it stands up; is the map after the test given first?"
+            why = (
+                "but some of it stands up; is the map after the test given first, or are heights "
+                "counted downwards?"
+            )
         raise CaseError(
             f"no scar was found: nothing is worn deeper than {1e6 * DEEP * noise:.3g} µm, {DEEP:g} "
             f"times what else differs; {why}"
@@ -105,6 +111,9 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
     # Smoothing has the scar's edge lie within such a ridge.
     thin = _thin_ridges(found, scar, core)
     scar = ndimage.binary_propagation(core & ~thin, mask=scar & ~thin)
+    piled = ndimage.binary_dilation(piled | thin, iterations=MARGIN) & ~scar
+    between, lost = _border(found, scar, piled), found.depth > 0
+    scar, piled = np.where(between, lost, scar), np.where(between, ~lost, piled)
     deep = core & (smooth > EDGE * np.max(smooth[core]))
     enclosed = ndimage.binary_fill_holes(deep) & ~deep & known
     return WornArea(
@@ -112,7 +121,7 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         known=known,
         core=core,
         scar=scar,
-        piled=ndimage.binary_dilation(piled | thin, iterations=MARGIN) & ~scar,
+        piled=piled,
         noise=noise,
         count=count,
         is_open=is_open,
@@ -145,6 +154,17 @@ def _thin_ridges(found: Registration, scar: Mask, core: Mask) -> Mask:
     sizes = np.bincount(tops.ravel(), minlength=count + 1)
     ridges: Mask = ndimage.binary_propagation((tops > 0) & (sizes[tops] >= RIDGE), mask=up)
     return ridges
+
+
+def _border(found: Registration, scar: Mask, piled: Mask) -> Mask:
+    """Return pixels between a scar and what is piled up that tell by their sign of which they are.
+
+    Smoothing moves that border. Where it is not steep, the signs of noise would add up.
+    """
+    of_scar, of_piled = (ndimage.binary_dilation(e, iterations=BORDER) for e in (scar, piled))
+    slope = np.hypot(*np.gradient(smoothed(found.depth, FINE)))
+    border: Mask = of_scar & of_piled & np.isfinite(found.depth) & (slope > STEEP * found.noise)
+    return border
 
 
 def _largest(depth: Array, marked: Mask) -> Mask:
