@@ -425,6 +425,25 @@ def test_a_misfit_beside_a_body_that_does_not_wear_is_told():
     assert not any("is not fitted" in note for note in found.notes)
 
 
+@pytest.mark.parametrize(
+    ("number", "times", "words"),
+    [
+        ("surface.radius", 2, "Fitting {} too would lower χ² to about 0, with 0.005"),
+        ("material.density", 0.5, "Fitting {} too would lower χ² to about 0, with 7."),
+        ("material.density", 1.2e-3, "{} is 9.42 kg/m^3, usual are 10 kg/m^3 to"),
+    ],
+)
+def test_a_wrong_radius_or_density_is_named(true_run, number, times, words):
+    path = f"bodies.ball.{number}"
+    right = {"surface.radius": 5e-3, "material.density": DENSITY}[number]
+    width = measured("ball", "scar_across", computed(true_run, "ball", "scar_across"), 1e-3)
+    wrong = apply_settings(CASE, {path: times * right})
+    fit = fitting(BALL_K, start=3 * BALL)
+    found = calibrate(wrong, {"measured": [BALL_LOSS, width], "fit": fit})
+    (note,) = (note for note in found.notes if "data and model disagree" in note)
+    assert words.format(path) in note
+
+
 def test_a_wrong_number_that_is_not_fitted_is_named():
     """The disk's coefficient, a third of the case's, which changes the ball's shape a little."""
     at = np.linspace(-0.3e-3, 0.3e-3, 21)

@@ -21,6 +21,8 @@ DEPTHS = ".npy"
 """Suffix of a depth map."""
 LARGEST_PITCH = 1e-3
 """That between two pixels, in m."""
+MOST_DIGITS = 6
+"""Digits of a size in the table, as of maps without noise."""
 UNITS = ("m", "mm", "um", "µm", "nm")
 """Words that are parts of a length without quotes."""
 
@@ -203,7 +205,7 @@ def _print(found: MeasuredScar) -> None:
     ]
     for name, value, error in rows:
         if isinstance(value, float) and error is not None:
-            digits = digits_of(value - error, value + error)
+            digits = min(digits_of(value - error, value + error), MOST_DIGITS)
             table.add_row(name, f"{value:#.{digits}g}", f"{error:#.2g}")
         elif value is not None:
             table.add_row(name, value if isinstance(value, str) else f"{value:.3g}", "")

@@ -30,11 +30,10 @@ def signed(value: float, decimals: int) -> str:
 
 
 def digits_of(lower: float, upper: float) -> int:
-    """Return how many digits of its ends show an interval's half-width to two digits; 3 to 7."""
+    """Return how many digits of its ends show an interval's half-width to two digits; 3 or more."""
     if not 0 < upper - lower < math.inf:
         return 3
-    digits = 2 + math.floor(math.log10(upper)) - math.floor(math.log10((upper - lower) / 2))
-    return min(max(3, digits), 7)
+    return max(3, 2 + math.floor(math.log10(upper)) - math.floor(math.log10((upper - lower) / 2)))
 
 
 def readable(value: float, form: str) -> str:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from tribo.core.errors import CaseError, NumericalError
+from tribo.simulation.doubt import unusual
 from tribo.study.calibration.experiment import Experiment
 from tribo.study.calibration.fit import STEP
 from tribo.study.calibration.linearised import Linearised
@@ -24,7 +25,8 @@ ALIKE = 6.0
 def explanations(fitted: Linearised, experiment: Experiment, freedom: int) -> tuple[int, str]:
     """Return the runs made, and sentences on the numbers that would explain a misfit if fitted.
 
-    One run for each number; the estimates are those of the model linearised about the fit.
+    Before them come questions about unusual numbers. A run for each of the others; the estimates
+    are those of the model linearised about the fit.
     """
     rows = ~fitted.problem.below
     excess = float(np.sum(fitted.residuals(fitted.point)[rows] ** 2)) - freedom
@@ -49,8 +51,10 @@ def explanations(fitted: Linearised, experiment: Experiment, freedom: int) -> tu
         left, value = float(np.sum(both.residuals(best)[rows] ** 2)), float(np.exp(best[-1]))
         if left - freedom < (1 - EXPLAINED) * excess:
             found.append((left, candidate, value))
-    return runs, "".join(
-        f"Fitting {candidate.path} too would lower χ² to about {left:.3g}, with "
+    # Alike in the cases of several tests.
+    asked = dict.fromkeys(each for setup in experiment.setups for each in unusual(setup.model.case))
+    return runs, "".join(f"{each} " for each in asked) + "".join(
+        f"Fitting {candidate.path} too would lower χ² to about {round(left, 3):.3g}, with "
         f"{in_si(value, candidate.unit, 2)} or so instead of "
         f"{in_si(candidate.start, candidate.unit)}. "
         for left, candidate, value in sorted(found, key=lambda each: each[0])
@@ -59,9 +63,11 @@ def explanations(fitted: Linearised, experiment: Experiment, freedom: int) -> tu
 
 
 def _candidates(experiment: Experiment) -> Iterator[Parameter]:
-    """Return the wear coefficients and the load, unless fitted or different between tests."""
+    """Return coefficients, load, radii and densities, unless fitted or different between tests."""
     cases = [setup.model.case for setup in experiment.setups]
-    paths = [*(f"bodies.{name}.wear.k" for name in cases[0].bodies), "load.normal"]
+    of_bodies = ("wear.k", "surface.radius", "material.density")
+    paths = [f"bodies.{name}.{number}" for name in cases[0].bodies for number in of_bodies]
+    paths.append("load.normal")
     for path in paths:
         if path in (each.path for each in experiment.parameters):
             continue
