@@ -336,7 +336,7 @@ def test_a_map_can_be_planned_with_before_it_is_measured(two_loads):
         ({"depth": "infinite.npy"}, ".0.depth", "1 of its 256 heights"),
         ({"depth": "upwards.npy"}, ".0.depth", "turn the sign round"),
         ({"depth": "missing.npy"}, ".0.depth", "every height of the map is missing"),
-        ({"value": "1 um"}, ".0", "has its numbers in the file"),
+        ({"value": "1 um"}, ".0.value", "has its numbers in the file"),
         ({"uncertainty": None}, ".0", "say how well it was measured"),
         ({"uncertainty": "1e-13 m"}, ".0.depth", "less than a millionth of 1 µm"),
         ({"uncertainty": "1 mg"}, ".0.uncertainty", "a length [m] is needed"),

@@ -117,6 +117,16 @@ def test_every_quantity_can_be_asked_for():
             "two lists of the same length, not 1 and 2 long",
         ),
         (
+            {"quantity": "scar_across", "value": "3 mm", "uncertainty": "1 um"},
+            ".0.value",
+            "3 mm is wider than the window, 2 mm: check its unit, or make grid.size larger",
+        ),
+        (
+            {"quantity": "depth_map", "value": "3 um", "uncertainty": "1 um"},
+            ".0.value",
+            "has its numbers in the file depth",
+        ),
+        (
             {**PROFILE, "value": ["1 um"], "position": ["1.1 mm"]},
             ".0.position",
             "1.1 mm lies outside the window, which reaches 1 mm",
@@ -206,6 +216,14 @@ def test_a_case_that_lacks_what_is_needed_is_told(changes, remedy):
             del table[key]
     text = refused(GOOD, case=case)
     assert remedy in text if remedy.endswith(("wear", "density")) else text.startswith(remedy)
+
+
+@pytest.mark.parametrize(
+    ("given", "name"), [({"measured": GOOD}, "measured"), ({"test": {"measured": [GOOD]}}, "test")]
+)
+def test_one_entry_is_a_list_too(given, name):
+    with pytest.raises(CaseError, match=rf"^{name}: write \[\[{name}\]\] at the beginning of each"):
+        calibrate(CASE, given)
 
 
 def test_a_level_is_a_probability():

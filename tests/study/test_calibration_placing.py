@@ -12,7 +12,7 @@ from scipy.stats import binom
 from tribo.cli.fitted import data_table
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
-from tribo.core.errors import NumericalError, OutOfWindow, TriboError
+from tribo.core.errors import CaseError, NumericalError, OutOfWindow, TriboError
 from tribo.lab.heights import Heights
 from tribo.simulation.run import Simulation
 from tribo.study.calibration import mapped
@@ -303,7 +303,8 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
     words = {4: "has 3.99 times the", 0.2: "has 0.2 times the", 0: "has none of the volume"}
     for factor, told in words.items():
         np.save(tmp_path / "map.npy", factor * worn)
-        assert told in calibrate_maps(CASE, {"map.0": centred}).notes[0]
+        with pytest.raises(CaseError, match=rf"^map\.0\.depth: it {told}"):
+            calibrate_maps(CASE, {"map.0": centred})
     np.save(tmp_path / "map.npy", 0.2 * worn)
     wide = centred.model_copy(update={"spread": 1.0})
     assert not calibrate_maps(CASE, {"map.0": wide}).notes
@@ -312,8 +313,9 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
         raise NumericalError("a step failed")
 
     # Only words on the map tell why.
+    np.save(tmp_path / "map.npy", worn + 3e-7)
     monkeypatch.setattr(mapped, "fit_maps", failed)
-    with pytest.raises(NumericalError, match=r"has 0\.2 times the volume .*; a step failed"):
+    with pytest.raises(NumericalError, match=r"the map of 'ball' lies 0\.3 µm above 0.*; a step f"):
         calibrate_maps(CASE, {"map.0": centred})
 
 

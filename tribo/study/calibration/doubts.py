@@ -31,7 +31,7 @@ def doubts(experiment: Experiment, error: TriboError) -> Iterator[str]:
         if DEPTH_MAP in quantities:
             yield "check pitch"
         if quantities & {*PROFILES}:
-            yield "check position"
+            yield "check the positions of the profile"
 
 
 def far_off(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> list[str]:

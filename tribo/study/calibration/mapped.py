@@ -86,7 +86,9 @@ def calibrate_maps(
             _check(depth[np.isfinite(depth)], entry.uncertainty, deepest)
         depths[entry.body], placed[entry.body] = (depth, entry.uncertainty * noise), far
         priors[entry.body] = Prior(entry.spread, entry.length)
-        read.append(_Read(entry, depth, worn, shift.shift))
+        read.append(_Read(place, entry, depth, worn, shift.shift))
+    for each in read:
+        each.check_volume()
     doubts = [doubt for each in read for doubt in each.doubts()]
     try:
         found = fit_maps(model, depths, priors, placed=placed, on_run=on_run)
@@ -119,6 +121,7 @@ def _check(depths: Array, sigma: float, worn: float) -> None:
 class _Read(NamedTuple):
     """A map, its depth on the cells, moved by a shift, and that of a run with one coefficient."""
 
+    place: str
     entry: MapEntry
     depth: Array
     worn: Array
@@ -140,21 +143,21 @@ class _Read(NamedTuple):
                 yield f"{note}, as far as a coefficient that differs from side to side lets it tell"
 
     def doubts(self) -> Iterator[str]:
-        """Name a map that is far from the case's, not levelled or turned."""
-        yield from self._far()
+        """Name a map that is not levelled or turned."""
         yield from off_level(self.name, self.depth, self.worn, self.entry.uncertainty)
         yield from off_turn(self.name, self.depth, self.worn)
 
-    def _far(self) -> Iterator[str]:
-        """Name a loss that is far from the case's, where the prior has the coefficient."""
+    def check_volume(self) -> None:
+        """Refuse a loss that is far from the case's, where the prior has the coefficient."""
         known = np.isfinite(self.depth) & (self.worn > 0)
         lost, own = float(np.sum(self.depth[known])), float(np.sum(self.worn[known]))
         noise = SIGNIFICANT * self.entry.uncertainty * float(np.sum(known)) ** 0.5
         far = math.exp(FAR * self.entry.spread)
         if np.any(known) and not (lost + noise > own / far and lost - noise < own * far):
             times = f"{lost / own:.3g} times" if lost > noise else "none of"
-            yield (
-                f"{self.name} has {times} the volume that the case wears there, which a spread of "
-                f"{self.entry.spread:g} does not allow for: do not trust the factors; check the "
-                "map, or first fit the case's k to it, as a depth_map in [[measured]]"
+            raise CaseError(
+                f"it has {times} the volume that the case wears there, which a spread of "
+                f"{self.entry.spread:g} does not allow for: check the map, or first fit the case's "
+                "k to it, as a depth_map in [[measured]]",
+                f"{self.place}.depth",
             )

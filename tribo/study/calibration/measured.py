@@ -91,6 +91,8 @@ class MeasuredEntry(Table):
         if value is None or (name := info.data.get("quantity")) is None:
             return None
         is_value, is_profile = info.field_name == "value", name in PROFILES
+        if is_value and name == DEPTH_MAP:
+            raise ValueError("depth_map has its numbers in the file depth; give no value")
         # The depths of a profile may be 0, or below it by noise.
         above = None if is_value and is_profile else 0
         mark = Quantity(QUANTITIES[name].unit, above=above, remedy=UNSEEN if is_value else None)
@@ -124,7 +126,7 @@ class MeasuredEntry(Table):
         if self.quantity != DEPTH_MAP:
             if self.depth is not None or self.pitch is not None:
                 raise ValueError(f"{self.quantity} has no depth or pitch; those are of a depth_map")
-        elif {"value", "before", "after", "position"} & self.model_fields_set:
+        elif {"before", "after", "position"} & self.model_fields_set:
             raise ValueError("depth_map has its numbers in the file depth; give no others")
         return self
 
@@ -308,6 +310,13 @@ class Measurements(Table):
     """Depth maps, instead, to which local coefficients are fitted."""
     repeatability: Annotated[float, Quantity("1", at_least=0, below=3)] | None = None
     """Relative standard deviation of the parameters from test to test; estimated if left out."""
+
+    @field_validator("fit", "measured", "test", "map", mode="before")
+    @classmethod
+    def _are_many(cls, value: Any, info: ValidationInfo) -> Any:
+        if isinstance(value, Mapping):
+            raise ValueError(f"write [[{info.field_name}]] at the beginning of each, also of one")
+        return value
 
     @property
     def tests(self) -> dict[str, TestEntry]:

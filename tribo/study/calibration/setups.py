@@ -156,6 +156,14 @@ def _check_entry(model: Model, entry: MeasuredEntry, place: str) -> None:
             f"{entry.time:g} s is not reached: the run ends at {model.end_time:g} s",
             f"{place}.time",
         )
+    if entry.position is None and entry.quantity in AXES:
+        width, size = np.max(entry.values), model.grid.size[AXES[entry.quantity]]
+        if width > size:
+            raise CaseError(
+                f"{1e3 * width:g} mm is wider than the window, {1e3 * size:g} mm: check its unit, "
+                "or make grid.size larger",
+                f"{place}.value",
+            )
     for position in entry.position or ():
         half = 0.5 * model.grid.size[AXES[entry.quantity]]
         if abs(position) > half:
