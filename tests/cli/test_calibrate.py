@@ -75,8 +75,10 @@ def test_narrow_intervals_stay_on_a_line_at_80_columns(capsys):
     assert row.split(maxsplit=3)[3].split() == ["1.8092e-16", "to", "1.8251e-16", "±0.4", "%"]
 
 
-@pytest.mark.parametrize(("p_value", "words"), [(0.0, "p < 1e-6"), (0.0123, "p = 0.012")])
-def test_a_vanishing_p_value_is_a_bound(p_value, words):
+@pytest.mark.parametrize(
+    ("p_value", "words"), [(0.0, "p < 1e-6"), (0.0123, "p = 0.012"), (1.0, "p > 0.999")]
+)
+def test_an_extreme_p_value_is_a_bound(p_value, words):
     assert p_words(p_value) == words
 
 

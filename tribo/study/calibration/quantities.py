@@ -105,6 +105,8 @@ def in_si(value: float, unit: str, digits: int = 3) -> str:
 
 def p_words(p_value: float) -> str:
     """Return a p-value in words, as ``"p = 0.05"``."""
+    if p_value > 0.999:
+        return "p > 0.999"
     return "p < 1e-6" if p_value < 1e-6 else f"p = {p_value:.2g}"
 
 
