@@ -11,7 +11,7 @@ import click
 from tribo.cli.options import JSON, PATH, echo_json
 from tribo.core.errors import CaseError, located
 from tribo.core.files import check_folder, writing
-from tribo.core.words import digits_of
+from tribo.core.words import digits_of, signed
 
 if TYPE_CHECKING:
     from tribo.lab.measured_scar import MeasuredScar
@@ -180,6 +180,12 @@ def _width(
     return ("whole map", None) if math.isinf(width) else (1e3 * width, 1e3 * uncertainty)
 
 
+def _with_error(value: float, error: float) -> str:
+    """Return a value to two digits of its uncertainty."""
+    decimals = max(0, 1 - math.floor(math.log10(error))) if error else 3
+    return f"{signed(value, decimals)} ± {error:.{decimals}f}"
+
+
 def _print(found: MeasuredScar) -> None:
     from tribo.cli.console import Console, titled
     from tribo.cli.tables import inferred_table
@@ -212,15 +218,16 @@ def _print(found: MeasuredScar) -> None:
     console.print(table)
     if found.inferred:
         console.print(inferred_table(found.inferred))
-    moves = [
-        (f"{1e6 * shift:+.3g} ± {1e6 * sure:.2g} µm along {axis}", sure)
-        for axis, shift, sure in zip("xy", laid.shift, laid.shift_uncertainty, strict=True)
-    ]
-    turn, sure = 1e3 * laid.rotation, 1e3 * laid.rotation_uncertainty
-    moves.append((f"turned by {turn:+.3g} ± {sure:.2g} mrad", sure))
-    told = [words for words, sure in moves if math.isfinite(sure)]
-    names = ("the shift along x", "the shift along y", "the rotation")
-    untold = [name for name, (_, sure) in zip(names, moves, strict=True) if math.isinf(sure)]
+    told, untold = [], []
+    for name, words, size, off, sure in (
+        ("the shift along x", "{} µm along x", 1e6, laid.shift[0], laid.shift_uncertainty[0]),
+        ("the shift along y", "{} µm along y", 1e6, laid.shift[1], laid.shift_uncertainty[1]),
+        ("the rotation", "turned by {} mrad", 1e3, laid.rotation, laid.rotation_uncertainty),
+    ):
+        if math.isinf(sure):
+            untold.append(name)
+        else:
+            told.append(words.format(_with_error(size * off, size * sure)))
     if told:
         console.print(f"In the map after all lies {', '.join(told)}.", markup=False)
     if untold:
