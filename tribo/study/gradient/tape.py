@@ -21,7 +21,7 @@ from tribo.stepping.extrapolation import Plan
 from tribo.stepping.memory import Memory
 from tribo.stepping.rates import Moment
 
-IN_MEMORY = 1 << 26
+IN_MEMORY = 1 << 24
 """Bytes of a tape that are kept in memory; a longer one goes to a temporary file."""
 
 
@@ -85,7 +85,7 @@ Record = Pressed | Gave | Enveloped | Saved
 class Tape:
     """The records of a run in their order, which are read backwards.
 
-    Beyond 64 MiB they lie in a temporary file, so that the memory does not grow with the run.
+    Beyond 16 MiB they lie in a temporary file, so that the memory does not grow with the run.
     `touched` is the region that holds all contacts, None before the first.
     """
 
