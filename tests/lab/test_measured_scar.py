@@ -887,4 +887,5 @@ def test_a_file_of_a_format_that_nothing_reads_is_refused(tmp_path, monkeypatch)
 def test_nothing_is_known_of_a_radius_where_the_scar_covers_the_map():
     x, y = Grid(32 * PITCH, 32).mesh
     lost = np.maximum(1e-6 * (1 - (x**2 + y**2) / (6.4 * PITCH) ** 2), 0)
-    measured_scar(Flat(), Heights(-lost, (PITCH, PITCH)), radius=1e-3)
+    with pytest.warns(TriboWarning, match="fewer than 100 pixels lie beside the scar"):
+        measured_scar(Flat(), Heights(-lost, (PITCH, PITCH)), radius=1e-3)

@@ -74,6 +74,12 @@ def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
     was taken off.
     """
     if _is_covered(unworn):
+        warnings.warn(
+            f"fewer than {FEWEST} pixels lie beside the scar, which its depths are measured "
+            "against; measure a larger area, or with smaller pixels",
+            TriboWarning,
+            stacklevel=3,
+        )
         return
     count, is_bent = np.count_nonzero(np.isfinite(unworn)), False
     for order, most in BENT.items():
