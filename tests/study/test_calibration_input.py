@@ -219,10 +219,18 @@ def test_a_case_that_lacks_what_is_needed_is_told(changes, remedy):
 
 
 @pytest.mark.parametrize(
-    ("given", "name"), [({"measured": GOOD}, "measured"), ({"test": {"measured": [GOOD]}}, "test")]
+    ("given", "place"),
+    [
+        ({"measured": GOOD}, "measured"),
+        ({"test": {"measured": [GOOD]}}, "test"),
+        ({"test": [{"measured": GOOD}]}, "test.0.measured"),
+    ],
 )
-def test_one_entry_is_a_list_too(given, name):
-    with pytest.raises(CaseError, match=rf"^{name}: write \[\[{name}\]\] at the beginning of each"):
+def test_one_entry_is_a_list_too(given, place):
+    name = place.rpartition(".")[2]
+    with pytest.raises(
+        CaseError, match=rf"^{place}: write \[\[{name}\]\] at the beginning of each"
+    ):
         calibrate(CASE, given)
 
 

@@ -305,6 +305,13 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
         np.save(tmp_path / "map.npy", factor * worn)
         with pytest.raises(CaseError, match=rf"^map\.0\.depth: it {told}"):
             calibrate_maps(CASE, {"map.0": centred})
+    # Its cause, if it shows; and not of the rim alone, which follows the width of the scar.
+    np.save(tmp_path / "map.npy", worn + np.max(worn))
+    with pytest.raises(CaseError, match=r"does not allow for: outside the scar the map"):
+        calibrate_maps(CASE, {"map.0": centred})
+    rim = np.where(worn > 0.15 * np.max(worn), np.nan, 4 * worn)
+    np.save(tmp_path / "map.npy", rim)
+    assert not calibrate_maps(CASE, {"map.0": centred}).notes
     np.save(tmp_path / "map.npy", 0.2 * worn)
     wide = centred.model_copy(update={"spread": 1.0})
     assert not calibrate_maps(CASE, {"map.0": wide}).notes

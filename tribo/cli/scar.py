@@ -31,7 +31,7 @@ UNITS = ("m", "mm", "um", "µm", "nm")
 @click.argument("files", nargs=-1, required=True, type=PATH, metavar="[BEFORE] AFTER")
 @click.option("--ideal", metavar="SURFACE", help="Shape in place of BEFORE, as in a case.")
 @click.option("--pitch", multiple=True, metavar="LENGTH", help="Of pixels; twice for x and y.")
-@click.option("--radius", metavar="LENGTH", help="Of the ball, for a lab's formulas; of --ideal.")
+@click.option("--radius", metavar="LENGTH", help="Of the ball, for a lab's formulas.")
 @click.option("--track-length", metavar="LENGTH", help="Of the whole track; the map's.")
 @click.option("--form", type=int, default=1, help="2 takes a curvature off too.")
 @click.option(

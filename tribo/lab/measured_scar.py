@@ -13,7 +13,7 @@ import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, TriboWarning
-from tribo.lab.heights import Heights, interpolated
+from tribo.lab.heights import Heights
 from tribo.lab.inferred import UNWORN, InferredVolume, ball_volumes, inferred
 from tribo.lab.registration import Registration, register
 from tribo.lab.roughness import without_form
@@ -165,7 +165,8 @@ def measured_scar(
     after : Heights
         The surface after the test, x along the sliding direction.
     radius : float, optional
-        Radius of the ball, in m, for the formulas that need it; that of an ideal sphere by default.
+        Radius of the ball, in m, for the formulas that need it; for a scar on an ideal
+        sphere that of the sphere by default.
     track_length : float, optional
         Length of the whole track, in m: the stroke, or 2πr. By default its length in the map.
     form : int, optional
@@ -186,8 +187,7 @@ def measured_scar(
     if form not in (1, 2):
         raise CaseError(f"form is 1 (a tilt) or 2 (a curvature as well), not {form}", "form")
     ideal = isinstance(before, Surface)
-    if radius is None and isinstance(before, Sphere):
-        radius = before.radius
+    own_radius = before.radius if isinstance(before, Sphere) else None
     if isinstance(before, Surface):
         try:
             before = Heights(before.height(after.grid), after.pitch)
@@ -213,9 +213,7 @@ def measured_scar(
             f"area, half of it unworn{few}"
         )
     worn = worn_area(found, after.pitch, ideal=ideal)
-    smooth, known, scar = worn.smooth, worn.known, worn.scar
-    holes = interpolated(np.where(known, smooth, np.nan), ~known & (scar | worn.piled))
-    depth = np.where(known, found.depth, holes)
+    smooth, depth, known, scar = worn.smooth, worn.depth, worn.known, worn.scar
     area = after.grid.cell_area
     volume = area * float(np.sum(depth[scar]))
     volume_uncertainty = area * sum_uncertainty(found, scar)
@@ -234,7 +232,8 @@ def measured_scar(
         warn_of_ring()
     sizes = _Sizes()
     if several == 1 and not worn.cut_off:
-        sizes = _sizes(found, worn, after, volume, radius, track_length)
+        ball = radius if worn.track else radius or own_radius
+        sizes = _sizes(found, worn, after, volume, ball, track_length)
     if track_length is not None and sizes.track_volume is None:
         warnings.warn(
             "track_length: no track from edge to edge of the map was found",

@@ -32,6 +32,9 @@ ITERATIONS = 30
 SETTLED = 1e-3
 """Change in a step that ends the last blur, of the map's place in pixels and of its form in
 standard deviations of noise."""
+SHIFT_GUESSED, TURN_GUESSED = 0.1, 1.0
+"""Standard deviations of a shift, in widths of the map, and of a turn, in rad, that the relief does
+not tell."""
 FORM_ITERATIONS = 6
 """First steps, which fit the form alone."""
 QUANTILE = 0.3
@@ -272,7 +275,12 @@ class _Fit:
         back = rotation(-self.angle)
         by_turn = rotation(0.5 * np.pi - self.angle) @ self.shift / self.lever
         moves = np.block([[-back, by_turn[:, None]], [np.zeros(2), -1.0]])
-        sigmas = np.sqrt(np.maximum(np.diag(moves @ covariance[:3, :3] @ moves.T), 0))
+        # What the relief does not tell adds to what it tells of the other directions.
+        untold = np.eye(3) - basis[:3, :3]
+        guessed = SHIFT_GUESSED * max(self.after.grid.size)
+        guess = np.diag([guessed, guessed, TURN_GUESSED * self.lever]) ** 2
+        of_moves = moves @ (covariance[:3, :3] + untold @ guess @ untold) @ moves.T
+        sigmas = np.sqrt(np.maximum(np.diag(of_moves), 0))
         sigmas[np.diag(basis)[:3] < 0.5] = np.inf
         x, y = -back @ self.shift
         part = _common_area(depth)

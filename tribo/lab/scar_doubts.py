@@ -30,6 +30,8 @@ FLAT = 20.0
 """Radius of a surface over a ball's, from which on it is not the ball's."""
 GAP = 0.15
 """Part of the volume in one gap of the map from which on it is told."""
+WIDE = 7
+"""Pixels of a gap along x and y at least."""
 RADIUS_OFF = 0.05
 """Relative difference of a radius that is told."""
 
@@ -149,8 +151,8 @@ def _of_ball(after: Heights, scar: Mask, radius: float) -> float:
 
 def warn_of_gap(scar: Mask, known: Mask, depth: Array) -> None:
     """Warn of a large gap in a scar, which may be the middle of a ring."""
-    # Not of pixels that are missing here and there.
-    gaps, count = ndimage.label(ndimage.binary_opening(scar & ~known, np.ones((3, 3))))
+    # Not of pixels that are missing here and there, however many.
+    gaps, count = ndimage.label(ndimage.binary_opening(scar & ~known, np.ones((WIDE, WIDE))))
     volumes = ndimage.sum(depth, gaps, np.arange(1, count + 1))
     part = float(np.max(volumes, initial=0.0) / np.sum(depth[scar]))
     if part > GAP:

@@ -11,7 +11,7 @@ import scipy.ndimage as ndimage
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError
 from tribo.lab.alignment import robust_deviation
-from tribo.lab.heights import smoothed
+from tribo.lab.heights import interpolated, smoothed
 from tribo.lab.registration import DEEP, Registration
 from tribo.lab.widths import Width, track_across
 
@@ -44,6 +44,8 @@ class WornArea:
     ----------
     smooth : ndarray, shape (nx, ny)
         Smoothed depths, in m.
+    depth : ndarray, shape (nx, ny)
+        Depths, with missing pixels interpolated, in m.
     known, core, scar, piled : ndarray of bool, shape (nx, ny)
         Pixels that were measured; that are worn beyond doubt; the whole scar; what stands up.
     noise : float
@@ -63,6 +65,7 @@ class WornArea:
     """
 
     smooth: Array
+    depth: Array
     known: Mask
     core: Mask
     scar: Mask
@@ -79,6 +82,7 @@ class WornArea:
 def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -> WornArea:
     """Return what is worn; `CaseError` if nothing is. The map before may be an ideal shape."""
     smooth, known = smoothed(found.depth), np.isfinite(found.depth)
+    depth = _filled(found.depth, smooth, known)
     noise = _noise(smooth, found)
     core = _largest(smooth, smooth > DEEP * noise)
     piled = _largest(-smooth, -smooth > DEEP * noise)
@@ -104,20 +108,21 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
     track, length = None, None
     if is_open[0] != is_open[1]:
         axis = is_open.index(True)
-        depth = np.where(known, found.depth, smooth)
-        band, track, length = track_across(depth, core, found.worn, noise, axis, pitch)
+        seen = np.where(known, found.depth, smooth)
+        band, track, length = track_across(seen, core, found.worn, noise, axis, pitch)
         scar = ndimage.binary_dilation(band, iterations=MARGIN, mask=band | ~piled)
     _, count = ndimage.label(scar)
     # Smoothing has the scar's edge lie within such a ridge.
     thin = _thin_ridges(found, scar, core)
     scar = ndimage.binary_propagation(core & ~thin, mask=scar & ~thin)
     piled = ndimage.binary_dilation(piled | thin, iterations=MARGIN) & ~scar
-    between, lost = _border(found, scar, piled), found.depth > 0
+    between, lost = _border(found, scar, piled, core), depth > 0
     scar, piled = np.where(between, lost, scar), np.where(between, ~lost, piled)
     deep = core & (smooth > EDGE * np.max(smooth[core]))
     enclosed = ndimage.binary_fill_holes(deep) & ~deep & known
     return WornArea(
         smooth=smooth,
+        depth=depth,
         known=known,
         core=core,
         scar=scar,
@@ -146,7 +151,7 @@ def _thin_ridges(found: Registration, scar: Mask, core: Mask) -> Mask:
 
     Beyond noise, and beyond the relief of the worn surface, whose tops are no ridges.
     """
-    fine, inner = smoothed(found.depth, FINE), ndimage.binary_erosion(core, iterations=MARGIN)
+    fine, inner = smoothed(found.depth, FINE), _inner(core)
     relief = robust_deviation((fine - smoothed(found.depth, RELIEF))[inner])
     noise = max(_noise(fine, found), relief)
     up = scar & ~inner & (fine < 0)
@@ -156,15 +161,31 @@ def _thin_ridges(found: Registration, scar: Mask, core: Mask) -> Mask:
     return ridges
 
 
-def _border(found: Registration, scar: Mask, piled: Mask) -> Mask:
+def _border(found: Registration, scar: Mask, piled: Mask, core: Mask) -> Mask:
     """Return pixels between a scar and what is piled up that tell by their sign of which they are.
 
-    Smoothing moves that border. Where it is not steep, the signs of noise would add up.
+    Smoothing moves that border. Where it is not steep, the signs of noise, and of the relief of the
+    worn surface, would add up.
     """
     of_scar, of_piled = (ndimage.binary_dilation(e, iterations=BORDER) for e in (scar, piled))
     slope = np.hypot(*np.gradient(smoothed(found.depth, FINE)))
-    border: Mask = of_scar & of_piled & np.isfinite(found.depth) & (slope > STEEP * found.noise)
+    rough = (found.depth - smoothed(found.depth, RELIEF))[_inner(core) & np.isfinite(found.depth)]
+    noise = max(found.noise, robust_deviation(rough) if rough.size else 0.0)
+    border: Mask = of_scar & of_piled & (slope > STEEP * noise)
     return border
+
+
+def _filled(depth: Array, smooth: Array, known: Mask) -> Array:
+    """Return depths with missing ones interpolated: single ones as they are, in holes smoothed."""
+    holes = ndimage.binary_opening(~known, np.ones((3, 3)))
+    of_holes = interpolated(np.where(known, smooth, np.nan), holes)
+    return np.where(holes, of_holes, interpolated(depth, ~known & ~holes))
+
+
+def _inner(core: Mask) -> Mask:
+    """Return what is worn without its margin."""
+    inner: Mask = ndimage.binary_erosion(core, iterations=MARGIN)
+    return inner
 
 
 def _largest(depth: Array, marked: Mask) -> Mask:

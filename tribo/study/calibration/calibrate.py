@@ -38,7 +38,7 @@ from tribo.study.calibration.quantities import (
     plain,
 )
 from tribo.study.calibration.sample import check_sampling, sampled
-from tribo.study.calibration.unfitted import explanations
+from tribo.study.calibration.unfitted import explanations, odd_numbers
 
 DATA = ["test", "body", "quantity", "time_s", "position_m", "place", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
@@ -311,6 +311,7 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
                 min(setup.model.grid.cells[1] for setup in experiment.setups),
                 explained,
             ),
+            *(odd_numbers(experiment) if disagree else ()),
             *last.notices,
         ),
     )

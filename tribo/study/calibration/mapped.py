@@ -29,7 +29,11 @@ from tribo.study.gradient.objective import View
 from tribo.study.variation import unknown_body
 
 FAR = 2.0
-"""Standard deviations of the prior by which the mean coefficient may be off without a note."""
+"""Standard deviations of the prior by which the mean coefficient may be off."""
+BY_GRID = 0.1
+"""Relative difference of volumes that the grid may make."""
+LEAST = 0.5
+"""Part of the case's loss in what was measured below which that is not compared."""
 LONGEST = 20.0
 """Correlation length over the window from which on the coefficient would be one number."""
 
@@ -87,9 +91,9 @@ def calibrate_maps(
         depths[entry.body], placed[entry.body] = (depth, entry.uncertainty * noise), far
         priors[entry.body] = Prior(entry.spread, entry.length)
         read.append(_Read(place, entry, depth, worn, shift.shift))
-    for each in read:
-        each.check_volume()
     doubts = [doubt for each in read for doubt in each.doubts()]
+    for each in read:
+        each.check_volume(doubts)
     try:
         found = fit_maps(model, depths, priors, placed=placed, on_run=on_run)
     except NumericalError as error:
@@ -147,17 +151,22 @@ class _Read(NamedTuple):
         yield from off_level(self.name, self.depth, self.worn, self.entry.uncertainty)
         yield from off_turn(self.name, self.depth, self.worn)
 
-    def check_volume(self) -> None:
-        """Refuse a loss that is far from the case's, where the prior has the coefficient."""
+    def check_volume(self, doubts: Sequence[str]) -> None:
+        """Refuse a loss that is far from the case's, where the prior has the coefficient.
+
+        Not that of a scar's rim alone, which follows its width.
+        """
         known = np.isfinite(self.depth) & (self.worn > 0)
         lost, own = float(np.sum(self.depth[known])), float(np.sum(self.worn[known]))
         noise = SIGNIFICANT * self.entry.uncertainty * float(np.sum(known)) ** 0.5
-        far = math.exp(FAR * self.entry.spread)
-        if np.any(known) and not (lost + noise > own / far and lost - noise < own * far):
+        far = math.exp(FAR * self.entry.spread + BY_GRID)
+        if own < LEAST * float(np.sum(self.worn)):
+            return
+        if not (lost + noise > own / far and lost - noise < own * far):
+            first = "check the map, or first fit the case's k to it, as a depth_map in [[measured]]"
             times = f"{lost / own:.3g} times" if lost > noise else "none of"
             raise CaseError(
                 f"it has {times} the volume that the case wears there, which a spread of "
-                f"{self.entry.spread:g} does not allow for: check the map, or first fit the case's "
-                "k to it, as a depth_map in [[measured]]",
+                f"{self.entry.spread:g} does not allow for: {'; '.join(doubts) or first}",
                 f"{self.place}.depth",
             )

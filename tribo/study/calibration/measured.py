@@ -237,6 +237,13 @@ def _check_gaps(values: Any, what: str) -> None:
             )
 
 
+def _list(value: Any, info: ValidationInfo) -> Any:
+    """Refuse a table where a list of tables is needed."""
+    if isinstance(value, Mapping):
+        raise ValueError(f"write [[{info.field_name}]] at the beginning of each, also of one")
+    return value
+
+
 class FitEntry(Table):
     """One parameter to fit."""
 
@@ -266,6 +273,8 @@ class TestEntry(Table):
         if isinstance(data, Mapping) and "map" in data:
             raise ValueError(LOCAL)
         return data
+
+    _are_many = field_validator("measured", mode="before")(_list)
 
     @field_validator("set", mode="before")
     @classmethod
@@ -311,12 +320,7 @@ class Measurements(Table):
     repeatability: Annotated[float, Quantity("1", at_least=0, below=3)] | None = None
     """Relative standard deviation of the parameters from test to test; estimated if left out."""
 
-    @field_validator("fit", "measured", "test", "map", mode="before")
-    @classmethod
-    def _are_many(cls, value: Any, info: ValidationInfo) -> Any:
-        if isinstance(value, Mapping):
-            raise ValueError(f"write [[{info.field_name}]] at the beginning of each, also of one")
-        return value
+    _are_many = field_validator("fit", "measured", "test", "map", mode="before")(_list)
 
     @property
     def tests(self) -> dict[str, TestEntry]:

@@ -25,8 +25,7 @@ ALIKE = 6.0
 def explanations(fitted: Linearised, experiment: Experiment, freedom: int) -> tuple[int, str]:
     """Return the runs made, and sentences on the numbers that would explain a misfit if fitted.
 
-    Before them come questions about unusual numbers. A run for each of the others; the estimates
-    are those of the model linearised about the fit.
+    One run for each number; the estimates are those of the model linearised about the fit.
     """
     rows = ~fitted.problem.below
     excess = float(np.sum(fitted.residuals(fitted.point)[rows] ** 2)) - freedom
@@ -51,9 +50,7 @@ def explanations(fitted: Linearised, experiment: Experiment, freedom: int) -> tu
         left, value = float(np.sum(both.residuals(best)[rows] ** 2)), float(np.exp(best[-1]))
         if left - freedom < (1 - EXPLAINED) * excess:
             found.append((left, candidate, value))
-    # Alike in the cases of several tests.
-    asked = dict.fromkeys(each for setup in experiment.setups for each in unusual(setup.model.case))
-    return runs, "".join(f"{each} " for each in asked) + "".join(
+    return runs, "".join(
         f"Fitting {candidate.path} too would lower χ² to about {round(left, 3):.3g}, with "
         f"{in_si(value, candidate.unit, 2)} or so instead of "
         f"{in_si(candidate.start, candidate.unit)}. "
@@ -62,12 +59,21 @@ def explanations(fitted: Linearised, experiment: Experiment, freedom: int) -> tu
     )
 
 
+def odd_numbers(experiment: Experiment) -> list[str]:
+    """Return questions about numbers that are not fitted and look as if a unit was forgotten."""
+    fitted = tuple(f"{each.path} " for each in experiment.parameters)
+    # Alike in the cases of several tests.
+    every = dict.fromkeys(each for setup in experiment.setups for each in unusual(setup.model.case))
+    return [each for each in every if not each.startswith(fitted)]
+
+
 def _candidates(experiment: Experiment) -> Iterator[Parameter]:
     """Return coefficients, load, radii and densities, unless fitted or different between tests."""
     cases = [setup.model.case for setup in experiment.setups]
-    of_bodies = ("wear.k", "surface.radius", "material.density")
-    paths = [f"bodies.{name}.{number}" for name in cases[0].bodies for number in of_bodies]
-    paths.append("load.normal")
+    names, of_bodies = cases[0].bodies, ("wear.k", "surface.radius")
+    paths = [f"bodies.{name}.{number}" for name in names for number in of_bodies]
+    weighed = experiment.data.loc[experiment.data["quantity"] == "mass", "body"].unique()
+    paths += [*(f"bodies.{name}.material.density" for name in weighed), "load.normal"]
     for path in paths:
         if path in (each.path for each in experiment.parameters):
             continue
