@@ -232,7 +232,7 @@ def measured_scar(
         warn_of_ring()
     sizes = _Sizes()
     if several == 1 and not worn.cut_off:
-        ball = radius if worn.track else radius or own_radius
+        ball = own_radius if radius is None and not worn.track else radius
         sizes = _sizes(found, worn, after, volume, ball, track_length)
     if track_length is not None and sizes.track_volume is None:
         warnings.warn(

@@ -32,7 +32,7 @@ ITERATIONS = 30
 SETTLED = 1e-3
 """Change in a step that ends the last blur, of the map's place in pixels and of its form in
 standard deviations of noise."""
-SHIFT_GUESSED, TURN_GUESSED = 0.1, 1.0
+SHIFT_GUESSED, TURN_GUESSED = 0.1, 0.1
 """Standard deviations of a shift, in widths of the map, and of a turn, in rad, that the relief does
 not tell."""
 FORM_ITERATIONS = 6

@@ -30,7 +30,7 @@ FLAT = 20.0
 """Radius of a surface over a ball's, from which on it is not the ball's."""
 GAP = 0.15
 """Part of the volume in one gap of the map from which on it is told."""
-WIDE = 7
+WIDE = 5
 """Pixels of a gap along x and y at least."""
 RADIUS_OFF = 0.05
 """Relative difference of a radius that is told."""

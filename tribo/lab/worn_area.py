@@ -170,7 +170,7 @@ def _border(found: Registration, scar: Mask, piled: Mask, core: Mask) -> Mask:
     of_scar, of_piled = (ndimage.binary_dilation(e, iterations=BORDER) for e in (scar, piled))
     slope = np.hypot(*np.gradient(smoothed(found.depth, FINE)))
     rough = (found.depth - smoothed(found.depth, RELIEF))[_inner(core) & np.isfinite(found.depth)]
-    noise = max(found.noise, robust_deviation(rough) if rough.size else 0.0)
+    noise = max(found.noise, robust_deviation(rough))
     border: Mask = of_scar & of_piled & (slope > STEEP * noise)
     return border
 

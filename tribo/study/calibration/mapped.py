@@ -32,8 +32,8 @@ FAR = 2.0
 """Standard deviations of the prior by which the mean coefficient may be off."""
 BY_GRID = 0.1
 """Relative difference of volumes that the grid may make."""
-LEAST = 0.5
-"""Part of the case's loss in what was measured below which that is not compared."""
+LEAST = 0.7
+"""Part of the case's largest depth where it was measured, below which volumes are not compared."""
 LONGEST = 20.0
 """Correlation length over the window from which on the coefficient would be one number."""
 
@@ -93,7 +93,7 @@ def calibrate_maps(
         read.append(_Read(place, entry, depth, worn, shift.shift))
     doubts = [doubt for each in read for doubt in each.doubts()]
     for each in read:
-        each.check_volume(doubts)
+        each.check_volume()
     try:
         found = fit_maps(model, depths, priors, placed=placed, on_run=on_run)
     except NumericalError as error:
@@ -151,7 +151,7 @@ class _Read(NamedTuple):
         yield from off_level(self.name, self.depth, self.worn, self.entry.uncertainty)
         yield from off_turn(self.name, self.depth, self.worn)
 
-    def check_volume(self, doubts: Sequence[str]) -> None:
+    def check_volume(self) -> None:
         """Refuse a loss that is far from the case's, where the prior has the coefficient.
 
         Not that of a scar's rim alone, which follows its width.
@@ -160,13 +160,13 @@ class _Read(NamedTuple):
         lost, own = float(np.sum(self.depth[known])), float(np.sum(self.worn[known]))
         noise = SIGNIFICANT * self.entry.uncertainty * float(np.sum(known)) ** 0.5
         far = math.exp(FAR * self.entry.spread + BY_GRID)
-        if own < LEAST * float(np.sum(self.worn)):
+        if np.max(self.worn[known], initial=0.0) < LEAST * np.max(self.worn):
             return
         if not (lost + noise > own / far and lost - noise < own * far):
-            first = "check the map, or first fit the case's k to it, as a depth_map in [[measured]]"
+            fit = "check the map, or first fit the case's k to it, as a depth_map in [[measured]]"
             times = f"{lost / own:.3g} times" if lost > noise else "none of"
             raise CaseError(
                 f"it has {times} the volume that the case wears there, which a spread of "
-                f"{self.entry.spread:g} does not allow for: {'; '.join(doubts) or first}",
+                f"{self.entry.spread:g} does not allow for: {'; '.join([*self.doubts(), fit])}",
                 f"{self.place}.depth",
             )

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from tribo.config.overrides import path_keys
 from tribo.core.errors import CaseError, NumericalError
 from tribo.simulation.doubt import unusual
 from tribo.study.calibration.experiment import Experiment
@@ -61,7 +62,8 @@ def explanations(fitted: Linearised, experiment: Experiment, freedom: int) -> tu
 
 def odd_numbers(experiment: Experiment) -> list[str]:
     """Return questions about numbers that are not fitted and look as if a unit was forgotten."""
-    fitted = tuple(f"{each.path} " for each in experiment.parameters)
+    paths = [".".join(path_keys(each.path)) for each in experiment.parameters]
+    fitted = tuple(f"{path}{end}" for path in paths for end in " ,")
     # Alike in the cases of several tests.
     every = dict.fromkeys(each for setup in experiment.setups for each in unusual(setup.model.case))
     return [each for each in every if not each.startswith(fitted)]
