@@ -113,10 +113,13 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         scar = ndimage.binary_dilation(band, iterations=MARGIN, mask=band | ~piled)
     _, count = ndimage.label(scar)
     # Smoothing has the scar's edge lie within such a ridge.
-    thin = _thin_ridges(found, scar, core)
+    fine, level = smoothed(found.depth, FINE), smoothed(found.depth, RELIEF)
+    inner = ndimage.binary_erosion(core, iterations=MARGIN)
+    thin = _thin_ridges(found, fine, robust_deviation((fine - level)[inner]), scar & ~inner)
     scar = ndimage.binary_propagation(core & ~thin, mask=scar & ~thin)
     piled = ndimage.binary_dilation(piled | thin, iterations=MARGIN) & ~scar
-    between, lost = _border(found, scar, piled, core), depth > 0
+    rough = robust_deviation((found.depth - level)[inner & known])
+    between, lost = _border(fine, max(found.noise, rough), scar, piled), depth > 0
     scar, piled = np.where(between, lost, scar), np.where(between, ~lost, piled)
     deep = core & (smooth > EDGE * np.max(smooth[core]))
     enclosed = ndimage.binary_fill_holes(deep) & ~deep & known
@@ -146,31 +149,26 @@ def _noise(depth: Array, found: Registration) -> float:
     return max(robust_deviation(unworn), 1e-300) if unworn.size else found.noise
 
 
-def _thin_ridges(found: Registration, scar: Mask, core: Mask) -> Mask:
+def _thin_ridges(found: Registration, fine: Array, relief: float, margin: Mask) -> Mask:
     """Return what stands up in the margin of a scar, too thin for `_largest`.
 
     Beyond noise, and beyond the relief of the worn surface, whose tops are no ridges.
     """
-    fine, inner = smoothed(found.depth, FINE), _inner(core)
-    relief = robust_deviation((fine - smoothed(found.depth, RELIEF))[inner])
-    noise = max(_noise(fine, found), relief)
-    up = scar & ~inner & (fine < 0)
+    noise, up = max(_noise(fine, found), relief), margin & (fine < 0)
     tops, count = ndimage.label(up & (fine < -DEEP * noise), np.ones((3, 3)))
     sizes = np.bincount(tops.ravel(), minlength=count + 1)
     ridges: Mask = ndimage.binary_propagation((tops > 0) & (sizes[tops] >= RIDGE), mask=up)
     return ridges
 
 
-def _border(found: Registration, scar: Mask, piled: Mask, core: Mask) -> Mask:
+def _border(fine: Array, noise: float, scar: Mask, piled: Mask) -> Mask:
     """Return pixels between a scar and what is piled up that tell by their sign of which they are.
 
     Smoothing moves that border. Where it is not steep, the signs of noise, and of the relief of the
     worn surface, would add up.
     """
     of_scar, of_piled = (ndimage.binary_dilation(e, iterations=BORDER) for e in (scar, piled))
-    slope = np.hypot(*np.gradient(smoothed(found.depth, FINE)))
-    rough = (found.depth - smoothed(found.depth, RELIEF))[_inner(core) & np.isfinite(found.depth)]
-    noise = max(found.noise, robust_deviation(rough))
+    slope = np.hypot(*np.gradient(fine))
     border: Mask = of_scar & of_piled & (slope > STEEP * noise)
     return border
 
@@ -180,12 +178,6 @@ def _filled(depth: Array, smooth: Array, known: Mask) -> Array:
     holes = ndimage.binary_opening(~known, np.ones((3, 3)))
     of_holes = interpolated(np.where(known, smooth, np.nan), holes)
     return np.where(holes, of_holes, interpolated(depth, ~known & ~holes))
-
-
-def _inner(core: Mask) -> Mask:
-    """Return what is worn without its margin."""
-    inner: Mask = ndimage.binary_erosion(core, iterations=MARGIN)
-    return inner
 
 
 def _largest(depth: Array, marked: Mask) -> Mask:
