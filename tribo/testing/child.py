@@ -72,11 +72,20 @@ class Child:
             raise Unknown(fault)
         return pickle.loads(answer)
 
+    def end(self) -> None:
+        """End the process, if one runs."""
+        if self._process is not None:
+            self._process.kill()
+            with self._process:  # Closes its pipes, and waits for it.
+                pass
+
 
 @cache
 def child() -> Child:
     """Return the one child of this process."""
-    return Child()
+    made = Child()
+    atexit.register(made.end)
+    return made
 
 
 def _begin() -> subprocess.Popen[bytes]:
@@ -87,16 +96,9 @@ def _begin() -> subprocess.Popen[bytes]:
         stdout=subprocess.PIPE,
         env=environment,
     )
-    atexit.register(_end, process)
     assert process.stdout is not None
     process.stdout.read(len(_READY))
     return process
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    process.kill()
-    with process:  # Closes its pipes, and waits for it.
-        pass
 
 
 def serve() -> None:
