@@ -27,6 +27,18 @@ class SpeedStage(Table):
     """Sliding speed; 0 for a rest."""
 
 
+def check_axis(radius: float, grid: Grid) -> None:
+    """Refuse a circular track of this radius (m) with its axis in the window."""
+    half = 0.5 * grid.size[1]
+    if radius <= half:
+        raise CaseError(
+            f"{1e3 * radius:.4g} mm must be more than half the window's breadth, "
+            f"{1e3 * half:.4g} mm, or the axis of the track lies in the window; give a larger "
+            "radius, or a window (grid.size) that is less broad",
+            "kinematics.track_radius",
+        )
+
+
 class ClosedTrack(Kinematics):
     """Sliding round a closed track, at one speed or in stages; one body swept over the track."""
 

@@ -29,9 +29,9 @@ class Position:
     speeds : Speeds or None, optional
         Sliding speeds here, in m/s, each with its share of the path spent here. None: laws and
         effects are asked at the mean speed over each step.
-    reach : ndarray, shape (ny,), or None, optional
-        Sliding distance and speed of each row of the contact here, relative to those of the motion.
-        None: all slide by those of the motion.
+    reach : ndarray, shape (nx, ny), or None, optional
+        Sliding distance and speed of each point of the contact here, relative to those of the
+        motion. None: all slide by those of the motion.
     rest : float, optional
         Time at rest here, in s, for each metre of the path spent here; beside `speeds`.
     """

@@ -1,4 +1,4 @@
-"""A pin on a turning disk: the path is longer and faster away from the disk's centre."""
+"""A pin on a turning disk: the path is longer and faster away from the disk's axis."""
 
 from __future__ import annotations
 
@@ -10,10 +10,9 @@ import numpy as np
 from pydantic import ConfigDict
 
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
-from tribo.motion.closed_track import ClosedTrack
+from tribo.motion.closed_track import ClosedTrack, check_axis
 from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Track, one_swept_body
 
@@ -21,9 +20,11 @@ from tribo.motion.exposure import Exposure, Track, one_swept_body
 class Rotating(ClosedTrack):
     """Speed v round a circle of radius R; one body swept over the track.
 
-    Speed and sliding distance are those in the middle of the window. A row at y is at the radius
-    R + y: its points slide by (R + y)/R of that distance at as much of that speed, on a track of
-    length 2π(R + y). The arc is straight in the contact: valid for contacts short beside R.
+    Speed and sliding distance are those in the middle of the window. A point at (x, y) is at the
+    radius ρ = √(x² + (R + y)²) and slides by ρ/R of that distance at as much of that speed. The
+    swept body passes along rows, each a track of length 2π(R + y): its volume is exact, but its
+    groove lies on straight lines in place of arcs, which are x²/2R apart. Valid for contacts short
+    beside R.
     """
 
     model_config = ConfigDict(
@@ -42,21 +43,16 @@ class Rotating(ClosedTrack):
         return 2 * math.pi * self.track_radius
 
     def cycle(self, grid: Grid) -> Sequence[Position]:
-        """Return the one position, in which rows slide as far as they are from the axis."""
-        return [Position(reach=self._radii(grid) / self.track_radius)]
+        """Return the one position, in which points slide as far as they are from the axis."""
+        x, _ = grid.mesh
+        return [Position(reach=np.hypot(x, self._rows(grid)) / self.track_radius)]
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return a closed track for the swept body, each row of its own length."""
-        track = Track(grid, 2 * math.pi * self._radii(grid))
+        track = Track(grid, 2 * math.pi * self._rows(grid))
         return one_swept_body(grid, bodies, self.swept, track)
 
-    def _radii(self, grid: Grid) -> Array:
+    def _rows(self, grid: Grid) -> Array:
         """Return the distance from the axis of each row, shape (ny,), in m."""
-        radius, half = self.track_radius, 0.5 * grid.size[1]
-        if radius <= half:
-            raise CaseError(
-                f"{1e3 * radius:.4g} mm must be more than half the window's breadth, "
-                f"{1e3 * half:.4g} mm, or the axis lies in the window",
-                "kinematics.track_radius",
-            )
-        return np.asarray(radius + grid.mesh[1][0])
+        check_axis(self.track_radius, grid)
+        return np.asarray(self.track_radius + grid.mesh[1][0])

@@ -11,7 +11,7 @@ from pydantic import ConfigDict, Field, field_validator, model_validator
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
-from tribo.motion.closed_track import ClosedTrack
+from tribo.motion.closed_track import ClosedTrack, check_axis
 from tribo.motion.cycle import WHOLE, Position, Stroke, odd
 from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
 
@@ -78,6 +78,8 @@ class Unidirectional(ClosedTrack):
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return the closed track for the swept body, or the rows of the window."""
+        if self.track_radius is not None and not self.turns:
+            check_axis(self.track_radius, grid)
         if self.positions == "average":
             track = Track(grid, self.lap, shape_stays=self.turns)
             return one_swept_body(grid, bodies, self.swept, track)
@@ -92,16 +94,10 @@ class Unidirectional(ClosedTrack):
         beyond = super().limitation(half_width_x, depth, approach, volume_ratio, line)
         if beyond or radius is None or self.turns or half_width_x <= NEAR_AXIS * radius:
             return beyond
-        circle = f"track_radius = {1e3 * radius:.3g} mm"
-        if half_width_x >= radius:
-            return (
-                f"the contact, {width} wide, covers the axis of its own track ({circle}): nothing "
-                "slides there as is assumed, and the wear is meaningless; give a larger radius"
-            )
         return (
-            f"half of the contact's {width} is {half_width_x / radius:.2g} of {circle}: its outer "
-            "edge slides by as much further and the inner one less, which is left out here; use "
-            'kinematics.type = "rotating"'
+            f"half of the contact's {width} is {half_width_x / radius:.2g} of track_radius = "
+            f"{1e3 * radius:.3g} mm: its outer edge slides by as much further and the inner one "
+            'less, which is left out here; use kinematics.type = "rotating"'
         )
 
     def coarsened(self, half_width_x: float) -> Unidirectional:

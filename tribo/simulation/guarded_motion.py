@@ -45,8 +45,8 @@ class GuardedMotion(Guard[Kinematics]):
     def _reach(self, answer: Array | None, grid: Grid) -> Array | None:
         if answer is None:
             return None
-        what = "a sliding distance of each row"
-        reach = self.field(what, answer, grid.cells[1:])
+        what = "a sliding distance of each point"
+        reach = self.field(what, answer, grid.cells)
         if np.min(reach) <= 0:
             raise BadValues(f"{self} gave {what} of which one is not positive")
         return reach

@@ -38,7 +38,7 @@ ENDS = [0, -1]
 SLIGHT = 1e-6
 """Of the largest rate of a state: what is below it is taken to stand still."""
 FINE = 0.1
-"""Relative speed between two at which laws are asked, where rows have their own."""
+"""Relative speed between two at which laws are asked, where points have their own."""
 
 CycleRates = Sequence[Mapping[str, WearRate]]
 """Rates in the contact frame, by position of a cycle and body."""
@@ -143,7 +143,7 @@ def _sliding_at(
     """Return the rates at a position per metre that is slid there: the mean over its speeds."""
     place = model.cycle[position]
     speeds = place.speeds or [(moment.speed, 1.0)]
-    weighed = by_row(speeds, place.reach)
+    weighed = by_reach(speeds, place.reach)
     found = [
         (part, time, _rates_of(model, position, contact, memory, replace(moment, speed=speed)))
         for speed, part, time in weighed
@@ -160,11 +160,13 @@ def _sliding_at(
     return Rates(wear, between)
 
 
-def by_row(speeds: Speeds, reach: Array | None) -> list[tuple[float, float | Array, float | Array]]:
+def by_reach(
+    speeds: Speeds, reach: Array | None
+) -> list[tuple[float, float | Array, float | Array]]:
     """Return speeds, each with what rates per metre and changes in time there count for.
 
-    A row of which the points slide further, by its part of `reach`, (ny,), is faster by as much,
-    and takes the same time; in between speeds what happens is taken to go in straight lines.
+    A point that slides further, by its part of `reach`, (nx, ny), is faster by as much, and takes
+    the same time; in between speeds what happens is taken to go in straight lines.
     """
     if reach is None:
         return [(speed, share, share) for speed, share in speeds]

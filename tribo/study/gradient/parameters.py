@@ -316,7 +316,7 @@ def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
     if one.kinematics != other.kinematics or not np.array_equal(
         Stops.of(base).times, Stops.of(model).times
     ):
-        # Rows that slide further wear more, whatever their law looks at.
+        # Points that slide further wear more, whatever their law looks at.
         if model.effects or any(position.reach is not None for position in model.cycle):
             return everything
         return dict.fromkeys(model.laws, frozenset({SPEED}))

@@ -19,7 +19,7 @@ from tribo.simulation.model import Model
 from tribo.stepping.evolution import layered_bodies, limits_of, memory_with, with_loads
 from tribo.stepping.layers import in_layers
 from tribo.stepping.memory import Memory, at_surface
-from tribo.stepping.rates import Moment, by_row, local_fields
+from tribo.stepping.rates import Moment, by_reach, local_fields
 from tribo.stepping.relaxation import Limits
 from tribo.study.gradient.course import pressed, stacked
 from tribo.study.gradient.linear import Carrier, carriers_between
@@ -370,9 +370,9 @@ class Stages:
             state={key: tall(values) for key, values in state.items()},
         )
         total = Arrays()
-        for speed, part, _ in by_row(place.speeds or [(mean, 1.0)], place.reach):
+        for speed, part, _ in by_reach(place.speeds or [(mean, 1.0)], place.reach):
             rate = law.rate(replace(told, speed=speed), over)
-            counts = part[self.box.slices[1]] if isinstance(part, np.ndarray) else part
+            counts = part[self.box.slices] if isinstance(part, np.ndarray) else part
             each = (rate.depth_rate, *(rate.state_rates[key] for key in keys))
             rates = [counts * values.reshape(pressure.shape) for values in each]
             total = [a + b for a, b in zip(total, rates, strict=True)] if total else rates
