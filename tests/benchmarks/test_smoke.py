@@ -220,6 +220,16 @@ def test_moving_contact(figures, module, monkeypatch):
         assert all(row["groove_average_um"] > 0 for row in rows)
 
 
+def test_the_docs_have_what_the_pressure_cap_is_off_by(module, monkeypatch, capsys):
+    cap = module("plastic_cap")
+    monkeypatch.setattr(cap, "LOADS", (8, 20))
+    cap.main()
+    models = (BENCHMARKS.parent / "docs" / "models.md").read_text(encoding="utf-8").splitlines()
+    _, _, *rows = capsys.readouterr().out.splitlines()
+    assert len(rows) == 2
+    assert set(rows) <= set(models)
+
+
 def test_the_walk_ends_where_a_solve_begins(monkeypatch):
     monkeypatch.syspath_prepend(BENCHMARKS)
     assert callable(getattr(bounded_cg, importlib.import_module("walk").SOLVE))

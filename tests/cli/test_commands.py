@@ -72,7 +72,7 @@ def test_show_json_has_the_documented_shape(ran):
     assert {"mass_kg", "scar_along_m", "scar_across_m"} <= {*ball}
     first = data["lab"]["first_contact"]
     assert first["max_pressure_Pa"] == data["saves"][0]["max_pressure_Pa"]
-    assert {"hertz_peak_pressure_Pa", "yield_ratio"} <= {*first}
+    assert {"hertz_peak_pressure_Pa", "yield_ratio", "load_ratio"} <= {*first}
 
 
 def test_show_prints_the_table_again(ran):
@@ -293,7 +293,7 @@ def test_a_line_contact_is_checked_in_its_own_window_and_told_in_plain_json(case
     short = setting("grid.cells=48", "kinematics.duration=20", "output.save_times=[]")
     told = tribo("check", "my.toml", *short).stdout
     assert "74.82 µm of a line contact" in told
-    assert "(1.79 H/2.8)" in told
+    assert "1.79 H/2.8, P/P_yield" in told
     assert "inf" not in told
     done = tribo("check", "my.toml", *short, "--json")
     data = json.loads(done.stdout, parse_constant=lambda name: pytest.fail(name))

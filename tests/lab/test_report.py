@@ -7,7 +7,8 @@ from paper_models import archard, case, flat, motion, named, steel
 
 from tribo import Grid, Simulation
 from tribo.closed_forms.hertz import first_yield_pressure
-from tribo.lab.first_contact import yield_words
+from tribo.core.contact import ContactSystem
+from tribo.lab.first_contact import HertzContact, hertz_contact, yield_words
 from tribo.lab.report import lab_report
 from tribo.surfaces.cylinder import Cylinder
 
@@ -47,13 +48,37 @@ def test_what_is_not_known_is_null():
     assert lab["bodies"]["ball"]["scar_across_m"] == 0
     assert lab["first_contact"]["yield_ratio"] is None
     first = lab_report(made(cap=H, curvature=None)).first_contact
-    assert first.hertz_peak_pressure_Pa is first.yield_ratio is None
+    assert first.hertz_peak_pressure_Pa is first.yield_ratio is first.load_ratio is None
+
+
+def said(part, *, line=False):
+    """The words on a peak pressure of this part of the hardness."""
+    ratio = part * H / first_yield_pressure(H, line=line)
+    loads = ratio ** (2 if line else 3)
+    breadth = np.inf if line else 1e-4
+    return yield_words(part * H, H, HertzContact(1e-4, breadth, part * H, None, ratio, loads))
+
+
+@pytest.mark.parametrize("line", [False, True])
+def test_the_load_is_set_against_that_of_first_yield(line):
+    radius, modulus, length = 1e-2, 1e11, 2e-3
+    peak = first_yield_pressure(H, line=line)
+    # Johnson (1985), section 4.2: P' = π p0² R/E* a length; P = π³ p0³ R²/6E*².
+    onset = (
+        np.pi * peak**2 * radius / modulus * length
+        if line
+        else np.pi**3 * peak**3 * radius**2 / (6 * modulus**2)
+    )
+    curvature = 1 / radius, 0.0 if line else 1 / radius
+    grid = Grid((1e-3, length), (4, 4))
+    contact = hertz_contact(ContactSystem(grid, modulus, 3 * onset, H, curvature))
+    assert contact.load_ratio == pytest.approx(3)
 
 
 def test_yield_is_said_in_three_stages():
-    assert yield_words(0.5 * H, H).startswith("88 % of the pressure at which")
-    assert yield_words(0.8 * H, H).startswith("the softer body yields beneath the surface at first")
-    assert "yields from the start" in yield_words(H, H)
+    assert said(0.5).startswith("88 % of the pressure at which")
+    assert said(0.8).startswith("the softer body yields beneath the surface at first")
+    assert "yields from the start" in said(1)
 
 
 @pytest.mark.parametrize("across", [20, 40])
@@ -85,4 +110,4 @@ def test_a_line_contact_yields_at_its_own_factor():
     mises = np.sqrt(0.5 * sum(difference**2 for difference in pairs))
     onset = H / 2.8 / np.max(mises)
     assert first_yield_pressure(H, line=True) == pytest.approx(onset, rel=3e-3)
-    assert yield_words(0.5 * H, H, line=True).endswith("(1.79 H/2.8)")
+    assert said(0.5, line=True).endswith("(1.79 H/2.8, P/P_yield 0.61)")

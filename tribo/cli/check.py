@@ -158,7 +158,7 @@ def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, 
         hardness = model.system.cap
         if hardness is not None:
             yield "p0/H", f"{p0 / hardness:.3f}"
-            yield "yield", yield_words(pressure, hardness, line=hertz.is_line)
+            yield "yield", yield_words(pressure, hardness, hertz)
         across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
         yield "cells across the contact", " × ".join(across)
 

@@ -30,6 +30,8 @@ class HertzContact:
     yield_ratio : float or None
         Peak pressure over that at which yield begins beneath the surface;
         None without a hardness.
+    load_ratio : float or None
+        Load over the load of first yield, P/P_yield; None without a hardness.
     """
 
     half_width_x: float
@@ -37,6 +39,7 @@ class HertzContact:
     peak_pressure: float
     approach: float | None
     yield_ratio: float | None
+    load_ratio: float | None
 
     @property
     def is_line(self) -> bool:
@@ -66,7 +69,9 @@ def hertz_contact(system: ContactSystem) -> HertzContact | None:
         (a, b), p0, approach = point.semi_axes, point.peak_pressure, point.approach
     cap = system.cap
     ratio = None if cap is None else p0 / hertz.first_yield_pressure(cap, line=is_line)
-    return HertzContact(a, b, p0, approach, ratio)
+    # A ball's pressure grows as the cube root of the load, a cylinder's as the square root.
+    loads = None if ratio is None else ratio ** (2 if is_line else 3)
+    return HertzContact(a, b, p0, approach, ratio, loads)
 
 
 def first_hertz(result: Result) -> HertzContact | str:
@@ -113,7 +118,7 @@ def in_mpa(pressure: float) -> str:
     return f"{readable(1e-6 * pressure, '.1f')} MPa"
 
 
-def yield_words(pressure: float, hardness: float, *, line: bool = False) -> str:
+def yield_words(pressure: float, hardness: float, contact: HertzContact) -> str:
     """Say whether the softer body yields under a peak pressure of a Hertz contact.
 
     Parameters
@@ -122,19 +127,22 @@ def yield_words(pressure: float, hardness: float, *, line: bool = False) -> str:
         In Pa; see `computed_pressure`.
     hardness : float
         Of the softer body, in Pa; see `tribo.closed_forms.hertz.first_yield_pressure`.
-    line : bool, optional
-        Whether it is a line contact.
+    contact : HertzContact
+        Hertz's contact of the bodies.
     """
+    loads = f"P/P_yield {contact.load_ratio:.2g}"
     if pressure >= AT_THE_CAP * hardness:
-        return "the softer body yields from the start: the pressure is its hardness"
-    onset = f"{'1.79' if line else '1.6'} H/2.8"
-    percent = f"{100 * pressure / hertz.first_yield_pressure(hardness, line=line):.0f} %"
-    if pressure > hertz.first_yield_pressure(hardness, line=line):
+        return f"the softer body yields from the start ({loads}): the pressure is its hardness"
+    first = hertz.first_yield_pressure(hardness, line=contact.is_line)
+    percent = f"{100 * pressure / first:.0f} %"
+    onset = f"{'1.79' if contact.is_line else '1.6'} H/2.8"
+    if pressure > first:
         return (
-            f"the softer body yields beneath the surface at first (at {percent} of {onset}), "
-            "which this model leaves out"
+            f"the softer body yields beneath the surface at first (at {percent} of {onset}, "
+            f"{loads}), which this model leaves out: a largest plastic depth of 0 does not mean "
+            "that nothing yields"
         )
     return (
         f"{percent} of the pressure at which the softer body first yields beneath the surface "
-        f"({onset})"
+        f"({onset}, {loads})"
     )

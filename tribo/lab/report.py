@@ -43,12 +43,14 @@ class FirstContact(NamedTuple):
 
     The ratio is that of the largest pressure, or the pressure at mid-length of a
     line contact, to that at which a Hertz contact first yields beneath the
-    surface; None without a hardness or a Hertz contact.
+    surface, and `load_ratio` by Hertz the load to the load of first yield; None
+    without a hardness or a Hertz contact.
     """
 
     hertz_peak_pressure_Pa: float | None  # noqa: N815
     max_pressure_Pa: float  # noqa: N815
     yield_ratio: float | None
+    load_ratio: float | None
 
 
 @dataclass(frozen=True)
@@ -142,7 +144,7 @@ def _first_contact(result: Result) -> tuple[FirstContact, str]:
     pressure, words = computed_pressure(system, largest, save["centre_pressure_Pa"])
     hertz = first_hertz(result)
     if isinstance(hertz, str):
-        return FirstContact(None, largest, None), (
+        return FirstContact(None, largest, None, None), (
             f"First contact: {words}; no closed form to compare, as {hertz}."
         )
     p0, ratio = hertz.peak_pressure, None
@@ -152,5 +154,5 @@ def _first_contact(result: Result) -> tuple[FirstContact, str]:
         words += f" ({signed(100 * (largest / p0 - 1), 2)} %)"
     if system.cap is not None:
         ratio = pressure / first_yield_pressure(system.cap, line=hertz.is_line)
-        words += f"; {yield_words(pressure, system.cap, line=hertz.is_line)}"
-    return FirstContact(p0, largest, ratio), f"{words}."
+        words += f"; {yield_words(pressure, system.cap, hertz)}"
+    return FirstContact(p0, largest, ratio, hertz.load_ratio), f"{words}."
