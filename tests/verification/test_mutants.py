@@ -46,6 +46,18 @@ def given_back(right):
     return lambda model, given, *rest: given
 
 
+def added(right):
+    return lambda _, parts: right(np.add, parts)
+
+
+def mean_displaces(right):
+    return lambda self, pressure: right(self, pressure) + np.mean(pressure) * self.symbol()[0, 0]
+
+
+def other_way_round(right):
+    return property(lambda self: right.fget(self)[::-1])
+
+
 def times(factor):
     return lambda right: lambda *given: factor * right(*given)
 
@@ -85,6 +97,14 @@ MUTANTS = {
     "sides swapped, periodic": ((periodic, "_cached"), sides_swapped, "full contact"),
     "groove not drawn out": ((Track, "envelope"), given_back, "draws a groove"),
     "groove never settled": ((step, "_settle"), given_back, "draws a groove"),
+    "groove half as deep": ((Track, "envelope"), times(0.5), "known depth"),
+    "overlaps of positions added up": ((step, "reduce"), added, "known depth"),
+    "mean pressure displaces": (
+        (periodic.PeriodicHalfSpace, "apply"),
+        mean_displaces,
+        "both ways, p/p* = 1.2",
+    ),
+    "moving body the wrong way round": ((Stroke, "starts"), other_way_round, "lopsided"),
     "yields twice as deep": ((GuardedSolver, "solve"), twice_the_overlap, YIELDS),
     "each body yields by the whole": ((assembly, "_plastic"), whole_depth_for_each, YIELDS),
     "exponent one more": (

@@ -162,14 +162,14 @@ def _westergaard(cells: int, placement: float) -> list[Row]:
     ]
 
 
-def _egg_box(ratio: float, cells: tuple[int, int]) -> tuple[Array, sinusoid.WavyLimits]:
+def _egg_box(ratio: float, cells: tuple[int, int]) -> tuple[ContactSolution, sinusoid.WavyLimits]:
     mean = ratio * math.sqrt(2) * math.pi * paper.MODULUS * AMPLITUDE / WAVELENGTH
     limits = sinusoid.johnson_greenwood_higginson(mean, AMPLITUDE, WAVELENGTH, paper.MODULUS)
     grid = Grid((WAVELENGTH, WAVELENGTH), cells)
     # A cell on each crest.
     along, across = (np.cos(2 * np.pi * np.arange(n) / n) for n in cells)
-    gap = -AMPLITUDE * along[:, None] * across[None, :]
-    return paper.press(paper.PERIODIC, gap, grid, mean * WAVELENGTH**2).pressure, limits
+    gap = AMPLITUDE * (1 - along[:, None] * across[None, :])
+    return paper.press(paper.PERIODIC, gap, grid, mean * WAVELENGTH**2), limits
 
 
 @reference("wavy both ways, p/p* = 0.001: Hertz on each crest", JOHNSON, 512)
@@ -178,7 +178,7 @@ def _light(cells: int, placement: float) -> list[Row]:
     crest = 0.5 * 1e-3 * limits.complete * WAVELENGTH**2
     curvature = AMPLITUDE * (2 * math.pi / WAVELENGTH) ** 2
     exact = hertz.point(paper.MODULUS, crest, curvature, curvature).peak_pressure
-    highest, share = float(np.max(found)), float(np.mean(found > 0))
+    highest, share = float(np.max(found.pressure)), float(np.mean(found.pressure > 0))
     neighbours, coarse = "limit; error is also the neighbours'", "limit; 18 cells a radius"
     return [
         Row("peak pressure", "Pa", exact, highest, 1e-2, note=neighbours),
@@ -189,12 +189,16 @@ def _light(cells: int, placement: float) -> list[Row]:
 @reference("wavy both ways, p/p* = 0.99: pockets at the troughs", JOHNSON, 512)
 def _heavy(cells: int, placement: float) -> list[Row]:
     found, limits = _egg_box(0.99, (cells, cells))
-    exact, left = 1 - limits.heavy_area, float(np.mean(found == 0))
+    exact, left = 1 - limits.heavy_area, float(np.mean(found.pressure == 0))
     return [Row("share left open, counted", "1", exact, left, 5e-2, note="limit of p/p* -> 1")]
 
 
 @reference("wavy both ways, p/p* = 1.2: full contact", JOHNSON, 64)
 def _closed(cells: int, placement: float) -> list[Row]:
     found, limits = _egg_box(1.2, (cells, cells // 2))
-    name, closing = "pressure that closes the gap", 0.5 * float(np.ptp(found))
-    return [Row(name, "Pa", limits.complete, closing, 1e-8, note="exact on any grid")]
+    name, closing = "pressure that closes the gap", 0.5 * float(np.ptp(found.pressure))
+    mean = "a mean pressure displaces nothing; the gap's mean"
+    return [
+        Row(name, "Pa", limits.complete, closing, 1e-8, note="exact on any grid"),
+        Row("approach", "m", AMPLITUDE, found.approach, 1e-8, note=mean),
+    ]

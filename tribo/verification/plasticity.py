@@ -6,10 +6,13 @@ import math
 
 import numpy as np
 
+from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.measures import contact_area
+from tribo.motion.reciprocating import Reciprocating
+from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.model import Model
 from tribo.stepping.step import first_contact, start_sliding
 from tribo.verification import problems as paper
@@ -82,6 +85,42 @@ def _groove(cells: int, placement: float) -> list[Row]:
         _part("variation along the groove / depth", np.ptp(depth, axis=0), deepest, 0.0, "exact"),
         _part("further depth / depth", rest, deepest, 1e-6, "at rest to tolerance"),
     ]
+
+
+STIFFNESS, RISE = 1.3e15, 0.5
+"""Of springs, in Pa/m; by how much the approach exceeds that at which the pressure reaches H."""
+ON_SPRINGS = "closed form: p = H - K x^2/2R in the groove, K (d - r^2/2R) beside it"
+
+
+def _on_springs(cells: int) -> tuple[Model, float]:
+    """Return a ball that slides on a softer flat on springs, and the depth of its groove, in m."""
+    first = HARDNESS / STIFFNESS
+    # Half-breadths of the groove and the contact, in which the load is a sum over the rows.
+    groove, half = (math.sqrt(2 * paper.RADIUS * first * rise) for rise in (RISE, 1 + RISE))
+    y, spacing = np.linspace(groove, half, 2001, retstep=True)
+    beside = np.maximum((half**2 - y**2) / (2 * paper.RADIUS), 0.0)
+    heights = 2 * groove * first**1.5 + 2 * float(np.trapezoid(beside**1.5, dx=spacing))
+    load = 4 / 3 * STIFFNESS * math.sqrt(2 * paper.RADIUS) * heights
+    soft = Material(young=paper.YOUNG, poisson=paper.POISSON, hardness=HARDNESS)
+    grid, springs = paper.square(3 * half, cells), Winkler(modulus=STIFFNESS)
+    model = paper.on_flat(paper.BALL, grid, springs, load=load, flat_material=soft)
+    return model, RISE * first
+
+
+@reference("hardness, ball on springs draws a groove of known depth", ON_SPRINGS, 25)
+def _groove_depth(cells: int, placement: float) -> list[Row]:
+    averaged, exact = _on_springs(cells)
+    stroke = 2 * cells * averaged.grid.spacing[0]
+    to_and_fro = Reciprocating(stroke=stroke, frequency=1.0, cycles=1, positions="cells")
+    rows = []
+    for name, model in (
+        ("once round a track", averaged),
+        ("every cell of a stroke", assemble(varied(averaged.case, kinematics=to_and_fro))),
+    ):
+        depth = start_sliding(model, first_contact(model)).bodies["flat"].plastic
+        deepest = float(np.max(depth[len(depth) // 2]))
+        rows.append(Row(f"plastic depth, {name}", "m", exact, deepest, 2e-2, note="cells"))
+    return rows
 
 
 @reference("hardness, ball pressed again into its indentation", SOURCE, 95)

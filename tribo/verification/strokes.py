@@ -20,14 +20,16 @@ from tribo.core.grid import Grid
 from tribo.core.measures import half_widths
 from tribo.core.state import State
 from tribo.motion.averaging import groove_excess
+from tribo.motion.measured import Measured
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.model import Model
 from tribo.stepping.implicit import Implicit
 from tribo.stepping.step import first_contact
 from tribo.verification.moving import round_a_ring, to_and_fro
-from tribo.verification.problems import BALL, SPEED, WEAR_COEFFICIENT, on_flat, run_to_end
+from tribo.verification.problems import BALL, SPEED, WEAR_COEFFICIENT, Shape, on_flat, run_to_end
 from tribo.verification.reference import Row, norm, reference
+from tribo.wear.archard import Archard
 
 K = WEAR_COEFFICIENT
 HOUR = 360.0
@@ -43,7 +45,8 @@ LONG = 128
 """Stroke in cells: 20 half-widths."""
 GRID = Grid((0.65e-3, 0.65e-3), (28, 28))
 FINE = Implicit(depth_tolerance=1e-4, pressure_tolerance=2e-2, cycle_tolerance=1e-5)
-SPRINGS = Winkler(modulus=1.2973e15)
+STIFFNESS = 1.2973e15
+SPRINGS = Winkler(modulus=STIFFNESS)
 EVERY_CELL, BY_PASS = "every cell of every pass is solved", "order in the wear of a pass"
 
 
@@ -172,6 +175,44 @@ def _in_steps(steps: int) -> Array:
 @reference("steps of a resolved stroke", "64 steps", 2, 4, 8)
 def _steps(steps: int, placement: float) -> list[Row]:
     return [norm("depth of the ball", _in_steps(steps), _in_steps(64), 2e-2, 1.0)]
+
+
+BUMPS = "p = P/A + K (h - mean h) on springs, h moved by the path"
+
+
+@reference("uneven body moved along a lopsided path", BUMPS, 12)
+def _lopsided(cells: int, placement: float) -> list[Row]:
+    half, grid = cells // 3, Grid((1e-4, 5e-5), (cells, 2), ends_at_window=True)
+    dx, load = grid.spacing[0], 10.0
+
+    def height(x: Array) -> Array:
+        return np.asarray(1e-7 * np.exp(-(((x - 2e-5) / 3e-5) ** 2)))
+
+    shape = Shape(heights=lambda own: np.broadcast_to(height(own.mesh[0]), own.cells).copy())
+    k = 1e-18
+    still = on_flat(shape, grid, SPRINGS, load=load, ball_law=Archard(k=k), flat_k=k)
+    # The right half is passed twice as often as the left one.
+    turns = np.array([-half, half, 0, half, -half]) * dx
+    path = tuple(zip(np.arange(5.0).tolist(), turns.tolist(), strict=True))
+    moved = Measured(path=path, positions="cells", swept="ball")
+    model = assemble(varied(still.case, kinematics=moved))
+    state = model.stepping.step(model, first_contact(model), moved.distance_at(4.0), 4.0)
+    passed = np.repeat([0.0, 2.0, 4.0, 0.0], [1, half, half, 1])
+    shares = 0.5 * (passed[:-1] + passed[1:]) / np.sum(passed)
+    x = grid.mesh[0]
+    flat, ball = np.zeros(grid.cells), np.zeros((cells + 2 * half, 2))
+    for place, share in zip(range(-half, half + 1), shares, strict=True):
+        under = height(x - place * dx)
+        pressure = load / (grid.size[0] * grid.size[1]) + STIFFNESS * (under - np.mean(under))
+        depth = k * moved.distance_at(4.0) * share * pressure
+        flat += depth
+        ball[half - place : half - place + cells] += depth
+    moving, stationary = _worn(state)
+    note = "the wear of the step"
+    return [
+        norm("depth of the moving body", moving, ball, 1e-6, note=note),
+        norm("depth of the stationary body", stationary, flat, 1e-6, note=note),
+    ]
 
 
 @reference("resolved stroke of 20 half-widths", "its limit, the average over the stroke", 65)
