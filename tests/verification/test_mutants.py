@@ -97,7 +97,7 @@ MUTANTS = {
     "sides swapped, periodic": ((periodic, "_cached"), sides_swapped, "full contact"),
     "groove not drawn out": ((Track, "envelope"), given_back, "draws a groove"),
     "groove never settled": ((step, "_settle"), given_back, "draws a groove"),
-    "groove half as deep": ((Track, "envelope"), times(0.5), "known depth"),
+    "groove twice as deep": ((Track, "envelope"), times(2), "known depth"),
     "overlaps of positions added up": ((step, "reduce"), added, "known depth"),
     "mean pressure displaces": (
         (periodic.PeriodicHalfSpace, "apply"),
