@@ -92,8 +92,8 @@ def _print(case: Path, model: Model, prediction: Prediction, ruled: Sensitivity 
         depth, time = f"depth of {ruled.body}", f"time until {ruled.body} reaches stop.depth"
         what = depth if ruled.of == "depth" else time
         console.print(f"  {what}, for 1 % more of:", markup=False)
-        first = list(ruled.percent.items())[:SHOWN]
-        console.print(_rows((f"    {path}", f"{percent:+.2f} %") for path, percent in first))
+        first = list(ruled.percent)[:SHOWN]
+        console.print(_rows((f"    {path}", ruled.shown(path)) for path in first))
         console.print(f"    (of {ruled.whence})", markup=False)
     for place, facts in prediction.facts.items():
         console.print(f"  {place}:", markup=False)
