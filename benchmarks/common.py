@@ -7,10 +7,13 @@ import json
 import os
 import platform
 import statistics
+import subprocess
 import sys
 import time
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -109,6 +112,8 @@ def machine(threads: int) -> Row:
         "threads": threads,
         "system": platform.system(),
         "load_average": os.getloadavg()[0],
+        "date": datetime.now(UTC).date().isoformat(),
+        "commit": _commit(),
         "python": platform.python_version(),
         "packages": {name: _version(name) for name in PACKAGES},
     }
@@ -135,6 +140,14 @@ def cell(value: object) -> str:
 def write(path: Path, found: Mapping[str, Any]) -> None:
     """Write figures as JSON."""
     path.write_text(json.dumps(found, indent=1, default=str) + "\n", encoding="utf-8")
+
+
+def _commit() -> str | None:
+    """Return the commit of the code that is measured; None outside of a repository."""
+    command = ["git", "-C", str(Path(__file__).parent), "rev-parse", "--short=10", "HEAD"]
+    with suppress(OSError, subprocess.CalledProcessError):
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+    return None
 
 
 def _cpu() -> str:

@@ -14,7 +14,7 @@ from tribo.contact.dcfft import DcFft
 from tribo.contact.solver import ContactSolver
 from tribo.core.grid import Grid
 from tribo.core.loads import Load, Stage
-from tribo.core.material import Material
+from tribo.core.material import Material, Poisson
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.effects.effect import Effect
@@ -38,7 +38,7 @@ class Layer(Table):
     """How it wears; as the body below if left out."""
     young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12))] | None = None
     """Young's modulus; that of the body if left out."""
-    poisson: Annotated[float, Quantity("1", above=-1, below=0.5)] | None = None
+    poisson: Poisson | None = None
     """Poisson's ratio; that of the body if left out."""
     hardness: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e11))] | None = None
     """Hardness, for laws that use it; that of the body if left out."""

@@ -28,15 +28,19 @@ def table(
 
 
 def machine() -> Markdown:
-    """Return what the figures were measured on, and how busy it was, in a sentence for each."""
+    """Return on what and when the figures were measured, and how busy it was."""
     loads: dict[str, float] = {}
-    for benchmark in _measured().values():
+    times: dict[str, list[str]] = {}
+    for name, benchmark in _measured().items():
         found = benchmark["machine"]
+        times.setdefault(f"{found['date']}, commit {found['commit']}", []).append(f"`{name}`")
         versions = {"Python": found["python"], **found["packages"]}
         listed = ", ".join(f"{name} {version}" for name, version in versions.items() if version)
         kind = f"Measured on: {found['cpu']}, {found['cores']} cores, {found['system']}; {listed}"
         loads[kind] = max(loads.get(kind, 0.0), found["load_average"])
-    return Markdown("\n\n".join(f"{kind}; load average {x:.1f}." for kind, x in loads.items()))
+    lines = [f"{kind}; load average {x:.1f}." for kind, x in loads.items()]
+    lines += [f"Of {time}: {', '.join(names)}." for time, names in times.items()]
+    return Markdown("\n\n".join(lines))
 
 
 def _measured() -> dict[str, Any]:

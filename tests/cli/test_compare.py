@@ -56,6 +56,17 @@ def test_the_table_has_a_column_a_variant(compared):
 
 
 @pytest.mark.slow
+def test_a_width_is_good_to_a_cell_and_its_percentage_to_what_a_cell_of_both_makes(compared):
+    first, _, cell, second, _, same = row(compared.stdout, "width along, µm")
+    # 0.7 mm on 24 cells.
+    assert cell == same == "29"
+    off = compared.stdout.split("width along, µm")[1].splitlines()[1].split()
+    ratio = float(second) / float(first)
+    assert float(off[0]) == pytest.approx(100 * (ratio - 1), abs=0.5)
+    assert float(off[2]) == pytest.approx(100 * 29.2 * (1 + ratio) / float(first), abs=0.6)
+
+
+@pytest.mark.slow
 def test_results_and_pictures_stand_beside_the_case(folder, compared):
     names = {path.name for path in (folder / "my-compare").iterdir()}
     assert {"contact.type=dcfft.h5", "contact.type=winkler.h5", "pressure_60s.png"} <= names

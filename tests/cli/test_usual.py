@@ -4,6 +4,7 @@ import pytest
 from command_line import tribo
 
 from tribo.config.load import validate_case
+from tribo.core.errors import NumericalError
 from tribo.core.units import parse, stated
 from tribo.simulation.doubt import unusual
 
@@ -28,13 +29,14 @@ def test_a_failure_names_the_quantity_out_of_its_usual_range(folder, command, se
     options = ["--set", setting, "--set", "grid.cells=32", *(["--force"] * (command == "run"))]
     failed = tribo(command, "my.toml", *options, cwd=folder)
     assert failed.returncode == 2
-    assert failed.stderr.count("a unit forgotten") == 1
-    assert failed.stderr.startswith(f"error: {FORGOTTEN[setting]}, usual are ")
+    *warnings, error = failed.stderr.partition("error: ")[::2]
+    assert error.count("a unit forgotten") == 1
+    assert error.startswith(f"{FORGOTTEN[setting]}, usual are ")
+    assert [FORGOTTEN[setting] in warning for warning in warnings] == [command == "run"]
 
 
-def body_of(young, hardness=None):
-    material = {"young": young, "poisson": 0.3, **({"hardness": hardness} if hardness else {})}
-    return {"surface": "flat", "material": material}
+def body_of(young):
+    return {"surface": "flat", "material": {"young": young, "poisson": 0.3}}
 
 
 CASE = {
@@ -47,19 +49,26 @@ CASE = {
 
 
 @pytest.mark.parametrize(
-    ("young", "hardness", "friction", "places"),
+    ("changes", "friction", "places"),
     [
-        ("210 MPa", "7 GPa", 0.6, ["bodies.ball.material.hardness"]),
-        ("210 GPa", "7 GPa", 60, ["friction.coefficient"]),
-        # Diamond, and a rubber on glass.
-        ("1140 GPa", "100 GPa", 2.0, []),
+        ({"young": "210 MPa", "hardness": "7 GPa"}, 0.6, ["bodies.ball.material.hardness"]),
+        ({"young": "210 GPa", "hardness": "7 MPa"}, 0.6, ["bodies.ball.material.hardness"]),
+        ({"young": "400 GPa", "hardness": "20 MPa"}, 0.6, ["bodies.ball.material.hardness"]),
+        ({"poisson": -0.3}, 0.6, ["bodies.ball.material.poisson"]),
+        ({"hardness": "7 GPa"}, 60, ["friction.coefficient"]),
+        # Diamond, indium, PTFE, cork, and a rubber on glass.
+        ({"young": "1140 GPa", "hardness": "100 GPa"}, 0.1, []),
+        ({"young": "11 GPa", "hardness": "8.8 MPa"}, 0.6, []),
+        ({"young": "0.5 GPa", "hardness": "30 MPa", "poisson": 0.46}, 0.6, []),
+        ({"young": "20 MPa", "poisson": 0}, 0.6, []),
+        ({"young": "2 MPa", "poisson": 0.499}, 2.0, []),
     ],
 )
-def test_a_hardness_beyond_young_and_a_friction_beyond_any_are_asked_about(
-    young, hardness, friction, places
-):
+def test_a_material_and_a_friction_unlike_any_are_asked_about(changes, friction, places):
     case = {**CASE, "friction": {"coefficient": friction}}
-    case["bodies"] = {"ball": body_of(young, hardness), "disk": body_of("210 GPa")}
+    ball = body_of("210 GPa")
+    ball["material"] |= changes
+    case["bodies"] = {"ball": ball, "disk": body_of("210 GPa")}
     assert [
         asked.split(" is ")[0].split(",")[0] for asked in unusual(validate_case(case))
     ] == places
@@ -84,9 +93,22 @@ def test_a_check_that_finds_nothing_else_still_asks(folder):
     coarse = ["--set", "grid.cells=64", "--set", "bodies.ball.material.density=7.85"]
     asked = tribo("check", "my.toml", *coarse, cwd=folder)
     assert asked.returncode == 0
-    verdict, first, *_ = asked.stdout.splitlines()
-    assert verdict.endswith("is valid, but:")
+    _, first, *_ = asked.stdout.splitlines()
     assert first.startswith("  - bodies.ball.material.density is 7.85 kg/m^3, usual are")
+    assert asked.stdout.count("usual are") == 1
+
+
+@pytest.mark.parametrize("command", ["check", "run"])
+def test_an_unusual_value_is_told_before_anything_is_computed(folder, command, monkeypatch):
+    def computed(case):
+        raise NumericalError("began to compute")
+
+    monkeypatch.setattr("tribo.simulation.run.composed", computed)
+    wear = ["--set", "bodies.ball.wear.k=1e-6", "--set", "bodies.ball.material.poisson=-0.3"]
+    done = tribo(command, "my.toml", *wear, cwd=folder)
+    told = done.stdout if command == "check" else done.stderr.partition("error: ")[0]
+    assert "bodies.ball.wear.k is 1e-06 1/Pa" in told
+    assert "bodies.ball.material.poisson is -0.3" in told
 
 
 @pytest.mark.parametrize("k", ["0", "'1e-6 mm^3/(N m)'"])

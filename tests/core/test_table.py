@@ -2,7 +2,8 @@
 
 import pytest
 
-from tribo import Archard, Body, Flat, Grid, Material, Sphere
+from tribo import Archard, Body, Flat, Grid, Load, Material, Output, Sphere
+from tribo.core.units import parse, stated
 
 STEEL = Material(young="207 GPa", poisson=0.3)
 
@@ -20,12 +21,30 @@ def test_repr_shows_what_is_inside():
 def test_a_notebook_shows_keys_with_units():
     shown = Body(surface=Flat(), material=STEEL, wear=Archard(k=1e-15))._repr_html_()
     assert "<caption>Body</caption>" in shown
-    assert "<td>young</td><td>207000000000.0 Pa</td>" in shown
+    assert "<td>young</td><td>207 GPa</td>" in shown
     assert "<td>k</td><td>1e-15 1/Pa</td>" in shown
 
 
 def test_a_notebook_shows_pairs():
-    assert "0.002 × 0.001 m" in Grid(("2 mm", "1 mm"), 8)._repr_html_()
+    assert "<td>2 mm × 1 mm</td>" in Grid(("2 mm", "1 mm"), 8)._repr_html_()
+
+
+def test_a_notebook_shows_lists():
+    assert "<td>500 s, 1500 s, 0 s</td>" in Output(save_times=(500, 1500, 0))._repr_html_()
+    stages = ({"normal": 5, "until": 9}, {"normal": 6, "until": 12})
+    assert "</table>, <table>" in Load(normal=stages)._repr_html_()
+
+
+@pytest.mark.parametrize(
+    ("given", "unit", "shown"),
+    [
+        ("207.123456789 GPa", "Pa", "207.123456789 GPa"),
+        ("0.3 µm", "m", "300 nm"),
+        ("1.2345678e-6 mm^3/(N m)", "1/Pa", "1.2345678e-15 1/Pa"),
+    ],
+)
+def test_a_value_is_stated_with_the_digits_that_it_was_given(given, unit, shown):
+    assert stated(parse(given, unit), unit) == shown
 
 
 def test_values_without_names_are_refused_in_plain_words():

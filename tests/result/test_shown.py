@@ -13,8 +13,11 @@ def test_measures_and_plots_are_a_method_away(tmp_path):
     assert {path.name for path in result.plot(tmp_path)} >= {"pressure_map.png", "wear_history.png"}
 
 
-def test_a_notebook_shows_the_lab_table_and_a_picture():
+def test_a_notebook_shows_the_lab_table_and_a_picture(monkeypatch):
+    # As every Jupyter kernel does.
+    monkeypatch.setenv("FORCE_COLOR", "1")
     shown = made_results.made()._repr_html_()
+    assert "\x1b" not in shown
     assert "specific wear rate" in shown
     assert '<img src="data:image/png;base64,' in shown
 

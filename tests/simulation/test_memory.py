@@ -33,6 +33,8 @@ MEASURE = """
     else:
         sys.exit()
     parts = dict(grid=Grid((1.3e-3, 1.3e-3), (cells, cells)), kinematics=motion(duration=5))
+    if case == "grown":
+        parts |= dict(grid=Grid((1.2e-3, 1.2e-3), (cells, cells)), kinematics=motion(duration=3600))
     if case == "periodic":
         parts |= dict(contact=Periodic(), load=5000.0)
     if case == "plastic":
@@ -59,7 +61,7 @@ MEASURE = """
 
 @pytest.mark.slow
 def test_the_estimate_is_above_the_peak_and_not_far(tmp_path):
-    cases = ["ball", "periodic", "plastic", "flat punch", "resolved"]
+    cases = ["ball", "grown", "periodic", "plastic", "flat punch", "resolved"]
     script = [sys.executable, "-c", textwrap.dedent(MEASURE), *cases]
     paths = {**os.environ, "PYTHONPATH": str(TESTS)}
     done = subprocess.run(
@@ -81,7 +83,7 @@ def test_more_than_there_is_is_refused_with_the_estimate(tight):
     with pytest.raises(CaseError) as caught:
         small(grid=Grid((0.7e-3, 0.7e-3), (4000, 4000)))
     text = str(caught.value)
-    assert text.startswith("grid.cells: 4000 × 4000 cells take up to 9.08 GiB of memory, and this")
+    assert text.startswith("grid.cells: 4000 × 4000 cells take up to 11.9 GiB of memory, and this")
     assert text.endswith("leaves 64 MiB: use fewer cells")
 
 

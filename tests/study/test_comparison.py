@@ -82,6 +82,8 @@ def test_json_has_every_common_save_and_is_json(foundations):
     assert [each["label"] for each in data["results"]] == ["dcfft", "winkler"]
     assert data["results"][1]["settings"] == {"contact.type": "winkler"}
     assert data["results"][0]["totals"]["contact_solves"] > 3
+    dx = foundations.results["dcfft"].grid.spacing[0]
+    assert data["results"][0]["uncertainty"]["contact_half_width_x_m"] == dx / 2
     assert [save["time_s"] for save in data["saves"]] == [0, 100, 300]
     first, *_, last = (save["differences"]["winkler"] for save in data["saves"])
     assert list(first) == ["pressure"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -51,11 +51,18 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     numerical failure; where it must stop, the code that it would end with.
     """
     from tribo.config.load import load_case
+    from tribo.simulation.doubt import unusual
     from tribo.simulation.predict import predict
     from tribo.simulation.run import Simulation
     from tribo.study.gradient.sensitivity import sensitivity
 
-    model = Simulation(load_case(case, overrides=overrides)).model
+    read = load_case(case, overrides=overrides)
+    doubts = unusual(read)
+    if doubts and not as_json:
+        # Before the trials, which may take long with such a value.
+        Console().print(f"Is this meant in {case}?", markup=False, soft_wrap=True)
+        Console().print(_rows(("  -", doubt) for doubt in doubts))
+    model = Simulation(read).model
     began = time.monotonic()
     prediction = predict(model)
     longest = BACK * (time.monotonic() - began)
@@ -72,19 +79,26 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
         told = None if isinstance(ruled, str) else asdict(ruled)
         echo_json({**asdict(prediction), "sensitivity": told, "sensitivity_refused": refused})
     else:
-        _print(case, model, prediction, ruled)
+        problems = [problem for problem in prediction.problems if problem not in doubts]
+        _print(case, model, prediction, problems, ruled)
     for kind in (CaseError, NumericalError):
         if prediction.exit_code == kind.exit_code:
             raise kind(f"a run of {case} would stop on its way: {prediction.stops}")
 
 
-def _print(case: Path, model: Model, prediction: Prediction, ruled: Sensitivity | str) -> None:
+def _print(
+    case: Path,
+    model: Model,
+    prediction: Prediction,
+    problems: Sequence[str],
+    ruled: Sensitivity | str,
+) -> None:
     console = Console()
-    verdict = "is valid, but:" if prediction.problems else "is valid."
+    verdict = "is valid, but:" if problems else "is valid."
     if prediction.exit_code:
         verdict = "would stop on its way:"
     console.print(f"{case} {verdict}", markup=False, soft_wrap=True)
-    console.print(_rows(("  -", problem) for problem in prediction.problems))
+    console.print(_rows(("  -", problem) for problem in problems))
     console.print(_rows((f"  {name}", text) for name, text in _facts(model, prediction)))
     if isinstance(ruled, str):
         console.print(_rows([("  sensitivity", f"not known, since {ruled}")]))
@@ -92,8 +106,8 @@ def _print(case: Path, model: Model, prediction: Prediction, ruled: Sensitivity 
         depth, time = f"depth of {ruled.body}", f"time until {ruled.body} reaches stop.depth"
         what = depth if ruled.of == "depth" else time
         console.print(f"  {what}, for 1 % more of:", markup=False)
-        first = list(ruled.percent.items())[:SHOWN]
-        console.print(_rows((f"    {path}", f"{percent:+.2f} %") for path, percent in first))
+        first = list(ruled.percent)[:SHOWN]
+        console.print(_rows((f"    {path}", ruled.shown(path)) for path in first))
         console.print(f"    (of {ruled.whence})", markup=False)
     for place, facts in prediction.facts.items():
         console.print(f"  {place}:", markup=False)

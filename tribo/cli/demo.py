@@ -82,7 +82,8 @@ def demo(directory: Path, force: bool) -> None:
             deep, shallow = (_end(result)["bodies"]["disk"] for result in (average, cycle))
             excess = deep["max_wear_depth_m"] / shallow["max_wear_depth_m"] - 1
             click.echo(
-                f"The average makes the groove {100 * excess:.0f} % too deep: "
+                "With the paper's printed k over these 360 m, the average makes the\n"
+                f"groove {100 * excess:.0f} % too deep: "
                 'docs/paper.md ("What the average costs").'
             )
             pictures += _pictures(average, cycle, directory)

@@ -17,7 +17,8 @@ def html(result: Result) -> str:
     if not len(result.times):
         return f"<pre>{escape(repr(result))}</pre>"
     table = StringIO()
-    print_report(result, Console(file=table, width=80, force_jupyter=False))
+    # Colours would be escape sequences, which a kernel asks for by FORCE_COLOR.
+    print_report(result, Console(file=table, width=80, force_jupyter=False, color_system=None))
     picture = BytesIO()
     pressure_sections(result).savefig(picture, format="png")
     data = b64encode(picture.getvalue()).decode()

@@ -29,9 +29,13 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     from tribo.config.load import load_case
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
+    from tribo.simulation.doubt import unusual
     from tribo.simulation.run import Simulation
 
-    simulation = Simulation(load_case(case, overrides=overrides))
+    read = load_case(case, overrides=overrides)
+    for doubt in unusual(read):
+        click.echo(f"warning: {doubt}", err=True)
+    simulation = Simulation(read)
     path = output or case.with_suffix(".h5")
     if path.resolve() == case.resolve():
         raise CaseError(f"{path} is the case itself; choose another file with -o")

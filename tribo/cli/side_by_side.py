@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from rich import box
 from rich.markup import escape
@@ -25,8 +25,8 @@ _TOTALS = (
 _SCALARS = (
     ("largest pressure, MPa", "max_pressure_Pa", 1e-6, ".4g"),
     ("centre pressure, MPa", "centre_pressure_Pa", 1e-6, ".4g"),
-    ("half-width along, µm", "contact_half_width_x_m", 1e6, ".0f"),
-    ("half-width across, µm", "contact_half_width_y_m", 1e6, ".0f"),
+    ("width along, µm", "contact_half_width_x_m", 2e6, ".0f"),
+    ("width across, µm", "contact_half_width_y_m", 2e6, ".0f"),
 )
 _OF_BODIES = (
     ("depth, µm", "max_wear_depth_m", 1e6, ".4g"),
@@ -107,11 +107,14 @@ def _at(comparison: Comparison, labels: Sequence[str], time: float) -> dict[str,
     for name, (tables, key, factor, digits) in rows.items():
         values = {label: float(table[key]) for label, table in tables.items()}
         if any(values.values()):
-            off = {label: _off(values[label], values[reference]) for label in labels}
-            off[reference] = ""
-            found[name] = [
-                readable(factor * values[label], digits) + off[label] for label in labels
-            ]
+            errors = {label: comparison.cell_error(label).get(key, 0.0) for label in values}
+            shown = {
+                label: readable(factor * values[label], digits)
+                + (f" ± {readable(factor * errors[label], '.2g')}" if errors[label] else "")
+                + (_off(values, errors, label, reference) if label != reference else "")
+                for label in labels
+            }
+            found[name] = list(shown.values())
     first = comparison.results[reference]
     for i, label in enumerate(labels):
         result = comparison.results[label]
@@ -123,10 +126,16 @@ def _at(comparison: Comparison, labels: Sequence[str], time: float) -> dict[str,
     return found
 
 
-def _off(value: float, expected: float) -> str:
-    if expected == 0:
+def _off(
+    values: Mapping[str, float], errors: Mapping[str, float], label: str, reference: str
+) -> str:
+    """Return how far a value is off the reference's, ± what the errors of both add up to."""
+    if values[reference] == 0:
         return ""
-    return f" {signed(100 * (value / expected - 1), 1)} %"
+    ratio = values[label] / values[reference]
+    off = signed(100 * (ratio - 1), 1)
+    error = 100 * (errors[label] + ratio * errors[reference]) / values[reference]
+    return f"\n{off} ± {error:.2g} %" if error else f" {off} %"
 
 
 def _percent(part: float) -> str:

@@ -17,6 +17,7 @@ from tribo.core.arrays import Array, Mask
 from tribo.core.box import Box, around
 from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 from tribo.core.errors import CaseError
+from tribo.core.material import Poisson
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 
@@ -52,7 +53,7 @@ class Layer(Table):
     young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12))]
     """Young's modulus of the layer."""
 
-    poisson: Annotated[float, Quantity("1", above=-1, below=0.5)]
+    poisson: Poisson
     """Poisson's ratio of the layer."""
 
     @property

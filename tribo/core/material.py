@@ -8,13 +8,16 @@ from typing import Annotated
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 
+Poisson = Annotated[float, Quantity("1", above=-1, below=0.5, usual=(0, 0.5))]
+"""Poisson's ratio; below 0 only foams and lattices made for it."""
+
 
 class Material(Table):
     """An isotropic material; elastic, or elastic-perfectly-plastic with a hardness."""
 
     young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12))]
     """Young's modulus E."""
-    poisson: Annotated[float, Quantity("1", above=-1, below=0.5)]
+    poisson: Poisson
     """Poisson's ratio."""
     hardness: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e11))] | None = None
     """Hardness: the largest contact pressure it bears. Without one it stays elastic."""

@@ -16,7 +16,7 @@ from pydantic import (
 )
 
 from tribo.core.explain import explained
-from tribo.core.units import quantities
+from tribo.core.units import parts, quantities, stated
 
 
 class Table(BaseModel):
@@ -53,16 +53,19 @@ class Table(BaseModel):
         rows = []
         for name, field in type(self).model_fields.items():
             value = getattr(self, name)
-            units = [mark.unit for mark in quantities(field)]
-            shown = _html(value) + (f" {units[0]}" if units and units[0] != "1" else "")
+            unit = next((mark.unit for mark in quantities(field)), "1")
+            between = ", " if Ellipsis in parts(field) else " × "
             if value != field.default:
+                shown = _html(value, unit, between)
                 rows.append(f"<tr><td>{escape(name)}</td><td>{shown}</td></tr>")
         return f"<table><caption>{escape(type(self).__name__)}</caption>{''.join(rows)}</table>"
 
 
-def _html(value: object) -> str:
+def _html(value: object, unit: str = "1", between: str = ", ") -> str:
     if isinstance(value, Table):
         return value._repr_html_()
     if isinstance(value, Mapping):
         return "".join(f"{escape(str(key))}: {_html(inside)}" for key, inside in value.items())
-    return " × ".join(map(_html, value)) if isinstance(value, tuple) else escape(str(value))
+    if isinstance(value, tuple):
+        return between.join(_html(part, unit) for part in value)
+    return escape(stated(value, unit) if isinstance(value, float) else str(value))

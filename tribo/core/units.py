@@ -108,11 +108,12 @@ def parse(text: str, unit: str) -> float:
 
 
 def stated(value: float, unit: str) -> str:
-    """Return a value in an SI unit as text, as ``"2 TPa"`` and not 2e+12 Pa."""
-    known = _PREFIXED.match(unit)
-    prefixes = _THOUSANDS if known else {1.0: ""}
+    """Return a value in an SI unit as text with all its digits: ``"2 TPa"``, not 2e+12 Pa."""
+    prefixes = _THOUSANDS if value and _PREFIXED.match(unit) else {1.0: ""}
     factor = max((f for f in prefixes if f <= abs(value) * (1 + 1e-9)), default=min(prefixes))
-    return f"{value / factor:g} {prefixes[factor]}{unit}"
+    # What the division rounds stands in the sixteenth digit.
+    number = f"{value / factor:.15g}"
+    return number if unit == "1" else f"{number} {prefixes[factor]}{unit}"
 
 
 @dataclass(frozen=True)

@@ -112,7 +112,7 @@ def _ruled(result: Result) -> dict[str, Any]:
         return {"why": str(error), "rows": []}
     longest = max(map(abs, found.percent.values()), default=1.0)
     rows = [
-        {"path": path, "percent": f"{percent:+.2f} %".replace("-", "−"), "size": size}
+        {"path": path, "percent": found.shown(path).replace("-", "−"), "size": size}
         for path, percent in [*found.percent.items()][:MOST_NUMBERS]
         for size in [round(100 * abs(percent) / longest)]
     ]

@@ -15,8 +15,8 @@ from tribo.core.units import stated
 
 DEEP = 0.1
 """Wear depth, relative to the radius of curvature, from which on it is doubted."""
-HARD = 0.2
-"""Hardness, relative to Young's modulus, above which one of them is doubted; diamond has 0.1."""
+HARDNESSES = (3e-4, 0.2)
+"""Hardness over Young's modulus beyond which one is doubted: indium has 8e-4, diamond 0.1."""
 
 
 def unusual(case: Case) -> list[str]:
@@ -30,11 +30,13 @@ def unusual(case: Case) -> list[str]:
                 place = place[:-1]
             found.append(f"{path(place)} is {doubt}")
     for name, body in case.bodies.items():
-        young, hardness = body.material.young, body.material.hardness or 0.0
-        if hardness > HARD * young:
+        young, hardness = body.material.young, body.material.hardness
+        low, high = HARDNESSES
+        if hardness is not None and not low <= hardness / young <= high:
             found.append(
-                f"bodies.{name}.material.hardness, {stated(hardness, 'Pa')}, is more than a fifth "
-                f"of young, {stated(young, 'Pa')}: is the unit of one wrong, as MPa for GPa?"
+                f"bodies.{name}.material.hardness, {stated(hardness, 'Pa')}, is "
+                f"{hardness / young:.2g} of young, {stated(young, 'Pa')}, usual are {low:g} to "
+                f"{high:g}: is the unit of one wrong, as MPa for GPa?"
             )
     return list(dict.fromkeys(found))
 

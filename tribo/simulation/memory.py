@@ -14,8 +14,11 @@ from tribo.motion.exposure import Exposure
 
 Exposures = Mapping[str, Exposure]
 
-FIELDS = 64
-"""Arrays of the window's size that a run holds at its peak; 60 were measured."""
+FIELDS = 88
+"""Arrays of the window's size that a run holds at its peak.
+
+83 were measured, where a ball's contact grows until it fills the window: 768² cells.
+"""
 FIELDS_IF_PLASTIC = 16
 """What yielding takes besides; 14 were measured."""
 FIELDS_PER_FIELD = 8

@@ -136,6 +136,14 @@ class Comparison:
         result = self.results[label]
         return result.saves()[result.save_at(time)]
 
+    def cell_error(self, label: str) -> dict[str, float]:
+        """Return by how much counting cells leaves each half-width of a result uncertain, in m.
+
+        The two ends of a width lie within half a cell each.
+        """
+        dx, dy = self.results[label].grid.spacing
+        return {"contact_half_width_x_m": 0.5 * dx, "contact_half_width_y_m": 0.5 * dy}
+
     def as_json(self, times: Sequence[float] = ()) -> dict[str, Any]:
         """Return the comparison as plain data, in SI units.
 
@@ -156,6 +164,7 @@ class Comparison:
                     "settings": dict(self.settings.get(label, {})),
                     "status": result.status,
                     "bodies": dict(self.own_names[label]),
+                    "uncertainty": self.cell_error(label),
                     "totals": dict(result.totals()),
                 }
                 for label, result in self.results.items()

@@ -1,4 +1,4 @@
-"""Which numbers of a case rule its answer, from a run on a coarse grid."""
+"""Which numbers of a case rule its answer, from runs on two coarse grids."""
 
 from __future__ import annotations
 
@@ -14,14 +14,12 @@ from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.objective import Deepest, EndTime, Seeds, View
 
 CELLS = 24
-"""Along the longer edge of the window: percentages, not depths, are asked for."""
+"""Along the longer edge of the coarser window; the finer has twice as many.
+
+An error of first order in the size of a cell is as large on the finer grid as the two differ.
+"""
 LEAST = 0.005
 """Per cent for one per cent, below which a number is left out."""
-
-OFF = {"depth": 0.05, "end_time": 0.2}
-"""Per cent for one per cent by which finer grids were seen to differ."""
-OFF_IN_LAYERS = 0.25
-"""The same where a body wears in layers: rings of cells come to a bottom together."""
 
 Answer = Literal["depth", "end_time"]
 
@@ -38,28 +36,32 @@ class Sensitivity:
         ``"depth"`` of the body, or ``"end_time"`` where a depth ends the run.
     percent : dict of float
         By path, the largest first: by how many per cent that changes for one per cent of the
-        number.
-    cells : tuple of int
-        Cells of the grid of the run that this is of, along x and y.
-    off : float
-        By how many per cent for one per cent finer grids were seen to differ.
+        number, on the finer grid. What is smaller than its uncertainty is left out.
+    uncertainty : dict of float
+        By path: by how many per cent for one per cent the two grids differ.
+    cells : tuple of tuple of int
+        Cells of the two grids, along x and y.
     """
 
     body: str
     of: Answer
     percent: dict[str, float]
-    cells: tuple[int, int]
-    off: float
+    uncertainty: dict[str, float]
+    cells: tuple[tuple[int, int], tuple[int, int]]
 
     @property
     def whence(self) -> str:
-        """Of which grid it is, and how far off it may be, in words."""
-        cells = " × ".join(map(str, self.cells))
-        return f"a run on {cells} cells; finer grids differ by up to {self.off:g} %"
+        """The grids, in words."""
+        coarse, fine = (" × ".join(map(str, cells)) for cells in self.cells)
+        return f"a run on {fine} cells; ±: its difference from one on {coarse}"
+
+    def shown(self, path: str) -> str:
+        """Return the change for one per cent of a number, in words."""
+        return f"{self.percent[path]:+.2f} ± {self.uncertainty[path]:.2f} %"
 
 
 def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
-    """Return which numbers rule the largest depth of a run, or its end, from a coarse grid.
+    """Return which numbers rule the largest depth of a run, or its end, from coarse grids.
 
     Parameters
     ----------
@@ -91,14 +93,16 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
         (2 * CELLS, 1.0, resolved),
     ):
         try:
-            return _of_coarse(coarsened(model.case, cells, margin, half_width))
+            return _of_two(
+                *(coarsened(model.case, n, margin, half_width) for n in (cells, 2 * cells))
+            )
         except (CaseError, NumericalError) as error:
             failed = failed or error
     assert failed is not None
     raise failed
 
 
-def _of_coarse(model: Model) -> Sensitivity:
+def _of_two(coarse: Model, fine: Model) -> Sensitivity:
     asked: list[tuple[str, Answer]] = []
 
     def answer(view: View) -> tuple[float, Seeds]:
@@ -107,15 +111,14 @@ def _of_coarse(model: Model) -> Sensitivity:
         body, of = asked[0]
         return EndTime()(view) if of == "end_time" else Deepest(body)(view)
 
-    found = gradient(model, answer)
-    if not found.value > 0:
+    before, after = gradient(coarse, answer), gradient(fine, answer)
+    if not after.value > 0:
         raise CaseError("no body wears", "bodies")
-    ranked = sorted(found.relative.items(), key=lambda item: -abs(item[1]))
-    percent = {path: float(value) for path, value in ranked if abs(value) >= LEAST}
-    body, of = asked[0]
-    layered = any(law.bottoms for law in model.laws.values())
-    off = max(OFF[of], OFF_IN_LAYERS) if layered else OFF[of]
-    return Sensitivity(body, of, percent, model.grid.cells, off)
+    off = {p: abs(value - before.relative.get(p, np.inf)) for p, value in after.relative.items()}
+    ranked = sorted(after.relative.items(), key=lambda item: -abs(item[1]))
+    percent = {p: float(value) for p, value in ranked if abs(value) >= max(LEAST, off[p])}
+    uncertainty = {path: float(off[path]) for path in percent}
+    return Sensitivity(*asked[0], percent, uncertainty, (coarse.grid.cells, fine.grid.cells))
 
 
 def _asked(view: View) -> tuple[str, Answer]:
