@@ -32,4 +32,8 @@ def contained(file: h5py.File) -> Iterator[h5py.Dataset]:
             elif isinstance(item, h5py.Dataset):
                 if item.is_virtual or item.external:
                     raise ValueError(f"{name!r} has its values in another file")
+                chunks = item.chunks
+                if chunks is not None and (len(chunks) != item.ndim or 0 in chunks):
+                    # HDF5 would divide by zero (CVE-2026-19025).
+                    raise ValueError(f"{name!r} of shape {item.shape} has chunks of {chunks}")
                 yield item
