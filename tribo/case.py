@@ -17,6 +17,7 @@ from tribo.core.loads import Load, Stage
 from tribo.core.material import Material, Poisson
 from tribo.core.table import Table
 from tribo.core.units import Quantity
+from tribo.core.words import checked_name
 from tribo.effects.effect import Effect
 from tribo.motion.kinematics import Kinematics
 from tribo.observers.observer import Observer
@@ -214,10 +215,7 @@ class Case(Table):
                 f"{len(bodies)} given"
             )
         for name in bodies:
-            if not name.replace("_", "").replace("-", "").isalnum():
-                raise ValueError(
-                    f"{name!r} is no good as a body's name; use letters, digits, - and _"
-                )
+            checked_name(name)
         return bodies
 
     def run(self, output: str | Path | None = None, **options: Any) -> Result:

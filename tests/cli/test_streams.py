@@ -92,6 +92,25 @@ def test_an_error_that_cannot_be_told_has_its_exit_code(folder, full):
     assert tribo(folder, "run", "none.toml", stderr=full).returncode == 2
 
 
+@pytest.mark.slow
+@pytest.mark.skipif(os.name == "nt", reason="a shell of POSIX closes it")
+@pytest.mark.parametrize("arguments", [["show", "my.h5"], ["--help"], ["plugins", "list"]])
+def test_a_closed_standard_output_is_one_line_and_exit_code_3(folder, arguments):
+    command = [sys.executable, "-m", "tribo", *arguments]
+    closed = ["sh", "-c", 'exec "$@" >&-', "sh", *command]
+    done = subprocess.run(closed, cwd=folder, stderr=subprocess.PIPE, timeout=300)
+    assert done.returncode == 3
+    assert done.stderr.count(b"\n") == 1
+    assert b"standard output" in done.stderr
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a shell of POSIX closes it")
+def test_an_error_is_not_put_on_standard_output_where_standard_error_is_closed(folder):
+    closed = ["sh", "-c", 'exec "$@" 2>&-', "sh", sys.executable, "-m", "tribo", "show", "none.h5"]
+    done = subprocess.run(closed, cwd=folder, stdout=subprocess.PIPE, timeout=300)
+    assert (done.returncode, done.stdout) == (2, b"")
+
+
 def test_what_is_not_buffered_stays_so():
     read, write = os.pipe()
     with (

@@ -1,12 +1,16 @@
 """A file is written whole or not at all."""
 
+import time
 import zipfile
 
+import h5py
 import numpy as np
 import pytest
 
-from tribo.core.errors import OutputError
+from tribo.core import files
+from tribo.core.errors import CaseError, OutputError
 from tribo.core.files import read_numbers, table_of_numbers, write_whole
+from tribo.core.units import Quantity
 
 
 def test_what_cannot_be_written_leaves_the_old_file_alone(tmp_path):
@@ -80,6 +84,76 @@ def test_an_array_of_other_than_real_numbers_is_told(values, words, tmp_path):
     np.save(tmp_path / "a.npy", np.array(values))
     with pytest.raises(ValueError, match=rf"a\.npy has {words}"):
         read_numbers(tmp_path / "a.npy")
+
+
+@pytest.mark.parametrize("cell", ["1_0e-9", "\uff11"])
+def test_what_python_alone_takes_for_a_number_is_none(cell, tmp_path):
+    (tmp_path / "a.csv").write_text(f"1,2\n3,{cell}\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="line 2, column 2"):
+        table_of_numbers(tmp_path / "a.csv")
+    with pytest.raises(CaseError):
+        Quantity("m").read(f"{cell} m")
+
+
+def huge_npy(path):
+    with path.open("wb") as file:
+        header = {"descr": "<f8", "fortran_order": False, "shape": (30000, 30000)}
+        np.lib.format.write_array_header_1_0(file, header)
+        # Its holes take no space on the disk.
+        file.truncate(file.tell() + 8 * 30000**2)
+
+
+def huge_hdf5(path):
+    with h5py.File(path, "w") as file:
+        file.create_dataset("heights", (30000, 30000), "f8", chunks=(100, 100))
+
+
+@pytest.mark.parametrize(("name", "write"), [("a.npy", huge_npy), ("a.h5", huge_hdf5)])
+def test_a_map_with_too_many_pixels_is_refused_before_it_is_read(name, write, tmp_path):
+    write(tmp_path / name)
+    with pytest.raises(ValueError, match=r"900,000,000 .* 67,108,864"):
+        table_of_numbers(tmp_path / name)
+
+
+def test_a_text_with_too_many_numbers_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(files, "MOST_PIXELS", 99)
+    (tmp_path / "a.csv").write_text("1,2\n" * 60)
+    with pytest.raises(ValueError, match=r"100 .* 99"):
+        table_of_numbers(tmp_path / "a.csv")
+
+
+def test_groups_that_nest_deeply_or_in_a_ring_are_read_through(tmp_path):
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        group = file
+        for _ in range(5000):
+            group = group.create_group("a")
+        group["heights"] = np.ones((3, 4))
+        group["root"] = file["/"]
+    begun = time.process_time()
+    assert table_of_numbers(tmp_path / "a.h5").shape == (3, 4)
+    # It took 60 s where each group was looked up by its whole path.
+    assert time.process_time() - begun < 10
+
+
+def in_another_file(kind, file, other):
+    if kind == "link":
+        file["heights"] = h5py.ExternalLink(other, "/map")
+    elif kind == "virtual":
+        layout = h5py.VirtualLayout((3, 4), "f8")
+        layout[...] = h5py.VirtualSource(other, "map", (3, 4))
+        file.create_virtual_dataset("heights", layout)
+    else:
+        file.create_dataset("heights", (3, 4), "f8", external=[(other, 0, 96)])
+
+
+@pytest.mark.parametrize("kind", ["link", "virtual", "storage"])
+def test_heights_in_another_file_are_not_read(kind, tmp_path):
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file["map"] = np.ones((3, 4))
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        in_another_file(kind, file, str(tmp_path / "other.h5"))
+    with pytest.raises(ValueError, match=r"'heights' .* another file"):
+        table_of_numbers(tmp_path / "a.h5")
 
 
 def test_where_a_number_is_missing_is_told(tmp_path):

@@ -109,11 +109,6 @@ def test_nothing_is_cut_off_no_labels_overlap_and_axes_name_a_unit(changes, monk
                 assert not boxes or axis.get_label_text().split("\n")[0].endswith(UNITS)
 
 
-def test_a_result_without_saves_is_said_to_hold_none(tmp_path):
-    with pytest.raises(CaseError, match="no save yet"):
-        save_figures(made(()), tmp_path)
-
-
 def test_an_unknown_format_is_named_with_those_known(tmp_path):
     with pytest.raises(CaseError, match=r"'bmp7'; use one of .*png"):
         figures.write_figures({}, tmp_path, "bmp7")

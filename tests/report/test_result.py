@@ -303,8 +303,3 @@ def test_without_what_it_needs_it_says_how_to_install_it(monkeypatch):
     needed = pytest.raises(tribo.CaseError, match="pip install jinja2 plotly")
     with made(times=(0.0, 200.0)) as result, needed:
         result_page(result)
-
-
-def test_a_result_without_a_save_has_no_report(tmp_path):
-    with made(times=()) as result, pytest.raises(tribo.CaseError, match="no save"):
-        tribo.write_report(result, tmp_path / "report.html")

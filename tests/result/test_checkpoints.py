@@ -17,6 +17,7 @@ from tribo.core import locks
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.observers import recorder
 from tribo.observers.observer import Observer
+from tribo.observers.recorder import Recorder
 from tribo.result.checkpoint import RunFolder, _load, _store
 from tribo.result.sealed import open_sealed
 
@@ -115,7 +116,7 @@ def test_a_damaged_checkpoint_is_told_of_once_and_never_the_only_one(killed, und
 def test_where_no_checkpoint_is_sound_the_run_is_not_resumed(killed, names):
     for name in names:
         flip(RunFolder(killed).path / name, 2000)
-    with pytest.raises(CaseError, match=r"tribo run --force") as raised:
+    with pytest.raises(CaseError, match=r"tribo run -o") as raised:
         simulation().resume(killed)
     for name in names:
         assert str(raised.value).count(f"{name} is damaged") == 1
@@ -145,7 +146,7 @@ def test_a_save_is_on_the_disk_once_observers_are_told_of_it(tmp_path):
 
 def test_what_a_killed_run_has_saved_is_not_shown_where_it_is_damaged(killed):
     flip(RunFolder(killed).part(0), 2000)
-    with pytest.raises(CaseError, match=r"saved cannot be read: .*000000\.part is d"):
+    with pytest.raises(CaseError, match=r"000000\.part is damaged"):
         Result.open(killed)
 
 
@@ -161,6 +162,29 @@ def test_a_run_that_ends_while_it_is_opened_is_read_whole(killed, monkeypatch, u
     monkeypatch.setattr(RunFolder, "read_checkpoint", ends)
     with Result.open(killed) as result:
         assert bits(result) == undisturbed
+
+
+def test_a_run_that_ends_as_it_is_resumed_is_done(killed, monkeypatch, undisturbed):
+    resume = Recorder.resume
+
+    def ends(recorder, case):
+        monkeypatch.setattr(Recorder, "resume", resume)
+        simulation().resume(killed).close()
+        return resume(recorder, case)
+
+    monkeypatch.setattr(Recorder, "resume", ends)
+    with pytest.raises(CaseError, match="is done; there is nothing to resume"):
+        simulation().resume(killed)
+    with Result.open(killed) as result:
+        assert bits(result) == undisturbed
+
+
+def test_a_lock_that_cannot_be_opened_is_one_message(killed):
+    lock = RunFolder(killed).path / "lock"
+    lock.unlink()
+    lock.mkdir()
+    with pytest.raises(OutputError, match=r"run\.h5\.run: "):
+        simulation().resume(killed)
 
 
 def test_a_damaged_result_is_not_resumed(killed):

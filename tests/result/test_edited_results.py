@@ -2,6 +2,7 @@
 
 import json
 
+import h5py
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -64,7 +65,72 @@ def field(values, **changes):
     return edit
 
 
+def renamed(name):
+    def edit(file):
+        case = json.loads(file.attrs["case"])
+        case["bodies"] = {name: case["bodies"]["ball"], "disk": case["bodies"]["disk"]}
+        text("case", case)(file)
+        dataset("body", [name.encode(), b"disk"])(file)
+
+    return edit
+
+
+def put(name, value, place=-1):
+    return lambda file: file[name].__setitem__(place, value)
+
+
+def elsewhere(make):
+    """Put something of the shape of the pressure in its place."""
+
+    def edit(file):
+        file.pop("pressure")
+        make(file)
+
+    return edit
+
+
+def virtual(file):
+    layout = h5py.VirtualLayout(FIELD, "f8")
+    layout[...] = h5py.VirtualSource("other.h5", "p", FIELD)
+    file.create_virtual_dataset("pressure", layout)
+
+
 EDITS = {
+    "a name that leaves the folder": renamed("../../up"),
+    "no name": renamed(""),
+    "a field that leaves the folder": lambda file: field(np.ones(ON_BODIES), field="../up")(file),
+    "a link to another file": elsewhere(
+        lambda file: file.__setitem__("pressure", h5py.ExternalLink("other.h5", "p"))
+    ),
+    "a link within the file": elsewhere(
+        lambda file: file.__setitem__("pressure", h5py.SoftLink("/height"))
+    ),
+    "a virtual dataset": elsewhere(virtual),
+    "values in a file of another program": elsewhere(
+        lambda file: file.create_dataset("pressure", FIELD, "f8", external=[("x.h5", 0, 80000)])
+    ),
+    "another compression": elsewhere(
+        lambda file: file.create_dataset("pressure", FIELD, "f8", compression="lzf")
+    ),
+    "a terabyte that was never written": lambda file: file.create_dataset(
+        "more", (10**6, 10**5), "f8", chunks=(1, 1000)
+    ),
+    "times that go back": put("time", 1.0),
+    "a load of nan": attribute("load_N", np.nan),
+    "a window of one length": attribute("window_m", [1e-3]),
+    "a curvature of inf": attribute("curvature_1_m", [np.inf, 1.0]),
+    "a time spent that is text": attribute("wall_time_s", "long"),
+    "notices that are numbers": text("notices", [1]),
+    "layers that are numbers": text("case", {"bodies": {"ball": {"layers": [1]}, "disk": {}}}),
+    "a motion that is text": text("case", {"bodies": {"ball": {}, "disk": {}}, "kinematics": "x"}),
+    "a density of inf": put("density", np.inf),
+    "a pressure of nan": put("pressure", np.nan, 0),
+    "a pressure below 0": put("pressure", -1.0, 0),
+    "no save": lambda file: [
+        values.resize(0, axis=0)
+        for values in file.values()
+        if values.maxshape[0] == 2**31 - 1 and len(values) == 5
+    ],
     "a case that is no JSON": attribute("case", "{nope"),
     "a case that nests deeply": attribute("case", '{"bodies":' * 5000 + "1" + "}" * 5000),
     "bodies that are not in the file": text("case", {"bodies": {"a": {}, "b": {}}}),
@@ -83,6 +149,13 @@ EDITS = {
     "a pressure that is text": dataset("pressure", np.full(FIELD, b"a")),
     "a track without its positions": dataset("track_depth", np.ones(ON_BODIES)),
     "an effect without a meaning": lambda file: file["pressure"].attrs.update({"kind": "effect"}),
+}
+
+
+EDITS |= {
+    f"{name} of {value}": put(name, value)
+    for name in ("max_pressure", "history_contact_area", "wear_volume", "history_wear_volume")
+    for value in (np.nan, np.inf)
 }
 
 

@@ -22,10 +22,6 @@ def test_a_notebook_shows_the_lab_table_and_a_picture(monkeypatch):
     assert '<img src="data:image/png;base64,' in shown
 
 
-def test_a_result_without_a_save_shows_what_it_is():
-    assert "Result" in made_results.made(times=())._repr_html_()
-
-
 def test_a_misspelt_variable_is_not_called_damage():
     result = made_results.made()
     with pytest.raises(CaseError, match="did you mean 'pressure'"):

@@ -220,7 +220,7 @@ def test_a_run_stopped_before_its_first_checkpoint_says_so_and_can_start_again(
             pytest.raises(OutputError, match="No space left on device; free space or choose"),
         ):
             Simulation(case()).run(path)
-    with pytest.raises(CaseError, match=r"stopped before the first was written; .* run --force"):
+    with pytest.raises(CaseError, match=r"before its first save; .* run --force"):
         Simulation(case()).resume(path)
     assert Simulation(case()).run(path, overwrite=True).status == "done"
 

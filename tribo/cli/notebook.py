@@ -14,8 +14,6 @@ from tribo.result.read import Result
 
 def html(result: Result) -> str:
     """Return the lab table of a result and a picture of its pressure, as HTML."""
-    if not len(result.times):
-        return f"<pre>{escape(repr(result))}</pre>"
     table = StringIO()
     # Colours would be escape sequences, which a kernel asks for by FORCE_COLOR.
     print_report(result, Console(file=table, width=80, force_jupyter=False, color_system=None))

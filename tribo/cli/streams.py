@@ -38,6 +38,8 @@ _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u20
 class Output(io.FileIO):
     """Standard output; the command ends where it cannot be written."""
 
+    number = 1
+
     def write(self, data: ReadableBuffer) -> int:
         """Write, or raise `OutputError` or `ReaderGone`."""
         try:
@@ -52,6 +54,8 @@ class Output(io.FileIO):
 
 class Remarks(io.FileIO):
     """Standard error; what cannot be written is left out."""
+
+    number = 2
 
     def write(self, data: ReadableBuffer) -> int:
         """Write, ignoring failures."""
@@ -73,8 +77,15 @@ def say(what: str, colour: str, text: str) -> None:
     click.echo(label + harmless(text), file=sys.stderr)
 
 
-def over(stream: TextIO, kind: type[Output | Remarks]) -> TextIO:
-    """Return a stream to the same file that fails as `kind` does and replaces signs it lacks."""
+def over(stream: TextIO | None, kind: type[Output | Remarks]) -> TextIO:
+    """Return a stream to the same file that fails as `kind` does and replaces signs it lacks.
+
+    None stands for one that is closed.
+    """
+    if stream is None:
+        # Otherwise the next file that is opened has its number.
+        os.dup2(os.open(os.devnull, os.O_RDONLY), kind.number)
+        stream = io.TextIOWrapper(io.FileIO(kind.number, "w", closefd=False), encoding="utf-8")
     try:
         number = stream.fileno()
     except (AttributeError, OSError, ValueError):

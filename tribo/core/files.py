@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -14,8 +14,12 @@ from numpy.typing import NDArray
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, OutputError
+from tribo.core.units import number
 
 HDF5 = (".h5", ".hdf5")
+MOST_PIXELS = 2**26
+"""Numbers of the largest table that is read, as a map of 8192²: 0.5 GiB, of which tribo makes a few
+copies."""
 _SEPARATED = re.compile(r"\d[;\s]+[-+.\d]")
 """Numbers of a text that are separated by something else than commas."""
 
@@ -116,14 +120,15 @@ def table_of_numbers(file: Path) -> Array:
         raise ValueError(f"{file} is empty")
     try:
         if file.suffix == ".npy":
-            with file.open("rb") as opened:
-                numbers = np.lib.format.read_array(opened, allow_pickle=False)
+            numbers: NDArray[Any] = np.lib.format.open_memmap(file, mode="r")
+            check_pixels(numbers.size)
         elif file.suffix in HDF5:
             numbers = _only_table(file)
         else:
-            numbers = _table_of_text(file.read_text("utf-8-sig"))
-    except (ValueError, OSError) as error:
-        other = any(words in str(error) for words in ("magic string", "Object arrays"))
+            with file.open(encoding="utf-8-sig") as lines:
+                numbers = _table_of_text(lines)
+    except (ValueError, OSError, LookupError, RuntimeError) as error:
+        other = any(words in str(error) for words in ("magic string", "Python objects"))
         reason = "it is no NumPy array of numbers" if other else " ".join(str(error).split())
         raise ValueError(f"{file} cannot be read as a table of numbers: {reason}") from None
     if numbers.dtype.kind not in "fiu":
@@ -134,16 +139,25 @@ def table_of_numbers(file: Path) -> Array:
     return np.asarray(numbers, dtype=np.float64)
 
 
-def _table_of_text(text: str) -> Array:
+def check_pixels(count: int) -> None:
+    """Raise ValueError if a table, or a map, has too many numbers to be read."""
+    if count > MOST_PIXELS:
+        raise ValueError(
+            f"it has {count:,} numbers, and at most {MOST_PIXELS:,} are read; take a part of it, "
+            "or fewer pixels"
+        )
+
+
+def _table_of_text(lines: Iterable[str]) -> Array:
     """Return the numbers of a CSV text, below one line of words at most; NaN where missing."""
-    rows: list[list[float]] = []
+    rows: list[Array] = []
     header = ""
-    for place, line in enumerate(text.splitlines(), 1):
+    for place, line in enumerate(lines, 1):
         cells = [cell.strip() for cell in line.partition("#")[0].split(",")]
         if cells == [""]:
             continue
         try:
-            row = [float(cell or "nan") for cell in cells]
+            row = np.array([number(cell or "nan") for cell in cells])
         except ValueError:
             if not (rows or header or any(map(_is_number, cells))):
                 header = line
@@ -155,6 +169,7 @@ def _table_of_text(text: str) -> Array:
                 "give as many in each, separated by commas, with decimal points"
             )
         rows.append(row)
+        check_pixels(len(rows) * len(row))
     if not rows:
         raise ValueError("it has no line of numbers, separated by commas, with decimal points")
     return np.array(rows)
@@ -171,7 +186,7 @@ def _first_words(cells: list[str]) -> str:
 
 def _is_number(cell: str) -> bool:
     try:
-        float(cell)
+        number(cell)
     except ValueError:
         return False
     return True
@@ -182,15 +197,12 @@ def _only_table(file: Path) -> NDArray[Any]:
     # Slow to import, and needed here only.
     import h5py
 
-    tables: list[Any] = []
-
-    def keep(name: str, item: Any) -> None:
-        if isinstance(item, h5py.Dataset) and item.ndim == 2:
-            tables.append(item)
+    from tribo.core.hdf5 import contained
 
     with h5py.File(file) as opened:
-        opened.visititems(keep)
+        tables = [each for each in contained(opened) if each.ndim == 2]
         if len(tables) != 1:
             names = ", ".join(table.name for table in tables) or "none"
             raise ValueError(f"one dataset of two dimensions is needed, but it has {names}")
+        check_pixels(tables[0].size)
         return np.asarray(tables[0])

@@ -72,8 +72,20 @@ _THOUSANDS = {1.0: ""} | {
 """Those of steps of a thousand, by their factor."""
 
 _LONGEST = 100
-_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3}(?!\d))?)(?![\d.])(.*)", re.S)
+_NUMBER = re.compile(
+    r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3}(?!\d))?)(?![\d.])(.*)", re.S | re.A
+)
 _AFTER_COMMA = re.compile(r",\d")
+
+
+def number(text: str) -> float:
+    """Return the number that a text without a unit is; ValueError if it is none.
+
+    Python's own 1_000 and digits of other scripts are none: another program reads them otherwise.
+    """
+    if "_" in text or not text.isascii():
+        raise ValueError(f"{text!r} is no number")
+    return float(text)
 
 
 def parse(text: str, unit: str) -> float:

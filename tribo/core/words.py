@@ -46,6 +46,13 @@ def readable(value: float, form: str) -> str:
     return f"{float(text):g}" if "e+" in text else text
 
 
+def checked_name(name: str) -> str:
+    """Return the name of a body, after which files are called; ValueError if it is no such name."""
+    if not name.replace("_", "").replace("-", "").isalnum():
+        raise ValueError(f"{name!r} is no good as a body's name; use letters, digits, - and _")
+    return name
+
+
 def did_you_mean(name: object, known: Iterable[str]) -> str | None:
     """Return the name in `known` that is most like `name`, if one is."""
     close = get_close_matches(name, list(known), n=1) if isinstance(name, str) else []

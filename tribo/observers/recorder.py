@@ -15,6 +15,7 @@ from typing import Any
 from pydantic import PrivateAttr
 
 from tribo.core.errors import CaseError, OutputError, TriboWarning
+from tribo.core.files import writing
 from tribo.core.measures import Measures
 from tribo.core.notices import worn_through
 from tribo.core.state import RunInfo, Snapshot, State
@@ -70,8 +71,9 @@ class Recorder(Observer):
         folder = self._folder
         assert folder is not None
         if folder.path.is_dir():
-            # What a run that goes on has saved changes as it is read.
-            folder.lock()
+            with writing(folder.path):
+                # What a run that goes on has saved changes as it is read.
+                folder.lock()
         try:
             kept, damage = folder.read_checkpoint(case)
             if damage:
@@ -82,10 +84,7 @@ class Recorder(Observer):
                 )
                 folder.drop_newest()
         except CaseError as error:
-            raise CaseError(
-                f"{self.path} has no checkpoint to resume from: {error}; start again with "
-                "'tribo run --force'"
-            ) from error
+            raise CaseError(f"{self.path} cannot be resumed: {error}") from error
         finally:
             folder.unlock()
         self._count, self._saved, self._rows = kept.parts, kept.saves, kept.rows

@@ -15,7 +15,6 @@ from matplotlib.lines import Line2D
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, suggestion
-from tribo.plotting.sections import number_of_saves
 from tribo.plotting.style import (
     DIFFERENCES,
     SIGNIFICANT,
@@ -72,7 +71,6 @@ def history_curves(result: Result, columns: Sequence[str], against: str = "dista
     CaseError
         If there is no such column, or no save.
     """
-    number_of_saves(result)
     history = result.table("history")
     for name in (*columns, against):
         if name not in history:

@@ -27,7 +27,7 @@ from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import along_track, body_profiles, groove, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
 from tribo.plotting.scar import scar_map
-from tribo.plotting.sections import number_of_saves, removed
+from tribo.plotting.sections import removed
 from tribo.plotting.style import house_style
 from tribo.registry.registry import from_plugins_of
 from tribo.result.read import Result
@@ -68,7 +68,7 @@ def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path
     Raises
     ------
     CaseError
-        If the format is not known or the result holds no save.
+        If the format is not known.
     OutputError
         If they cannot be written.
     """
@@ -101,7 +101,7 @@ def picture_format(suffix: str) -> str:
 
 def result_pictures(result: Result) -> dict[str, Callable[[], Figure]]:
     """Return how to draw each picture of a result, by file name; see `save_figures`."""
-    count = number_of_saves(result)
+    count = len(result.times)
     pictures: dict[str, Callable[[], Figure]] = {"pressure_map": partial(pressure_map, result)}
     if count > 2:
         pictures["pressure_map_early"] = partial(pressure_map, result, 1)

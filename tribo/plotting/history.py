@@ -1,7 +1,4 @@
-"""Pictures of what changes with time: wear, pressure, the size of the contact, fields of models.
-
-Each raises CaseError if the result holds no save.
-"""
+"""Pictures of what changes with time: wear, pressure, the size of the contact, fields of models."""
 
 from __future__ import annotations
 
@@ -15,7 +12,6 @@ from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 
 from tribo.core.arrays import Array, Mask
 from tribo.plotting.kept import kept_fields, steady
-from tribo.plotting.sections import number_of_saves
 from tribo.plotting.style import OVER, UNDER, Look, house_style, legend_below, new_figure, ticks
 from tribo.plotting.units import height_unit, shown_in, size, time_unit
 from tribo.result.read import Result
@@ -41,7 +37,6 @@ def wear_history(result: Result) -> Figure:
     more than two. Mass is on the right where all densities are equal,
     else in a panel of its own; it is left out without densities.
     """
-    number_of_saves(result)
     history, unit = result.table("history"), time_unit(result.times)
     time = history["time_s"]
     looks = dict(zip(result.body_names, BODIES, strict=True))
@@ -92,7 +87,6 @@ def contact_history(result: Result) -> Figure:
     A half-width is known to a cell, so that it grows in steps; the line goes
     from step to step.
     """
-    number_of_saves(result)
     history, spacing = with_rests(result), result.grid.spacing
     time, resting = history["time_s"], np.diff(history["distance_m"]) == 0
     pressures = {
@@ -142,7 +136,6 @@ def with_rests(result: Result) -> dict[str, Array]:
 
 def friction_history(result: Result) -> Figure:
     """Draw the friction force and its work against time."""
-    number_of_saves(result)
     history = with_rests(result)
     with house_style():
         figure = new_figure(88.0)
@@ -160,7 +153,6 @@ def friction_history(result: Result) -> Figure:
 
 def real_contact(result: Result) -> Figure:
     """Draw the real contact area against time, and the part of it at the hardness."""
-    number_of_saves(result)
     history = result.table("history")
     areas = {"all": history["contact_area_m2"], "at the hardness": history["plastic_area_m2"]}
     curves = {label: (history["time_s"], area) for label, area in areas.items() if np.any(area > 0)}
@@ -172,7 +164,6 @@ def real_contact(result: Result) -> Figure:
 
 def roughness_history(result: Result) -> Figure:
     """Draw the root mean square height Sq of rough bodies within the contact against time."""
-    number_of_saves(result)
     history = result.table("history")
     labels = {name: f"bodies.{name}.Sq_m" for name in result.body_names}
     curves = {

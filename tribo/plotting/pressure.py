@@ -22,7 +22,7 @@ from tribo.core.arrays import Array, Mask
 from tribo.lab.first_contact import HertzContact, first_hertz
 from tribo.plotting import style
 from tribo.plotting.maps import Map, new_maps
-from tribo.plotting.sections import Curve, Limits, Section, limits, number_of_saves, through_centre
+from tribo.plotting.sections import Curve, Limits, Section, limits, through_centre
 from tribo.plotting.units import fitting, size, time_labels
 from tribo.result.read import Result
 
@@ -80,7 +80,7 @@ def pressure_sections(result: Result) -> Figure:
     narrow panel beside them, along the axis on which its contact is shorter. A hatched
     strip begins where a body in contact ends, at which the pressure may peak.
     """
-    count = number_of_saves(result)
+    count = len(result.times)
     grid, hertz, cap = result.grid, _hertz(result), result.system.cap
     reach = _reach(hertz)
     fields = [result.field("pressure", i) for i in range(count)]

@@ -1,6 +1,6 @@
 """Pictures of worn surfaces in section: of one body at every save, and of both together.
 
-Each raises CaseError if the result holds no save, or no such body.
+Each raises CaseError if the result holds no such body.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from tribo.core.grid import Grid
 from tribo.plotting.sections import (
     draw_profiles,
     layer_ends,
-    number_of_saves,
     removed,
     scar_mask,
     through_centre,
@@ -44,7 +43,7 @@ def body_profiles(result: Result, name: str, axis: int | None = None) -> Figure:
     """
     if axis not in (None, 0, 1):
         raise CaseError(f"a profile runs along axis 0 or across, axis 1; not {axis!r}")
-    count = number_of_saves(result)
+    count = len(result.times)
     body = result.body(name)
     scar = scar_mask(removed(result, name)[-1])
     fields = [(result.grid, body.surface(i), scar) for i in range(count)]
@@ -68,7 +67,7 @@ def along_track(result: Result, name: str) -> Figure:
     """
     if "track_depth" not in result.dataset:
         raise CaseError(f"the cycle is not resolved in {result.name}; draw the groove instead")
-    count = number_of_saves(result)
+    count = len(result.times)
     track = result.track_depth.sel(body=name)
     rows, columns = track.sizes["track_x"], track.sizes["y"]
     (dx, _), (_, breadth) = result.grid.spacing, result.grid.size
@@ -90,7 +89,7 @@ def worn_section(result: Result) -> Figure:
     that has been worn through or by half at least. The picture states how much it enlarges heights
     and how deep the scars are.
     """
-    last = number_of_saves(result) - 1
+    last = len(result.times) - 1
     upper, lower = sorted(map(result.body, result.body_names), key=lambda body: body.swept)
     gone = [removed(result, body.name)[last] for body in (upper, lower)]
     depths = [float(np.max(depth)) for depth in gone]

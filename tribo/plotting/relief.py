@@ -1,6 +1,6 @@
 """Pictures of a rough body before and after: heights in its scar, and material ratio.
 
-Each raises CaseError if the result holds no save, or no such body.
+Each raises CaseError if the result holds no such body.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from tribo.lab.roughness import material_ratio
 from tribo.lab.running_in import reliefs
 from tribo.plotting import style
 from tribo.plotting.maps import new_maps
-from tribo.plotting.sections import number_of_saves
 from tribo.plotting.units import height_unit, size, time_labels
 from tribo.result.read import Result
 
@@ -21,7 +20,7 @@ BESIDE: style.Look = {"color": "#b05a00", "linewidth": 1.2, "linestyle": (0.0, (
 
 def height_map(result: Result, name: str) -> Figure:
     """Draw the heights of a body in its scar, unworn and at the last save, form removed."""
-    last = number_of_saves(result) - 1
+    last = len(result.times) - 1
     scar, unworn, _ = reliefs(result, result.body(name), last)
     low, high = np.nanmin([scar, unworn]), np.nanmax([scar, unworn])
     unit = height_unit(max(abs(low), abs(high)))
@@ -41,7 +40,7 @@ def material_ratio_curves(result: Result, name: str) -> Figure:
 
     That of its scar at the last save, of what was there at first, and of the surface beside.
     """
-    last = number_of_saves(result) - 1
+    last = len(result.times) - 1
     worn = reliefs(result, result.body(name), last)
     labels = f"scar, {time_labels(result.times)[last]}", "unworn", "beside"
     looks = style.OVER, style.UNDER, BESIDE

@@ -17,7 +17,7 @@ from tribo.lab.heights import smoothed
 from tribo.lab.measured_scar import MeasuredScar
 from tribo.plotting import style
 from tribo.plotting.maps import Map, new_maps
-from tribo.plotting.sections import number_of_saves, removed, scar_mask
+from tribo.plotting.sections import removed, scar_mask
 from tribo.plotting.units import height_unit, size, time_labels
 from tribo.result.read import Result
 
@@ -37,7 +37,6 @@ def scar_map(result: Result, name: str, save: int = -1) -> Figure:
     CaseError
         If the result holds no such save, or no such body.
     """
-    number_of_saves(result)
     grid, gone = result.grid, removed(result, name)[save]
     if result.body(name).swept and "track_depth" in result.dataset:
         gone = np.nan_to_num(result.track_depth.sel(body=name).isel(time=save).values)

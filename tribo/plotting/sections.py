@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from tribo.core.arrays import Array, Mask
-from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.plotting import style
 from tribo.plotting.units import axis_units, height_unit, size
@@ -100,14 +99,6 @@ def limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:
     high = max(float(index[-1] + 1) * step - edge, reach)
     margin = MARGIN * max(0.5 * (high - low), 2.0 * step)
     return max(low - margin, -edge), min(high + margin, edge)
-
-
-def number_of_saves(result: Result) -> int:
-    """Return how many saves there are; CaseError if there is none."""
-    count = len(result.times)
-    if count == 0:
-        raise CaseError(f"{result.name} holds no save yet; there is nothing to draw")
-    return count
 
 
 def removed(result: Result, name: str) -> Array:

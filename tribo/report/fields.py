@@ -10,7 +10,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.plotting.kept import kept_fields
-from tribo.plotting.sections import limits, number_of_saves, removed
+from tribo.plotting.sections import limits, removed
 from tribo.plotting.units import axis_units, shown_in, size
 from tribo.report.curves import history, moments, sections, thinned, touched
 from tribo.report.reduced import Blocks, block_means, block_words, each_plain, plain
@@ -70,14 +70,8 @@ class Part:
 
 
 def charts(result: Result) -> dict[str, Any]:
-    """Return what the charts of a result draw, as plain data.
-
-    Raises
-    ------
-    CaseError
-        If it holds no save yet.
-    """
-    saves = thinned(number_of_saves(result))
+    """Return what the charts of a result draw, as plain data."""
+    saves = thinned(len(result.times))
     times = [float(result.times[i]) for i in saves]
     depths_of = {name: removed(result, name)[saves] for name in result.body_names}
     pressures = [result.field("pressure", i) for i in saves]

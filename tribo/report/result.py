@@ -22,7 +22,6 @@ from tribo.core.material import Material
 from tribo.lab.report import LabReport, lab_report
 from tribo.lab.running_in import rough_bodies
 from tribo.plotting.figures import result_pictures
-from tribo.plotting.sections import number_of_saves
 from tribo.report.amounts import amount, component_words, value_words
 from tribo.report.drawing import drawing
 from tribo.report.fields import charts
@@ -56,7 +55,6 @@ CITATION = (
 def result_page(result: Result, verified: Path | None = None) -> str:
     """Return the report of a result as HTML; see `tribo.write_report`."""
     check_installed()
-    number_of_saves(result)
     lab, case = lab_report(result), result.case
     estimates = [] if verified is None else read_verified(verified, result)
     swept = next((name for name in result.body_names if result.body(name).swept), None)

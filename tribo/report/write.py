@@ -51,7 +51,7 @@ def write_report(
     ------
     CaseError
         If what a report needs is not installed (``pip install jinja2 plotly``),
-        there is no such result or it holds no save, or `verified` is of another
+        there is no such result, or `verified` is of another
         case; or there is no such folder.
     OutputError
         If the file cannot be written.

@@ -123,11 +123,6 @@ class RunFolder:
         """Write a part."""
         _store(self.part(number), rows)
 
-    @property
-    def has_checkpoint(self) -> bool:
-        """Whether there is a checkpoint, sound or not."""
-        return self.checkpoint.exists() or self.previous.exists()
-
     def write_checkpoint(self, checkpoint: Checkpoint) -> None:
         """Write a checkpoint, after its parts are written, and keep the one before."""
         with suppress(FileNotFoundError):
@@ -141,8 +136,16 @@ class RunFolder:
     def read_checkpoint(self, case: Mapping[str, object]) -> tuple[Checkpoint, str]:
         """Return the newest sound checkpoint of a case, and what is damaged of a newer one.
 
-        It is whole, as all its parts are. `CaseError` if there is none of this case.
+        It is whole, as all its parts are. `CaseError` if there is none of this case; it says what
+        to do where no process is writing the result.
         """
+        if not self.path.is_dir():
+            raise CaseError(
+                f"its run saves in the folder {self.path.name}, which is not beside it; put that "
+                "folder there, or take the result once its run is done"
+            )
+        if not (self.checkpoint.exists() or self.previous.exists()):
+            raise CaseError("its run ended before its first save; 'tribo run --force' starts again")
         damage = []
         for path in (self.checkpoint, self.previous):
             try:
@@ -152,9 +155,7 @@ class RunFolder:
                 continue
             if checkpoint is not None:
                 return checkpoint, "; ".join(damage)
-        raise CaseError(
-            "; ".join(dict.fromkeys(damage)) or "its run was stopped before the first was written"
-        )
+        raise CaseError("; ".join([*dict.fromkeys(damage), "start again with 'tribo run -o'"]))
 
     def _sound(self, path: Path, case: Mapping[str, object]) -> Checkpoint | None:
         """Return a checkpoint after reading all that belongs to it; None if there is no file."""

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
 
 import h5py
+import numpy as np
 
+from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
+from tribo.core.hdf5 import contained
 from tribo.result.layout import BETWEEN, DIMS, FIXED, ROUGHNESS, TRACK, TRACK_PLASTIC, Variable
 
-_STATUS = ("done", "running", "killed", "interrupted", "failed")
-_JSON = {"case": dict, "provenance": dict, "notices": list, "worn_through": list}
+_FILTERS = {h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE, h5py.h5z.FILTER_FLETCHER32}
+_DENSEST = 1032
+"""Largest factor by which deflate, which compresses a result, makes data smaller."""
+_MAY_BE_NAN = {"density", TRACK, TRACK_PLASTIC, *ROUGHNESS} | {
+    prefix + name for prefix in ("", "history_") for name in ("friction_force", "friction_energy")
+}
+_AT_LEAST_0 = {"time", "history_time", "pressure", "wear_depth", "plastic_depth", "density"}
 
 
 @contextmanager
@@ -28,19 +34,18 @@ def interpreting(name: str) -> Iterator[None]:
         raise CaseError(f"{name} is damaged: {reason}") from error
 
 
-def read_attributes(attributes: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the attributes of a file with their JSON read; ValueError if one is wrong."""
-    read = dict(attributes)
-    for name, kind in _JSON.items():
-        read[name] = json.loads(read[name])
-        if not isinstance(read[name], kind):
-            raise ValueError(f"{name!r} is not what tribo writes there")
-    bodies = read["case"].get("bodies")
-    if not isinstance(bodies, dict) or len(bodies) != 2:
-        raise ValueError(f"'case' has {bodies!r:.80} instead of two bodies")
-    if read["status"] not in _STATUS:
-        raise ValueError(f"'status' is {read['status']!r} instead of {', '.join(_STATUS)}")
-    return read
+def check_contained(file: h5py.File) -> None:
+    """Raise ValueError where a file refers to another, or stores what tribo does not write."""
+    variables = {values.name: values for values in contained(file)}
+    if other := {f"/{name}" for name in file} ^ variables.keys():
+        raise ValueError(f"{min(other)!r} is no variable")
+    for name, values in variables.items():
+        made = values.id.get_create_plist()
+        if not {made.get_filter(i)[0] for i in range(made.get_nfilters())} <= _FILTERS:
+            raise ValueError(f"{name!r} is stored as tribo does not store it")
+    promised = sum(values.nbytes for values in variables.values())
+    if promised > _DENSEST * file.id.get_filesize():
+        raise ValueError(f"it promises {promised / 1e6:.3g} MB, more than it can hold")
 
 
 def read_variables(file: h5py.File, bodies: tuple[str, ...]) -> dict[str, Variable]:
@@ -52,11 +57,9 @@ def read_variables(file: h5py.File, bodies: tuple[str, ...]) -> dict[str, Variab
     # Each is looked up in the file once, as that takes long.
     kept = dict(file.items())
     for name, values in kept.items():
-        if not isinstance(values, h5py.Dataset):
-            raise ValueError(f"{name!r} is no variable")
         if "kind" in values.attrs:
             table[name] = _field_of_model(name, values, bodies)
-    named = tuple(kept["body"].asstr()[:].tolist())
+    named = tuple(np.atleast_1d(kept["body"].asstr()[()]).tolist())
     if named != bodies:
         raise ValueError(
             f"it holds the bodies {', '.join(named)}, but its 'case' has {', '.join(bodies)}"
@@ -75,13 +78,33 @@ def read_variables(file: h5py.File, bodies: tuple[str, ...]) -> dict[str, Variab
     return table
 
 
+def checked(name: str, values: Array) -> Array:
+    """Return the values of a variable; ValueError if they are none that a run writes.
+
+    What models keep may be NaN.
+    """
+    wrong = np.isinf(values) if name in _MAY_BE_NAN else ~np.isfinite(values)
+    if name in FIXED and wrong.any():
+        raise ValueError(f"{name!r} has values that are not finite")
+    if name in ("time", "history_time") and np.any(np.diff(values) < 0):
+        raise ValueError(f"{name!r} goes back")
+    if name in _AT_LEAST_0 and np.any(values < 0):
+        raise ValueError(f"{name!r} has values below 0")
+    return values
+
+
 def _field_of_model(name: str, values: h5py.Dataset, bodies: tuple[str, ...]) -> Variable:
     """Return the variable that a dataset with a kind is, which its attributes describe."""
     kind, field, unit, meaning = (
         str(values.attrs[key]) for key in ("kind", "field", "units", "long_name")
     )
     owners = tuple(map(str, values.attrs["bodies"]))
-    if name in FIXED or kind not in DIMS or not {*owners} <= {*bodies}:
+    if (
+        name in FIXED
+        or kind not in DIMS
+        or not {*owners} <= {*bodies}
+        or not (name.isidentifier() and field.isidentifier())
+    ):
         raise ValueError(f"{name!r} is no field of a model of these bodies")
     dims = ("time",) if kind == BETWEEN and values.ndim == 1 else DIMS[kind]
     return Variable(dims, unit, meaning, None, kind, field, owners)

@@ -13,7 +13,7 @@ import numpy as np
 from tribo.core.errors import CaseError
 from tribo.core.notices import worn_through
 from tribo.result.checkpoint import RunFolder
-from tribo.result.checks import interpreting
+from tribo.result.checks import check_contained, interpreting
 from tribo.result.hdf5 import filled_image
 from tribo.result.layout import FORMAT
 from tribo.result.sealed import open_sealed
@@ -31,14 +31,8 @@ def source_of(path: Path) -> Path | BytesIO:
             # The run may have ended since, and taken its folder with it.
             if not is_unfinished(path):
                 return path
-            remedy = (
-                "try again, for another process is writing it"
-                if folder.busy()
-                else "start again with 'tribo run --force'"
-            )
-            raise CaseError(
-                f"{path}: what its run has saved cannot be read: {error}; {remedy}"
-            ) from error
+            reason = "its run goes on, and what it saved cannot be read yet; try again"
+            raise CaseError(f"{path}: {reason if folder.busy() else error}") from error
 
 
 def is_unfinished(path: Path) -> bool:
@@ -65,6 +59,7 @@ def is_unfinished(path: Path) -> bool:
                 f"{path} has format {written}, and this tribo reads format {FORMAT}: read it with "
                 "the tribo that wrote it, or run its case again"
             )
+        check_contained(file)
         return bool(file.attrs["status"] == "running")
 
 
@@ -72,8 +67,6 @@ def _saved_so_far(path: Path, folder: RunFolder) -> BytesIO:
     """Return the file that the run would write now, with who writes it as its status."""
     status = "running" if folder.busy() else "killed"
     empty = path.read_bytes()
-    if not folder.has_checkpoint:
-        return filled_image(empty, (), 0, 0, status=status)
     with h5py.File(BytesIO(empty)) as file:
         case = json.loads(file.attrs["case"])
     kept, damage = folder.read_checkpoint(case)

@@ -22,6 +22,7 @@ from tribo.core.words import did_you_mean, suggestion
 from tribo.result import checks
 from tribo.result.body import BodyResult, checked_save
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS, labelled
+from tribo.result.header import read_header
 from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.opening import source_of
 from tribo.result.sealed import write_sealed
@@ -55,10 +56,12 @@ class Result:
         self._source = source
         with checks.interpreting(name), ExitStack() as unsound:
             self._file = unsound.enter_context(h5py.File(source))
-            self._header = checks.read_attributes(self._file.attrs)
+            self._header = read_header(self._file.attrs)
             self._variables = checks.read_variables(self._file, self.body_names)
             small = [name for name, values in self._variables.items() if len(values.dims) <= 2]
             self._scalars = {name: self._read(name, ...) for name in small}
+            if not (len(self.times) or self.status == "running"):
+                raise ValueError("it holds no save")
             unsound.pop_all()
         self._dataset: xr.Dataset | None = None
 
@@ -381,7 +384,7 @@ class Result:
 
     def _read(self, name: str, *index: Any) -> Array:
         with checks.interpreting(self.name):
-            return np.asarray(self._file[name][index])
+            return checks.checked(name, np.asarray(self._file[name][index]))
 
     def _index(self, body: str) -> int:
         if body not in self.body_names:

@@ -15,7 +15,7 @@ from tribo.case import Case
 from tribo.component import components as named
 from tribo.config.load import load_case, validate_case
 from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
-from tribo.core.files import check_folder
+from tribo.core.files import check_folder, writing
 from tribo.core.notices import Notice
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
 from tribo.observers.observer import Observer
@@ -23,6 +23,7 @@ from tribo.observers.recorder import Recorder
 from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry, default_registry
 from tribo.result.checkpoint import RunFolder
+from tribo.result.opening import is_unfinished
 from tribo.result.provenance import changed_components, origin, provenance
 from tribo.result.read import Result
 from tribo.simulation.audience import Audience
@@ -164,17 +165,18 @@ class Simulation:
         """
         path = Path(output)
         with Result.open(path) as result:
-            done = result.status == "done"
+            status = result.status
             changes = self.changed_since(result)
             case = result.case
         listed = "; ".join(f"{place} was {old}, is {new}" for place, old, new in changes)
-        if done:
+        if status == "done":
             folder = RunFolder(path.resolve())
             if not folder.path.is_dir():
                 told = f", with other components: {listed}" if changes else ""
                 raise CaseError(f"{path} is done{told}; there is nothing to resume")
             # It was killed just as it ended.
-            folder.lock()
+            with writing(folder.path):
+                folder.lock()
             folder.remove()
             return partial(Result.open, path)
         if changes and not allow_changed:
@@ -186,7 +188,13 @@ class Simulation:
         if case != self.model.data and not changes:
             raise CaseError(f"{path} is the result of another case; resume that one")
         recorder = Recorder(path=path)
-        state, wall_time = recorder.resume(case)
+        try:
+            state, wall_time = recorder.resume(case)
+        except CaseError:
+            if status in ("running", "killed") and not is_unfinished(path):
+                # Its run has ended since.
+                return self.reopen(path, observers=observers, allow_changed=allow_changed)
+            raise
         state = state.without_notice("failed")
         return partial(
             self._follow,
@@ -326,7 +334,9 @@ def _held(path: Path) -> str:
         if result.status == "running":
             return "is written by a run that goes on"
         if result.status != "done":
-            return f"holds a run that is {result.status} (tribo resume {path} goes on with it)"
+            rest = RunFolder(path.resolve()).path
+            how = f"tribo resume {path} goes on with it" if rest.is_dir() else f"without {rest}"
+            return f"holds a run that is {result.status} ({how})"
     return "exists"
 
 

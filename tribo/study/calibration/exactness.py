@@ -6,6 +6,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
+from tribo.core.units import number
 from tribo.study.calibration.quantities import FIELDS, in_words
 
 MOST_UNCERTAINTY = 1e4
@@ -25,7 +26,7 @@ def part_of(text: str, quantity: str) -> Part:
     if quantity in FIELDS:
         raise CaseError(f"{text!r}: of depths at many places give it with a unit, as '10 nm'")
     try:
-        part = float(text[:-1]) / 100
+        part = number(text[:-1]) / 100
     except ValueError:
         raise CaseError(f"{text!r} is no number of per cent; write '5 %'") from None
     if not 0 < part < 1:

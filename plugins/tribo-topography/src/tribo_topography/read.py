@@ -12,16 +12,16 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, BinaryIO
 
+import h5py
 import numpy as np
 from tribo import Array, CaseError
-from tribo.core.files import check_file
+from tribo.core.files import check_file, check_pixels
+from tribo.core.hdf5 import contained
 
 from tribo_topography.config import MeasuredFile
 
 MAX_BYTES = 2**30
 """Size of the largest file that is read, also when unpacked."""
-MAX_PIXELS = 2**26
-"""Number of pixels of the largest map that is read."""
 
 
 class Unreadable(CaseError):
@@ -116,6 +116,10 @@ def _checked_file(path: Path, expected: str | None) -> str:
         check_file(path)
     except ValueError as error:
         raise CaseError(str(error)) from None
+    if h5py.is_hdf5(path):
+        with _third_party(path), h5py.File(path) as opened:
+            for _ in contained(opened):
+                pass
     size = path.stat().st_size
     # Not a zip file, or a broken one, is for the readers to tell.
     with suppress(zipfile.BadZipFile), zipfile.ZipFile(path) as archive:
@@ -198,11 +202,10 @@ def _checked_channel(path: Path, channel: Any, config: MeasuredFile) -> tuple[fl
     if channel.dim != 2 or channel.is_uniform is False:
         raise CaseError(f"{path}, channel {channel.name!r}, is not a map on a regular grid")
     nx, ny = channel.nb_grid_pts
-    if nx * ny > MAX_PIXELS:
-        raise CaseError(
-            f"{path} has {nx} × {ny} pixels; at most {MAX_PIXELS:.3g} are read. Export the part "
-            "of it that is needed"
-        )
+    try:
+        check_pixels(nx * ny)
+    except ValueError as error:
+        raise CaseError(f"{path}, {nx} × {ny} pixels: {error}") from None
     if min(nx, ny) < 4:
         raise CaseError(f"{path} has {nx} × {ny} pixels; 4 × 4 are needed at least")
     if config.size is not None:

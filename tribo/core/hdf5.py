@@ -1,0 +1,39 @@
+"""HDF5 files from anywhere: what they hold themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import h5py
+
+
+def contained(file: h5py.File) -> Iterator[h5py.Dataset]:
+    """Yield the datasets of a file, each once; ValueError where it refers to another file.
+
+    No value is read, and no soft link followed.
+    """
+    groups: list[h5py.Group] = [file]
+    known = set()
+    while groups:
+        group = groups.pop()
+        for name in group:
+            link = group.get(name, getlink=True)
+            if isinstance(link, h5py.SoftLink):
+                continue
+            if not isinstance(link, h5py.HardLink):
+                raise ValueError(f"{name!r} is a link to another file")
+            item = group[name]
+            place = h5py.h5o.get_info(item.id).addr
+            if place in known:
+                continue
+            known.add(place)
+            if isinstance(item, h5py.Group):
+                groups.append(item)
+            elif isinstance(item, h5py.Dataset):
+                if item.is_virtual or item.external:
+                    raise ValueError(f"{name!r} has its values in another file")
+                chunks = item.chunks
+                if chunks is not None and (len(chunks) != item.ndim or 0 in chunks):
+                    # HDF5 would divide by zero (CVE-2026-19025).
+                    raise ValueError(f"{name!r} of shape {item.shape} has chunks of {chunks}")
+                yield item
