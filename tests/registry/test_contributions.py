@@ -1,4 +1,4 @@
-"""Plugins add rows, pictures, formats and templates; several at once."""
+"""Plugins add rows, pictures, formats, templates and cases; several at once."""
 
 import json
 import os
@@ -15,7 +15,7 @@ from tribo.templates import template
 
 HOOKS = """
 from matplotlib.figure import Figure
-from tribo import CaseTemplate, ExportFormat, LabRow
+from tribo import CaseTemplate, ExportFormat, LabRow, Reference, Row
 
 def write(result, folder):
     folder.mkdir()
@@ -37,6 +37,11 @@ def tribo_export_formats():
 @hookimpl
 def tribo_templates():
     return [CaseTemplate("{0}.case", "a case", "# of {0}")]
+
+@hookimpl
+def tribo_cases():
+    rows = lambda level, placement: [Row("x", "m", 2.0, 2.5, 0.3, note="made up")]
+    return [Reference("case of {0}", "nowhere", rows, (1,))]
 """
 CHANGES = ("grid.cells=32", "grid.size=0.7 mm", "kinematics.duration=0.1", "output.save_times=[]")
 
@@ -120,3 +125,9 @@ def test_a_hook_that_raises_is_named_by_file_and_line(folder):
     file.write_text(file.read_text().replace("return [CaseT", "1 / 0; return [CaseT"))
     message = refused("new", "adds_a.case", "new.toml")
     assert f"tribo_templates raised ZeroDivisionError: division by zero ({file}, line " in message
+
+
+def test_verify_has_the_cases_of_every_plugin():
+    rows = json.loads(told("verify", "--only", "case of adds_", "--json"))["rows"]
+    found = {row["case"]: (row["expected"], row["got"], row["verdict"]) for row in rows}
+    assert found == {f"case of adds_{name}": (2.0, 2.5, "holds") for name in "abc"}

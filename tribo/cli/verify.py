@@ -59,12 +59,13 @@ def verify(case: Path | None, overrides: tuple[str, ...], only: str | None, as_j
 def _verify_installation(only: str | None, as_json: bool) -> None:
     from tribo.core.errors import CaseError, NumericalError
     from tribo.result.provenance import environment
-    from tribo.verification.suite import REFERENCES
+    from tribo.verification.suite import references
 
     wanted = (only or "").casefold()
-    chosen = [known for known in REFERENCES if wanted in f"{known.case} {known.source}".casefold()]
+    known_cases = references()
+    chosen = [known for known in known_cases if wanted in f"{known.case} {known.source}".casefold()]
     if not chosen:
-        names = "; ".join(known.case for known in REFERENCES)
+        names = "; ".join(known.case for known in known_cases)
         raise CaseError(f"no check has {only!r} in its name or source; there are: {names}")
     rows = []
     with _progress(len(chosen)) as tell:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -190,6 +191,11 @@ class ContactConditions:
         The bodies' materials, by name.
     swept : frozenset of str
         Names of the bodies whose points pass through the contact.
+    track : float
+        Length of their track, in m: the stroke, or once round; infinite where they do not come
+        back.
+    turns_back : bool
+        Whether the motion goes to and fro along it, rather than round it.
     fields : Mapping[str, Mapping[str, ndarray]]
         Fields of the effects that ran before, and what effects and wear laws remember if it is
         required, by field and body; what laws remember, for the bodies whose law does.
@@ -208,6 +214,8 @@ class ContactConditions:
     distance: float
     materials: Mapping[str, Material]
     swept: frozenset[str]
+    track: float = math.inf
+    turns_back: bool = False
     fields: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)
     state: Mapping[str, Array] = field(default_factory=dict)
     wear_rates: Mapping[str, Array] = field(default_factory=dict)

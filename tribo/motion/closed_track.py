@@ -89,6 +89,11 @@ class ClosedTrack(Kinematics):
         """Length of the closed track, in m."""
 
     @property
+    def track(self) -> float:
+        """Length of the closed track, in m."""
+        return self.lap
+
+    @property
     def _given(self) -> str:
         """Key that the length of the track was given by."""
         return "track_radius"

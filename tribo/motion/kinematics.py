@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
 from tribo.component import Component
 from tribo.core.grid import Grid
@@ -14,6 +16,9 @@ from tribo.motion.exposure import Exposure
 class Kinematics(Component):
     """A sliding motion along x."""
 
+    turns_back: ClassVar[bool] = False
+    """Whether it goes to and fro along the track, rather than round it."""
+
     @property
     @abstractmethod
     def end_time(self) -> float:
@@ -22,6 +27,14 @@ class Kinematics(Component):
     @abstractmethod
     def distance_at(self, time: float) -> float:
         """Return the sliding distance from 0 to `time` (s), in m; never decreasing."""
+
+    @property
+    def track(self) -> float:
+        """Length of the track, in m: the stroke, or once round.
+
+        Infinite, unless overridden: points that pass do not come back.
+        """
+        return math.inf
 
     def time_at(self, distance: float) -> float:
         """Return the time at which the sliding distance reaches `distance` (m), in s.

@@ -42,6 +42,7 @@ class Measured(Kinematics):
     )
 
     type = "measured"
+    turns_back = True
     path: Annotated[tuple[Sample, ...], Field(min_length=2)]
     """Pairs of time and position, or the name of a CSV or .npy file with these two columns, in s
     and m; a relative name starts at the current directory."""
@@ -105,6 +106,11 @@ class Measured(Kinematics):
     def _range(self) -> float:
         places = self._samples[1]
         return float(np.max(places) - np.min(places))
+
+    @property
+    def track(self) -> float:
+        """Range of the path, in m."""
+        return self._range
 
     @property
     def end_time(self) -> float:

@@ -60,6 +60,7 @@ class Reciprocating(Kinematics):
     )
 
     type = "reciprocating"
+    turns_back = True
     stroke: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
     """Distance between the two points of reversal."""
     frequency: Annotated[
@@ -124,6 +125,11 @@ class Reciprocating(Kinematics):
         return self._held.ends[:-1]
 
     _middle = field_validator("positions")(odd)
+
+    @property
+    def track(self) -> float:
+        """The stroke, in m."""
+        return self.stroke
 
     @property
     def end_time(self) -> float:

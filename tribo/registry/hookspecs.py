@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from tribo.component import Component
     from tribo.lab.heights import Heights
     from tribo.result.read import Result
+    from tribo.verification.reference import Reference
 
 PROJECT = "tribo"
 """Name of the plugin manager, and group of the entry points that it reads."""
@@ -91,4 +92,10 @@ def tribo_height_formats() -> Iterable[HeightFormat]:
 @hookspec
 def tribo_templates() -> Iterable[CaseTemplate]:
     """Return cases for `tribo new`."""
+    return ()
+
+
+@hookspec
+def tribo_cases() -> Iterable[Reference]:
+    """Return problems with a known answer, for `tribo verify`."""
     return ()

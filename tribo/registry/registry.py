@@ -235,16 +235,21 @@ def choose(hook: str, name: str, words: str, own: Mapping[str, str] | None = Non
     `words` is what it is, for the message: ``"format"`` or ``"template"``; `own` are those of tribo
     itself, none of them called so, with what each is.
     """
-    registry = default_registry()
-    for plugin in registry.load_all():
-        warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=3)
-    known = {each.name: each for answer in registry.ask(hook) for each in answer}
+    known = {each.name: each for each in from_all_plugins(hook)}
     if name not in known:
         summaries = {**(own or {}), **{each.name: each.summary for each in known.values()}}
         listed = "; ".join(f"{each} ({said.rstrip('.')})" for each, said in summaries.items())
         meant = suggestion(did_you_mean(name, summaries))
         raise CaseError(f"no {words} is called {name!r}{meant} Known: {listed}")
     return known[name]
+
+
+def from_all_plugins(hook: str) -> list[Any]:
+    """Return the items that all installed plugins answer to a hook; one that is broken is named."""
+    registry = default_registry()
+    for plugin in registry.load_all():
+        warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=3)
+    return [item for answer in registry.ask(hook) for item in answer]
 
 
 def from_plugins_of(result: Result, hook: str) -> list[Any]:

@@ -364,6 +364,7 @@ def _conditions(
     memory: Memory,
 ) -> ContactConditions:
     """Return what an effect is told of the window."""
+    motion = model.case.kinematics
     return ContactConditions(
         grid=model.grid,
         pressure=readonly(pressure),
@@ -372,6 +373,8 @@ def _conditions(
         distance=moment.distance,
         materials=dict(model.system.materials),
         swept=model.swept,
+        track=motion.track,
+        turns_back=motion.turns_back,
         fields={name: copy(of_bodies) for name, of_bodies in fields.items()},
         state={key: in_window(model, key, memory.between[key]) for key in effect.initial_state},
     )

@@ -33,7 +33,7 @@ UNITS: Mapping[str, float] = MappingProxyType(
     {
         name: factor(unit)
         for unit, names in {
-            "m": "distance gap approach overlap height rate average path",
+            "m": "distance track gap approach overlap height rate average path",
             "m^3": "volume",
             "1/m": "curvature",
             "s": "time end",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections import UserDict
 from collections.abc import Mapping, Sequence
@@ -199,6 +200,8 @@ def contact_conditions(
         distance=1.0 + number,
         materials=dict(zip(names, (STEEL, BRONZE), strict=True)),
         swept=frozenset(names[1:]),
+        track=(math.inf, 5e-3, 5e-2)[number],
+        turns_back=number == 1,
         fields={name: {body: values.copy() for body in names} for name, values in known.items()},
         state=state,
         wear_rates={name: 1e-16 * (1 + n) * pressure for n, name in enumerate(names)},

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tribo.registry.registry import from_all_plugins
 from tribo.verification import codes, contacts, formulas, plasticity, punches, strokes, wear
 from tribo.verification.reference import Reference
 
@@ -9,3 +10,8 @@ _MODULES = (contacts, plasticity, wear, punches, strokes, formulas)
 _FOUND = (value for module in _MODULES for value in vars(module).values())
 
 REFERENCES = (*(known for known in _FOUND if isinstance(known, Reference)), *codes.REFERENCES)
+
+
+def references() -> list[Reference]:
+    """Return tribo's own problems and those of the installed plugins."""
+    return [*REFERENCES, *from_all_plugins("tribo_cases")]

@@ -57,6 +57,8 @@ def faster(data, save):
         distance=30.0,
         materials={name: body.material for name, body in model.bodies.items()},
         swept=frozenset({"disk"}),
+        track=2e-3,
+        turns_back=True,
         fields={"friction_coefficient": {"ball": np.full(model.grid.cells, 0.1)}},
     )
     paths = {"ball": {"length": "5 mm", "area": "78.5 mm^2"}}

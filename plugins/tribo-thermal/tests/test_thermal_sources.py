@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 from tribo import Grid, HalfSpace
 
-from tribo_thermal.sources import LIMITS, rise_per_power, source_radius
+from tribo_thermal.sources import LIMITS, kept_per_power, rise_per_power, source_radius
+from tribo_thermal.verification import (
+    REFERENCES,
+    moved_on,
+    round_a_circle,
+    steady_cycle,
+    to_and_fro,
+)
 
 PROFILES = {
     "uniform": np.ones_like,
@@ -94,3 +101,30 @@ def test_a_resting_source_heats_as_pressure_dents(profile):
         rise_per_power(1.0, conductivity, 0.0, profile, "maximum"), rel=5e-3
     )
     assert source_radius(flux, grid.cell_area, profile) == pytest.approx(1.0, rel=2e-3)
+
+
+@pytest.mark.parametrize("way", [to_and_fro, round_a_circle])
+@pytest.mark.parametrize("length", [2.0, 4.0, 10.0, 40.0, 100.0])
+@pytest.mark.parametrize("peclet", [0.2, 0.6, 2.0, 5.0, 20.0, 50.0])
+def test_heat_stays_on_the_track_as_by_greens_function(way, length, peclet):
+    once = moved_on(peclet)
+    kept = kept_per_power(1.0, 1.0, peclet, length, way is to_and_fro)
+    whole = steady_cycle(way, length, peclet)
+    tolerance = 0.015 if length >= 10 else 0.045
+    assert whole > once
+    assert once + kept == pytest.approx(whole, rel=tolerance)
+
+
+def test_a_square_source_that_moves_on_is_as_hot_as_jaegers_disc():
+    assert math.pi * moved_on(2.0) == pytest.approx(exact(2.0, "uniform", "mean"), rel=0.015)
+
+
+@pytest.mark.parametrize("known", REFERENCES)
+def test_what_verify_shows_of_tracks_holds(known):
+    assert {row.verdict for row in known.run()} == {"holds"}
+
+
+@pytest.mark.parametrize("turns_back", [True, False])
+def test_a_source_that_does_not_come_back_finds_no_heat_of_its_own(turns_back):
+    assert kept_per_power(1.0, 1.0, 2.0, math.inf, turns_back) == 0
+    assert kept_per_power(1.0, 1.0, 2.0, 1e6, turns_back) < 1e-5

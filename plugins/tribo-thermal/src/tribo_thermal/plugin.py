@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from matplotlib.figure import Figure
-from tribo import Array, CaseTemplate, Component, LabRow, Result, hookimpl
+from tribo import Array, CaseTemplate, Component, LabRow, Reference, Result, hookimpl
 
 from tribo_thermal.arrhenius import Arrhenius
 from tribo_thermal.flash import TEMPERATURE, Flash
@@ -26,6 +26,14 @@ def tribo_templates() -> list[CaseTemplate]:
     """Offer the paper's test in its warm bath, with wear that follows the temperature."""
     summary = "the paper's test, with wear that follows the temperature of the contact"
     return [CaseTemplate("thermal.ball_on_disk", summary, EXAMPLE.read_text(encoding="utf-8"))]
+
+
+@hookimpl
+def tribo_cases() -> tuple[Reference, ...]:
+    """Offer heat sources that come back on their track."""
+    from tribo_thermal.verification import REFERENCES
+
+    return REFERENCES
 
 
 def temperatures(result: Result) -> dict[str, Array]:
