@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from tribo.cli.options import CASE, PATH, SET
+from tribo.cli.waiting import waiting_for
 
 
 @click.command()
@@ -31,7 +32,8 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     from tribo.observers.progress import Progress
     from tribo.simulation.run import Simulation
 
-    simulation = Simulation(load_case(case, overrides=overrides))
+    with waiting_for("composing the case"):
+        simulation = Simulation(load_case(case, overrides=overrides))
     path = output or case.with_suffix(".h5")
     if path.resolve() == case.resolve():
         raise CaseError(f"{path} is the case itself; choose another file with -o")
