@@ -218,16 +218,16 @@ class Recorder(Observer):
 
     def _write(self, image: BytesIO) -> None:
         assert self._folder is not None
-        fresh = self._folder.path / "result.new"
-        write_sealed(self._folder.result, image.getbuffer(), fresh=fresh, sync=True)
+        write_sealed(self._folder.result, image.getbuffer(), through=self._folder.path)
 
     @contextmanager
     def _writing(self) -> Iterator[None]:
         try:
             yield
-        except (OSError, RuntimeError) as error:
-            reason = getattr(error, "strerror", None) or error
-            remedy = "" if isinstance(error, PermissionError) else "free space or "
+        except (OutputError, OSError, RuntimeError) as error:
+            cause = error.__cause__ or error
+            reason = getattr(cause, "strerror", None) or cause
+            remedy = "" if isinstance(cause, PermissionError) else "free space or "
             raise OutputError(
                 f"cannot write {self.path}: {reason}; {remedy}choose another place with "
                 "-o; the last checkpoint is intact"

@@ -15,9 +15,9 @@ from tribo.case import Case
 from tribo.component import components as named
 from tribo.config.load import load_case, validate_case
 from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
-from tribo.core.files import check_folder
 from tribo.core.notices import Notice
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
+from tribo.core.writing import check_output
 from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
 from tribo.registry.plugins import Plugin
@@ -346,10 +346,5 @@ def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
             f"{path} {_held(path)}; choose another with -o, or replace it with --force (in Python "
             "overwrite=True)"
         )
-    if os.path.exists(path) and not os.path.isfile(path):
-        raise CaseError(
-            f"{path} is not a file that could be replaced; give a file name, as "
-            f"{path.with_name('result.h5')}"
-        )
-    check_folder(path)
+    check_output(path)
     return path
