@@ -20,6 +20,8 @@ import reference  # noqa: E402
 os.environ["PYTHONPATH"] = os.pathsep.join(
     [str(DOCS / "support"), str(DOCS.parent / "examples"), str(DOCS.parent)]
 )
+# Pages show no plugin as not ready because this machine is busy.
+os.environ.setdefault("TRIBO_PLUGIN_TIME_LIMIT", "240")
 os.environ["TRIBO_REPOSITORY"] = str(DOCS.parent)
 os.environ.setdefault("MPLCONFIGDIR", str(Path(gettempdir()) / "tribo-docs-matplotlib"))
 

@@ -20,4 +20,4 @@ def edited(path):
     image = BytesIO(path.read_bytes())
     with h5py.File(image, "r+") as file:
         yield file
-    write_sealed(path, image.getbuffer(), sync=False)
+    write_sealed(path, image.getbuffer())

@@ -4,15 +4,15 @@ import io
 import itertools
 import re
 import sys
+import time
 
 import pytest
 from paper_models import case, motion
 
 from tribo import Grid, Simulation
-from tribo.cli.main import tribo
+from tribo.cli import waiting
 from tribo.observers.observer import Observer
 from tribo.observers.progress import Progress
-from tribo.templates import template
 
 
 class Terminal(io.StringIO):
@@ -58,16 +58,15 @@ def test_the_bar_and_the_time_left_go_on_evenly_past_many_saves(monkeypatch):
     assert all(abs(after - before + 10) <= 25 for before, after in later)
 
 
-@pytest.mark.slow
-def test_check_says_how_long_its_sensitivities_may_take(monkeypatch, tmp_path):
-    """Only where that may be long, and somebody waits."""
-    (tmp_path / "case.toml").write_text(template("fretting"))
-    for factor, stream, told in ((1e3, Terminal(), True), (0.0, Terminal(), False)):
-        monkeypatch.setattr(sys, "stderr", stream)
-        monkeypatch.setattr("tribo.cli.check.BACK", factor)
-        tribo(["check", str(tmp_path / "case.toml")], standalone_mode=False)
-        shown = stream.getvalue().startswith("which numbers rule the answer: at most some ")
-        assert shown == told
+@pytest.mark.parametrize(("takes", "line"), [(0.4, "a trial …\n"), (0.0, "")])
+def test_what_takes_long_before_a_run_is_named_even_where_there_is_no_terminal(
+    monkeypatch, takes, line
+):
+    monkeypatch.setattr(sys, "stderr", stream := io.StringIO())
+    monkeypatch.setattr(waiting, "QUIET", 0.2)
+    with waiting.waiting_for("a trial"):
+        time.sleep(takes)
+    assert stream.getvalue() == line
 
 
 def test_no_bar_is_drawn_into_what_is_no_terminal(monkeypatch):

@@ -1,4 +1,4 @@
-"""A file is written whole or not at all."""
+"""Tables of numbers are read, and what is none is named."""
 
 import time
 import zipfile
@@ -8,18 +8,9 @@ import numpy as np
 import pytest
 
 from tribo.core import files
-from tribo.core.errors import CaseError, OutputError
-from tribo.core.files import read_numbers, table_of_numbers, write_whole
+from tribo.core.errors import CaseError
+from tribo.core.files import read_numbers, table_of_numbers
 from tribo.core.units import Quantity
-
-
-def test_what_cannot_be_written_leaves_the_old_file_alone(tmp_path):
-    path = tmp_path / "a.csv"
-    write_whole(path, "old\n")
-    (tmp_path / "a.csv.new").mkdir()
-    with pytest.raises(OutputError, match=r"cannot write to .*a\.csv: Is a directory"):
-        write_whole(path, "new\n")
-    assert path.read_text() == "old\n"
 
 
 @pytest.mark.parametrize("suffix", [".npy", ".csv", ".h5"])

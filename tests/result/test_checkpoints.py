@@ -252,11 +252,14 @@ def test_a_pipe_is_not_replaced(tmp_path):
         simulation().run(tmp_path / "pipe", overwrite=True)
 
 
-def test_a_result_may_be_a_link(tmp_path, undisturbed):
+def test_a_result_is_read_through_a_link_and_not_written(tmp_path):
     link, there = tmp_path / "link.h5", tmp_path / "there.h5"
     there.write_text("old")
     link.symlink_to(there)
-    simulation().run(link, overwrite=True).close()
+    with pytest.raises(CaseError, match=r"link\.h5 is a link.*there\.h5$"):
+        simulation().run(link, overwrite=True)
     assert link.is_symlink()
-    with Result.open(there) as result:
-        assert bits(result) == undisturbed
+    assert there.read_text() == "old"
+    simulation().run(there, overwrite=True).close()
+    with Result.open(link) as result:
+        assert result.status == "done"

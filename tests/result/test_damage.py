@@ -20,7 +20,7 @@ def sound(tmp_path_factory):
 
 
 def written(path, data):
-    write_sealed(path, data, sync=False)
+    write_sealed(path, data)
 
 
 def test_every_bit_counts(tmp_path):

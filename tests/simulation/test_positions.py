@@ -1,4 +1,4 @@
-"""Positions left open are chosen by what the average would cost, once and for all."""
+"""Positions left open are chosen by the first contact, once and for all."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ from tribo import (
     WearLaw,
 )
 from tribo.config.load import validate_case
-from tribo.simulation import coarse, positions
+from tribo.simulation import positions
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.positions import alike, chosen, composed
 from tribo.simulation.predict import predict
@@ -44,7 +44,9 @@ def resolved():
     return composed(left_open())
 
 
-@pytest.mark.parametrize(("stroke", "taken"), [("0.4 mm", 9), ("4 mm", 67), ("14 mm", "average")])
+@pytest.mark.parametrize(
+    ("stroke", "taken"), [("0.4 mm", 9), ("4 mm", 67), ("5.8 mm", 95), ("6 mm", "average")]
+)
 def test_long_strokes_are_averaged_and_others_resolved(stroke, taken):
     model = composed(left_open(stroke))
     assert model.case.kinematics.positions == taken
@@ -69,24 +71,7 @@ def test_the_positions_taken_are_enough_for_one_percent():
     assert groove("average") > 1.1 * groove(99)
 
 
-@pytest.mark.slow
-def test_a_coarse_run_that_fails_is_not_run_again_on_the_cells_of_the_case(monkeypatch):
-    # Without its unit a coefficient wears bodies away, which takes minutes to see on fine cells.
-    cells = []
-
-    def coarsened(case, count, margin):
-        cells.append(count)
-        return coarse.coarsened(case, count, margin)
-
-    monkeypatch.setattr(positions, "coarsened", coarsened)
-    bodies = pair(archard(1e-6))
-    model = composed(left_open().model_copy(update={"bodies": dict(bodies)}))
-    assert model.case.kinematics.positions == "average"
-    assert set(cells) == {positions.CELLS}
-
-
-def test_a_pin_whose_edge_is_too_sharp_for_coarse_cells_is_foreseen_on_its_own():
-    # Of the 1.4 mm window 4 cells make 117 µm; on 32 cells 0.12 mm are refused.
+def test_a_pin_takes_the_positions_that_its_first_contact_needs_for_one_percent():
     pin = named("ball", Pin(radius="0.4 mm", edge="0.12 mm"), steel(), archard())
     disk = named("disk", flat(), steel(), archard())
     for stroke, count in (("2 mm", 37), ("1.2 m", 1)):
@@ -153,10 +138,6 @@ def test_a_stroke_beyond_the_window_passes_a_contact_that_repeats_more_than_once
     assert mean == pytest.approx(K * load * distance / edge**2, rel=1e-9, abs=0)
 
 
-def test_a_groove_too_shallow_to_matter_is_averaged():
-    assert composed(left_open(distance="0.1 m")).case.kinematics.positions == "average"
-
-
 def test_a_track_that_does_not_wear_is_averaged():
     bodies = pair(archard())
     still = left_open().model_copy(update={"bodies": dict(bodies)})
@@ -166,12 +147,12 @@ def test_a_track_that_does_not_wear_is_averaged():
 def test_the_choice_is_told_once_and_kept():
     # A stroke in which the contact is resolved at a few positions.
     given = left_open("0.3 mm", grid=Grid((0.7e-3, 0.7e-3), (20, 20)), distance="0.03 m")
-    with pytest.warns(TriboWarning, match="resolved at 11 positions, as the stroke of 0.3 mm is"):
+    with pytest.warns(TriboWarning, match=r"resolved at 11 positions, as the stroke of 0\.3 mm is"):
         result = Simulation(given).run()
     with result:
         assert result.case["kinematics"]["positions"] == 11
         (words,) = [notice for notice in result.notices if notice.startswith("positions:")]
-        assert "too deep" in words
+        assert "from 20 times on" in words
         # What is composed from the result has nothing left to choose.
         again = Simulation(result.case).model
     assert len(again.cycle) == 11
@@ -193,7 +174,6 @@ def test_the_same_case_has_the_same_choice(resolved):
     ],
 )
 def test_what_leaves_nothing_open_costs_nothing(monkeypatch, kinematics):
-    monkeypatch.setattr(positions, "coarsened", None)
     monkeypatch.setattr(positions, "first_contact", None)
     assert composed(case(kinematics=kinematics)).case.kinematics == kinematics
 
@@ -236,7 +216,7 @@ def test_cases_beside_each_other_take_the_positions_of_the_one_that_needs_most()
         "given": case(grid=GRID, kinematics=motion(positions=65)),
     }
     found = {label: each.kinematics.positions for label, each in alike(cases).items()}
-    # The long stroke has too few of them, and needs none: its average costs under 1 %.
+    # The long stroke has too few of them, and needs none.
     assert found == {"long": "average", "longer": 41, "short": 41, "given": 65}
 
 

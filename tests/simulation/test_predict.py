@@ -1,16 +1,17 @@
 """What check foresees is what the run then does."""
 
 import re
-from dataclasses import replace
-from types import SimpleNamespace
+import time
 
 import pytest
 from paper_models import K, archard, half_space, motion, named, pair, small, sphere, steel
 
 from tribo import CaseError, Effect, Field, Grid, NumericalError, Simulation, Waves
+from tribo.simulation import trial_time
 from tribo.simulation.predict import predict
 from tribo.stepping import step
 from tribo.stepping.explicit import Explicit
+from tribo.study.gradient.sensitivity import sensitivity
 
 
 def bodies(k=K, hardness=None):
@@ -115,19 +116,29 @@ def test_a_trial_that_fails_on_coarse_cells_is_told_and_does_not_stop_the_run(mo
     assert found.stops is None
 
 
-def test_a_trial_whose_steps_lead_nowhere_is_given_up(monkeypatch):
-    """A check that never ends tells nothing."""
+class Slow(Effect):
+    """Takes 2 ms whenever it is asked."""
 
-    def creeps(model, state):
-        while True:
-            state = replace(state, distance=state.distance + 1e-9)
-            yield SimpleNamespace(state=state)
+    type = "test.slow"
+    provides = (Field("slow", "1", "Nothing but 0."),)
 
-    monkeypatch.setattr("tribo.simulation.predict.march", creeps)
-    found = predict(small())
+    def fields(self, contact):
+        time.sleep(0.002)
+        return {"slow": dict.fromkeys(contact.materials, 0.0)}
+
+
+def test_trials_that_take_too_long_are_given_up(monkeypatch):
+    monkeypatch.setattr(trial_time, "TRIAL_TIME", 0.05)
+    model = small(effects=[Slow()])
+    found = predict(model)
     (problem,) = found.problems
-    assert "its steps are too short: 1000 of them slid 1e-06 of" in problem
+    assert "0.05 s" in problem
     assert found.last is None
+    assert found.exit_code == 0
+    with pytest.raises(NumericalError, match=r"0\.05 s"):
+        sensitivity(model, found.first.half_width_x)
+    # The run itself has no limit.
+    Simulation(model.case).run().close()
 
 
 class Asks(Effect):

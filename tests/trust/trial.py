@@ -76,16 +76,16 @@ def dying(work, at):
 
         return then
 
-    def half(path, data, **options):
+    def half(path, data, through=None):
         if dies():
-            fresh = options.get("fresh") or path.with_name(path.name + ".new")
+            fresh = (through or path.parent) / f"tribo-{0:016x}.new"
             fresh.write_bytes(data[: len(data) // 2])
             os.kill(os.getpid(), signal.SIGKILL)
-        write_sealed(path, data, **options)
+        write_sealed(path, data, through)
 
     def worked(*args):
         checkpoint.write_sealed = recorder.write_sealed = half
-        Path.replace, Path.unlink = before(Path.replace), before(Path.unlink)
+        os.replace, os.unlink = before(os.replace), before(os.unlink)
         work(*args)
 
     return worked

@@ -19,7 +19,7 @@ from tribo.config.load import read_toml
 from tribo.config.overrides import apply_settings
 from tribo.config.write import to_toml
 from tribo.core.errors import CaseError, Interrupted, TriboError
-from tribo.core.files import check_folder, write_whole
+from tribo.core.writing import check_output, write_file
 from tribo.study.calibration.calibrate import Calibration
 from tribo.study.calibration.calibrate import calibrate as fit_numbers
 from tribo.study.calibration.choice import Choice, choose_case
@@ -182,7 +182,7 @@ class _Files:
     @classmethod
     def beside(cls, output: Path, measurements: Measurements, force: bool) -> _Files:
         """Return files named after `output`; CaseError if one exists."""
-        check_folder(output)
+        check_output(output)
         names = list(dict.fromkeys(test.name for test in measurements.tests.values()))
         cases = {
             name: output.with_name(f"{output.stem}-{Path(file).stem}.toml") if name else output
@@ -200,7 +200,7 @@ class _Files:
         from tribo.plotting.figures import write_figures
 
         for name, tables in found.fitted.items():
-            write_whole(self.cases[name], to_toml(tables))
+            write_file(self.cases[name], to_toml(tables))
         write_figures(
             {self.picture.stem: lambda: fit_picture(found.brief, found.data)}, self.picture.parent
         )

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
-import time
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -16,10 +14,10 @@ from rich.text import Text
 
 from tribo.cli.console import Console
 from tribo.cli.options import CASE, JSON, SET, echo_json
+from tribo.cli.waiting import waiting_for
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.words import readable
 from tribo.lab.first_contact import HertzContact, computed_pressure, in_mpa, yield_words
-from tribo.observers.progress import QUIET
 from tribo.simulation.model import Model
 from tribo.simulation.predict import Prediction
 
@@ -28,8 +26,6 @@ if TYPE_CHECKING:
 
 SPREAD = 3.0
 """Factor to which the time of a run is known."""
-BACK = 5.0
-"""Most time that sensitivities were seen to take, over that of the trial before them."""
 SHOWN = 6
 """Most numbers of the case that are shown with what they change."""
 
@@ -54,6 +50,7 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     from tribo.simulation.doubt import unusual
     from tribo.simulation.predict import predict
     from tribo.simulation.run import Simulation
+    from tribo.simulation.trial_time import TRIAL_TIME
     from tribo.study.gradient.sensitivity import sensitivity
 
     read = load_case(case, overrides=overrides)
@@ -62,16 +59,15 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
         # Before the trials, which may take long with such a value.
         Console().print(f"Is this meant in {case}?", markup=False, soft_wrap=True)
         Console().print(_rows(("  -", doubt) for doubt in doubts))
-    model = Simulation(read).model
-    began = time.monotonic()
-    prediction = predict(model)
-    longest = BACK * (time.monotonic() - began)
+    with waiting_for("composing the case"):
+        model = Simulation(read).model
+    with waiting_for(f"first contact and a trial run of {TRIAL_TIME:g} s at most"):
+        prediction = predict(model)
     ruled: Sensitivity | str = "the trial on a coarse grid did not reach the end"
     if prediction.last:
-        if longest > QUIET and sys.stderr.isatty():
-            click.echo(f"which numbers rule the answer: at most some {longest:.0f} s", err=True)
         try:
-            ruled = sensitivity(model, prediction.first.half_width_x)
+            with waiting_for(f"which numbers rule the answer, {TRIAL_TIME:g} s at most"):
+                ruled = sensitivity(model, prediction.first.half_width_x)
         except (CaseError, NumericalError) as error:
             ruled = str(error)
     if as_json:

@@ -55,7 +55,7 @@ def demo(directory: Path, force: bool) -> None:
     from tribo.cli.tables import print_report
     from tribo.config.load import load_case
     from tribo.core.errors import CaseError
-    from tribo.core.files import write_whole, writing
+    from tribo.core.writing import make_folder, write_file, writing
     from tribo.observers.progress import Progress
     from tribo.plotting.figures import save_figures
     from tribo.simulation.run import Simulation
@@ -68,8 +68,8 @@ def demo(directory: Path, force: bool) -> None:
         for path in (case, output, followed):
             if path.exists() and not force:
                 raise CaseError(f"{path} exists; choose another folder with -d, or use --force")
-        directory.mkdir(parents=True, exist_ok=True)
-        write_whole(case, template("ball_on_disk"))
+    make_folder(directory)
+    write_file(case, template("ball_on_disk"))
     click.echo("One hour of a steel ball rubbing on a steel disk: 100 N, 25 Hz, 360 m.")
     averaged = Simulation(load_case(case))
     resolved = Simulation(load_case(case, overrides=RESOLVED))

@@ -54,7 +54,7 @@ def doctor(as_json: bool, time_limit: float | None) -> None:
     else:
         _print(found)
     bad = [check["name"] for check in checks if not check["ok"]]
-    bad += [str(r) for r in records if r.status in ("broken", "incompatible")]
+    bad += [str(r) for r in records if r.status in ("broken", "not ready", "incompatible")]
     bad += conflicts
     if bad:
         raise NumericalError(f"not well: {', '.join(bad)}")

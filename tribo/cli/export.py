@@ -28,7 +28,7 @@ def export(output: Path, directory: Path | None, name: str) -> None:
     Example:
       tribo export my.h5 -d csv
     """
-    from tribo.core.files import writing
+    from tribo.core.writing import writing
     from tribo.registry.registry import choose
     from tribo.result.export import export_csv
     from tribo.result.read import Result

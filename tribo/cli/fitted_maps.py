@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,7 @@ from rich.table import Table
 
 from tribo.cli.console import Console, titled
 from tribo.core.errors import CaseError
-from tribo.core.files import check_folder
+from tribo.core.writing import check_output, write_file
 from tribo.study.calibration.maps import SILENT, FittedMaps, LocalMap
 from tribo.study.calibration.quantities import p_words
 
@@ -130,7 +131,7 @@ def check_free(output: Path | None, force: bool) -> None:
         raise CaseError(f"{output}: maps are written as a NumPy archive; name it {output.stem}.npz")
     if output.exists() and not force:
         raise CaseError(f"{output} exists; choose another name, or replace it with --force")
-    check_folder(output)
+    check_output(output)
 
 
 def write_maps(found: FittedMaps, level: float, output: Path) -> None:
@@ -141,7 +142,9 @@ def write_maps(found: FittedMaps, level: float, output: Path) -> None:
     for name, each in found.maps.items():
         arrays |= {f"{name}_{key}": value for key, value in _arrays(each, level).items()}
     pictures = {f"{output.stem}-{name}": draw for name, draw in map_pictures(found, level).items()}
-    np.savez_compressed(output, **arrays)
+    image = BytesIO()
+    np.savez_compressed(image, **arrays)
+    write_file(output, image.getbuffer())
     click.echo(f"Wrote {output}")
     for path in write_figures(pictures, output.parent):
         click.echo(f"Wrote {path}")

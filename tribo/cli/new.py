@@ -36,7 +36,7 @@ def new(name: str | None, file: Path | None, force: bool) -> None:
     if name is None:
         raise click.UsageError(f"Missing argument 'TEMPLATE'. Templates:\n{_LISTED}")
     from tribo.core.errors import CaseError
-    from tribo.core.files import write_whole, writing
+    from tribo.core.writing import write_file, writing
     from tribo.registry.registry import choose
 
     plugged = None if name in TEMPLATES else choose(HOOK, name, "template", TEMPLATES)
@@ -49,7 +49,7 @@ def new(name: str | None, file: Path | None, force: bool) -> None:
     with writing(file):
         if file.exists() and not force:
             raise CaseError(f"{file} exists; choose another name, or replace it with --force")
-        write_whole(file, text)
+    write_file(file, text)
     click.echo(f"Wrote {file}; look it over, then: {_next(text, file)}")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,8 +11,8 @@ import click
 
 from tribo.cli.options import JSON, PATH, echo_json
 from tribo.core.errors import CaseError, located
-from tribo.core.files import check_folder, writing
 from tribo.core.words import digits_of, signed
+from tribo.core.writing import check_output, write_file
 
 if TYPE_CHECKING:
     from tribo.lab.measured_scar import MeasuredScar
@@ -78,7 +79,7 @@ def scar(
         if str(path) in UNITS and not path.exists():
             raise CaseError(f"'{path}' is no file: quote a length, as --radius '5 {path}'")
     for path in output:
-        check_folder(path)
+        check_output(path)
         if path.resolve() in {each.resolve() for each in files}:
             raise CaseError(f"{path} is a measured map; give another name", "--output")
         if path.suffix.lower() != DEPTHS:
@@ -133,9 +134,9 @@ def _write(found: MeasuredScar, path: Path, shape: tuple[int, ...]) -> Path:
         # The middle of the map stays where it is, which is that of the contact in a fit.
         depths = np.full(shape, np.nan)
         depths[found.registration.part] = found.depths
-        # To a file, as NumPy adds .npy to a name that ends in .NPY.
-        with writing(path), path.open("wb") as file:
-            np.save(file, depths)
+        image = BytesIO()
+        np.save(image, depths)
+        write_file(path, image.getbuffer())
         return path
     from tribo.plotting.figures import write_figures
     from tribo.plotting.scar import measured_scar_map

@@ -1,11 +1,9 @@
-"""Files written whole, and errors of the file system in one message."""
+"""Tables of numbers in files."""
 
 from __future__ import annotations
 
-import os
 import re
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, OutputError
 from tribo.core.units import number
 
 HDF5 = (".h5", ".hdf5")
@@ -22,61 +19,6 @@ MOST_PIXELS = 2**26
 copies."""
 _SEPARATED = re.compile(r"\d[;\s]+[-+.\d]")
 """Numbers of a text that are separated by something else than commas."""
-
-
-@contextmanager
-def writing(place: Path) -> Iterator[None]:
-    """Turn an error of the file system into an `OutputError` that names a file or folder."""
-    try:
-        yield
-    except OSError as error:
-        raise OutputError(f"cannot write to {place}: {error.strerror or error}") from error
-
-
-def check_folder(path: Path) -> None:
-    """Raise `CaseError` if the folder of a file to write is not there."""
-    if not os.path.isdir(path.parent):
-        raise CaseError(f"there is no folder {path.parent}; make it first")
-
-
-def write_whole(path: Path, text: str) -> None:
-    """Write a text file so that whoever reads it finds the old text or the new, never a part."""
-    with writing(path):
-        replace_file(path, text.encode())
-
-
-def replace_file(
-    path: Path, *parts: bytes | memoryview, fresh: Path | None = None, sync: bool = False
-) -> None:
-    """Replace a file by `parts`, whole or not at all.
-
-    It is written to `fresh` in the meantime, in the same file system, or beside `path`. With `sync`
-    the new file would survive a power failure once this returns.
-    """
-    fresh = fresh or path.with_name(path.name + ".new")
-    try:
-        with fresh.open("wb") as file:
-            file.writelines(parts)
-        if sync:
-            wait_for_disk(fresh)
-        fresh.replace(path)
-        if sync:
-            wait_for_disk(path.parent)
-    except BaseException:
-        fresh.unlink(missing_ok=True)
-        raise
-
-
-def wait_for_disk(path: Path) -> None:
-    """Wait until a file, or the names in a folder, would survive a power failure."""
-    if os.name == "nt" and path.is_dir():
-        # Windows opens no folder; its file system has a journal of names.
-        return
-    opened = os.open(path, os.O_RDONLY if os.name != "nt" else os.O_RDWR)
-    try:
-        os.fsync(opened)
-    finally:
-        os.close(opened)
 
 
 def read_numbers(file: Path) -> Array:

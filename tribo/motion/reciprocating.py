@@ -50,9 +50,9 @@ class Reciprocating(Kinematics):
     The track average is the paper's model, and makes a groove too deep at mid-stroke. One as deep
     as the elastic approach is 4 % too deep where S is 10 half-widths of the contact and 12 % where
     it is 4; one several times deeper, twice as much, where both bodies wear alike (see
-    `tribo.motion.averaging`). Resolved into `positions`, as a run does by itself where the average
-    would cost 1 %, it holds for any stroke of two cells and more, gross slip in fretting among
-    them.
+    `tribo.motion.averaging`). Resolved into `positions`, as a run does by itself where the stroke
+    is shorter than 20 lengths of the first contact, it holds for any stroke of two cells and more,
+    gross slip in fretting among them.
     """
 
     model_config = ConfigDict(
@@ -81,7 +81,7 @@ class Reciprocating(Kinematics):
     positions: Annotated[int, Field(ge=3)] | Literal["cells", "average", "auto"] = "auto"
     """In how many positions of a cycle the contact is solved, an odd number, or ``"cells"`` for
     every cell of the stroke; ``"average"`` takes the track average for all of them. ``"auto"`` is
-    as many as are needed, or the average where that costs under 1 % of the depth; the motion itself
+    as many as are needed, or the average from 20 lengths of the first contact on; the motion itself
     takes the average until a case is composed with it."""
     swept: str | None = None
     """Name of the body whose points pass through the contact; the last body if left out."""
@@ -245,8 +245,7 @@ class Reciprocating(Kinematics):
             f"mid-stroke, because tribo averages over the stroke ({1e3 * stroke:.3g} mm, {many} of "
             f"the {2e3 * half_width_x:.3g} mm contact); over the same sliding distance about "
             f"{100 * GOOD:.0f} % with a stroke of {1e3 * longer:.2g} mm and {stroke / longer:.2g} "
-            "times the frequency; or resolve the stroke: "
-            'kinematics.positions = "auto"'
+            "times the frequency; or resolve the stroke by a number of kinematics.positions"
         )
 
     def check_contact(self, half_width_x: float) -> None:

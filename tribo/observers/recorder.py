@@ -15,7 +15,6 @@ from typing import Any
 from pydantic import PrivateAttr
 
 from tribo.core.errors import CaseError, OutputError, TriboWarning
-from tribo.core.files import writing
 from tribo.core.measures import Measures
 from tribo.core.notices import worn_through
 from tribo.core.state import RunInfo, Snapshot, State
@@ -71,9 +70,8 @@ class Recorder(Observer):
         folder = self._folder
         assert folder is not None
         if folder.path.is_dir():
-            with writing(folder.path):
-                # What a run that goes on has saved changes as it is read.
-                folder.lock()
+            # What a run that goes on has saved changes as it is read.
+            folder.lock()
         try:
             kept, damage = folder.read_checkpoint(case)
             if damage:
@@ -217,16 +215,16 @@ class Recorder(Observer):
 
     def _write(self, image: BytesIO) -> None:
         assert self._folder is not None
-        fresh = self._folder.path / "result.new"
-        write_sealed(self._folder.result, image.getbuffer(), fresh=fresh, sync=True)
+        write_sealed(self._folder.result, image.getbuffer(), through=self._folder.path)
 
     @contextmanager
     def _writing(self) -> Iterator[None]:
         try:
             yield
-        except (OSError, RuntimeError) as error:
-            reason = getattr(error, "strerror", None) or error
-            remedy = "" if isinstance(error, PermissionError) else "free space or "
+        except (OutputError, OSError, RuntimeError) as error:
+            cause = error.__cause__ or error
+            reason = getattr(cause, "strerror", None) or cause
+            remedy = "" if isinstance(cause, PermissionError) else "free space or "
             raise OutputError(
                 f"cannot write {self.path}: {reason}; {remedy}choose another place with "
                 "-o; the last checkpoint is intact"

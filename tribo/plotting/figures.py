@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.figure import Figure
 
 from tribo.core.errors import CaseError
-from tribo.core.files import writing
+from tribo.core.writing import make_folder, write_file
 from tribo.lab.running_in import reliefs, rough_bodies
 from tribo.plotting.history import (
     contact_history,
@@ -80,14 +81,13 @@ def write_figures(
 ) -> list[Path]:
     """Draw pictures and write them to files of their names; see `save_figures`."""
     suffix, paths = picture_format(suffix), []
-    with writing(folder):
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, draw in pictures.items():
-            path = folder / f"{name}.{suffix}"
-            with house_style():
-                figure = draw()
-                figure.savefig(path, metadata=_METADATA.get(suffix))
-            paths.append(path)
+    make_folder(folder)
+    for name, draw in pictures.items():
+        image = BytesIO()
+        with house_style():
+            draw().savefig(image, format=suffix, metadata=_METADATA.get(suffix))
+        paths.append(folder / f"{name}.{suffix}")
+        write_file(paths[-1], image.getbuffer())
     return paths
 
 

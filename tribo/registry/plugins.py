@@ -22,7 +22,9 @@ from tribo.registry.kinds import Classes
 DISABLED = "TRIBO_DISABLE_PLUGINS"
 ONLY = "TRIBO_PLUGINS"
 
-Status = Literal["available", "loaded", "disabled", "broken", "incompatible", "conflict"]
+Status = Literal[
+    "available", "loaded", "disabled", "broken", "not ready", "incompatible", "conflict"
+]
 
 
 @dataclass(eq=False)
@@ -31,11 +33,12 @@ class Plugin:
 
     It came with a version of a distribution, or none, and lies in the module `entry_point`. Its
     status is ``available`` (not imported yet), ``loaded``, ``disabled`` by the user, ``broken`` (it
-    raised, or breaks the contract of plugins) or ``incompatible`` (a requirement of its
-    distribution is not met), the `reason` why it cannot be used; in lists, a name that two plugins
-    declare is in ``conflict``. `names` are those that its entry points declare, `classes` the
-    components by name once `load`, which returns the object that carries the hooks, has imported
-    it.
+    raised, or breaks the contract of plugins), ``not ready`` (its import in a process of its own,
+    or a thread that this left running, did not end in time) or ``incompatible`` (a requirement of
+    its distribution is not met), the `reason` why it cannot be used; in lists, a name that two
+    plugins declare is in ``conflict``. `names` are those that its entry points declare, `classes`
+    the components by name once `load`, which returns the object that carries the hooks, has
+    imported it.
     """
 
     distribution: str

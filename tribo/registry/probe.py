@@ -22,8 +22,9 @@ LIMIT = "TRIBO_PLUGIN_TIME_LIMIT"
 def probe(plugin: Plugin, time_limit: float | None = None) -> Plugin:
     """Return the record of an installed plugin after its import in a child process.
 
-    It may take `time_limit` seconds; those of the environment variable TRIBO_PLUGIN_TIME_LIMIT, or
-    20, if left out. A plugin that is not ``available`` is returned unchanged.
+    It is ``not ready`` after `time_limit` seconds; those of the environment variable
+    TRIBO_PLUGIN_TIME_LIMIT, or 20, if left out. A plugin that is not ``available`` is returned
+    unchanged.
     """
     if plugin.status != "available":
         return plugin
@@ -46,7 +47,8 @@ def probe(plugin: Plugin, time_limit: float | None = None) -> Plugin:
             answer.seek(0)
             return replace(plugin, **json.load(answer))
         except subprocess.TimeoutExpired:
-            reason = f"its import did not end, or left a thread running, within {limit:g} s"
+            reason = f"within {limit:g} s (busy machine? {LIMIT}={3 * limit:g})"
+            return replace(plugin, status="not ready", reason=reason)
         except ValueError:
             reason = f"its import {how_it_ended(child.returncode)}"
     return replace(plugin, status="broken", reason=reason)

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tribo.core.errors import CaseError
-from tribo.core.files import write_whole
+from tribo.core.writing import write_file
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -90,4 +90,4 @@ def write_page(page: str, path: Path) -> None:
     """Write a report, and see that it is as small as promised."""
     if len(page.encode()) > LARGEST:
         raise CaseError(f"{path} would have more than {LARGEST / 1e6:g} MB")
-    write_whole(path, page)
+    write_file(path, page)

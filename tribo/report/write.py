@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tribo.core.errors import CaseError
-from tribo.core.files import check_folder
+from tribo.core.writing import check_output
 from tribo.report.calibration import calibration_file_page, calibration_page
 from tribo.report.comparison import comparison_page, readable
 from tribo.report.page import write_page
@@ -63,7 +63,7 @@ def write_report(
     >>> tribo.write_report(["winkler.h5", "dcfft.h5"], "report.html")  # doctest: +SKIP
     """
     path = Path(path)
-    check_folder(path)
+    check_output(path)
     write_page(_page(what, None if verified is None else Path(verified)), path)
     return path
 

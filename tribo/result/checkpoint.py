@@ -9,7 +9,7 @@ checkpoint before the newest is kept for the case that the newest is damaged.
 from __future__ import annotations
 
 import json
-import shutil
+import re
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
@@ -23,16 +23,19 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution, Residuals
-from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.errors import CaseError, TriboError, TriboWarning
 from tribo.core.fields import WearRate
 from tribo.core.locks import BusyError, lock
 from tribo.core.measures import Invariants
 from tribo.core.notices import Notice
 from tribo.core.state import BodyState, State
+from tribo.core.writing import make_folder, move, open_lock, remove, remove_empty, writing
 from tribo.result.layout import Rows
 from tribo.result.sealed import open_sealed, write_sealed
 
 _ARRAY = "array number"
+_OWN = re.compile(r"lock|checkpoint(\.previous)?|\d{6,}\.part|tribo-[0-9a-f]{16}\.new")
+"""Names of the files that a run makes."""
 
 
 @dataclass(frozen=True)
@@ -62,10 +65,21 @@ class RunFolder:
         self._lock: IO[bytes] | None = None
 
     def lock(self) -> None:
-        """Make the folder, and keep other processes from writing; CaseError if one is."""
-        self.path.mkdir(exist_ok=True)
+        """Make the folder, and keep other processes from writing.
+
+        `CaseError` if one is, or what has the folder's name was not made by a run.
+        """
+        make_folder(self.path)
+        with writing(self.path):
+            names = {path.name for path in self.path.iterdir()}
+        own = not names or ("lock" in names and all(map(_OWN.fullmatch, names)))
+        if self.path.is_symlink() or not own:
+            raise CaseError(
+                f"{self.path} was not made by tribo, which needs the name while it runs; rename "
+                "it, or choose another place for the result with -o"
+            )
         place = self.path / "lock"
-        self._lock = place.open("ab")
+        self._lock = open_lock(place)
         busy = CaseError(f"{self.result} is in use: another process is writing it")
         try:
             if not lock(self._lock.fileno()):
@@ -83,6 +97,8 @@ class RunFolder:
             # The run that held it has just ended and taken the folder with it.
             self.unlock()
             raise busy
+        # What a process was writing that was killed.
+        remove(*self.path.glob("*.new"))
 
     def unlock(self) -> None:
         """Let other processes write the result."""
@@ -101,15 +117,25 @@ class RunFolder:
 
     def clear(self) -> None:
         """Remove the checkpoints and the parts."""
-        for path in (self.checkpoint, self.previous, *self.path.glob("*.part")):
-            path.unlink(missing_ok=True)
+        own = (path for path in self.path.iterdir() if _OWN.fullmatch(path.name))
+        remove(*(path for path in sorted(own) if path.name != "lock"))
 
     def remove(self) -> None:
         """Remove the folder of a run that is done, and end the lock."""
-        shutil.rmtree(self.path, ignore_errors=True)
+        with suppress(TriboError):
+            self.clear()
+        try:
+            self._remove_lock()
+        except TriboError:
+            # An open file cannot be removed everywhere.
+            self.unlock()
+            with suppress(TriboError):
+                self._remove_lock()
         self.unlock()
-        # An open file cannot be removed everywhere.
-        shutil.rmtree(self.path, ignore_errors=True)
+
+    def _remove_lock(self) -> None:
+        remove(self.path / "lock")
+        remove_empty(self.path)
 
     def parts(self, count: int) -> Iterator[Rows]:
         """Read the first parts, one after the other."""
@@ -125,13 +151,13 @@ class RunFolder:
 
     def write_checkpoint(self, checkpoint: Checkpoint) -> None:
         """Write a checkpoint, after its parts are written, and keep the one before."""
-        with suppress(FileNotFoundError):
-            self.checkpoint.replace(self.previous)
+        if self.checkpoint.exists():
+            move(self.checkpoint, self.previous)
         _store(self.checkpoint, checkpoint)
 
     def drop_newest(self) -> None:
         """Put the checkpoint before in the place of the newest."""
-        self.previous.replace(self.checkpoint)
+        move(self.previous, self.checkpoint)
 
     def read_checkpoint(self, case: Mapping[str, object]) -> tuple[Checkpoint, str]:
         """Return the newest sound checkpoint of a case, and what is damaged of a newer one.
@@ -194,7 +220,7 @@ def _store(path: Path, data: object) -> None:
     text = json.dumps(data, default=plain)
     image = BytesIO()
     np.savez(image, np.frombuffer(text.encode(), np.uint8), *arrays)
-    write_sealed(path, image.getbuffer(), sync=True)
+    write_sealed(path, image.getbuffer())
 
 
 def _load(path: Path) -> dict[str, Any]:

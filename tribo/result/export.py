@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.core.files import writing
+from tribo.core.writing import make_folder, write_file
 from tribo.result.columns import labelled
 from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
@@ -23,15 +23,13 @@ def export_csv(result: Result, folder: Path) -> list[Path]:
         "profiles_y": _profiles(result, 1),
     }
     paths = [folder / f"{name}.csv" for name in tables]
-    with writing(folder):
-        folder.mkdir(parents=True, exist_ok=True)
-        for path, table in zip(paths, tables.values(), strict=True):
-            # Slow to import, and needed here only.
-            import pandas as pd
+    make_folder(folder)
+    for path, table in zip(paths, tables.values(), strict=True):
+        # Slow to import, and needed here only.
+        import pandas as pd
 
-            pd.DataFrame(table, dtype=float).to_csv(
-                path, index=False, na_rep="nan", lineterminator="\r\n"
-            )
+        rows = pd.DataFrame(table, dtype=float)
+        write_file(path, rows.to_csv(index=False, na_rep="nan", lineterminator="\r\n"))
     return paths
 
 

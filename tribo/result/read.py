@@ -123,10 +123,10 @@ class Result:
 
         Raises
         ------
-        OSError
+        OutputError
             If it cannot be written.
         """
-        write_sealed(Path(path), self.image().getbuffer(), sync=True)
+        write_sealed(Path(path), self.image().getbuffer())
 
     def image(self) -> BytesIO:
         """Return a copy of the file, in memory."""

@@ -12,18 +12,16 @@ from pathlib import Path
 from typing import BinaryIO
 
 from tribo.core.errors import CaseError
-from tribo.core.files import replace_file
+from tribo.core.writing import write_file
 
 _MARK = b"tribo\0\0\2"
 _LENGTH = len(_MARK) + 32
 _BLOCK = 1 << 20
 
 
-def write_sealed(
-    path: Path, data: bytes | memoryview, *, fresh: Path | None = None, sync: bool
-) -> None:
-    """Replace a file by `data` and a checksum; see `tribo.core.files.replace_file`."""
-    replace_file(path, data, _MARK + sha256(data).digest(), fresh=fresh, sync=sync)
+def write_sealed(path: Path, data: bytes | memoryview, through: Path | None = None) -> None:
+    """Replace a file by `data` and a checksum; see `tribo.core.writing.write_file`."""
+    write_file(path, data, _MARK + sha256(data).digest(), through=through)
 
 
 def open_sealed(path: Path) -> BinaryIO:

@@ -8,8 +8,8 @@ from pathlib import Path
 from string import Template
 
 from tribo.core.errors import CaseError
-from tribo.core.files import check_folder, writing
 from tribo.core.words import did_you_mean, suggestion
+from tribo.core.writing import check_output, make_folder, write_file, writing
 from tribo.registry.kinds import KINDS
 from tribo.scaffold.names import plugin_names
 
@@ -64,10 +64,10 @@ def write_plugin(name: str, kind: str, folder: Path) -> list[Path]:
     with writing(folder):
         if folder.exists():
             raise CaseError(f"{folder} exists; give another folder, or take it away first")
-        check_folder(folder)
-        for file, text in texts.items():
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(text, encoding="utf-8")
+    check_output(folder)
+    for file, text in texts.items():
+        make_folder(file.parent)
+        write_file(file, text)
     return sorted(texts)
 
 

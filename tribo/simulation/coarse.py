@@ -23,6 +23,16 @@ def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) 
     largest = max(case.grid.size)
     nx, ny = (max(8, 2 * round(0.5 * cells * size / largest)) for size in case.grid.size)
     lx, ly = (margin * size for size in case.grid.size)
+    grid = Grid((lx, ly), (nx, ny), ends_at_window=True)
+    motion = case.kinematics.coarsened(half_width_x)
+    cycle = motion.cycle(as_it_repeats(grid, case.contact))
+    load = case.load.averaged() if len(cycle) == 1 else case.load
+    changes = {"kinematics": motion, "load": load.thinned(), "stepping": LOOSE, "begin": None}
+    return assemble(varied(smoothed(case), grid=grid, output=Output(), **changes))
+
+
+def smoothed(case: Case) -> Case:
+    """Return a case without the relief of its surfaces and of its wear laws."""
     bodies = {
         name: body.model_copy(
             update={
@@ -38,9 +48,4 @@ def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) 
         )
         for name, body in case.bodies.items()
     }
-    grid = Grid((lx, ly), (nx, ny), ends_at_window=True)
-    motion = case.kinematics.coarsened(half_width_x)
-    cycle = motion.cycle(as_it_repeats(grid, case.contact))
-    load = case.load.averaged() if len(cycle) == 1 else case.load
-    changes = {"kinematics": motion, "load": load.thinned(), "stepping": LOOSE, "begin": None}
-    return assemble(varied(case, grid=grid, bodies=bodies, output=Output(), **changes))
+    return case.model_copy(update={"bodies": bodies})

@@ -15,6 +15,7 @@ from tribo.component import Component
 from tribo.core.arrays import Array
 from tribo.core.errors import BadValues, NumericalError, PluginError, TriboError
 from tribo.core.words import said
+from tribo.simulation.trial_time import check_time
 
 REAL = "fiub"
 """Kinds of a dtype that are real numbers."""
@@ -40,6 +41,7 @@ class Guard(Generic[C]):
 
     def ask(self, method: Callable[P, T], *given: P.args, **named: P.kwargs) -> T:
         """Call a method of the component; what nobody expects becomes a `PluginError`."""
+        check_time()
         try:
             return method(*given, **named)
         except (KeyboardInterrupt, PluginError):

@@ -11,7 +11,7 @@ import numpy as np
 
 from tribo.component import components
 from tribo.core.contact import ContactSystem
-from tribo.core.errors import CaseError, NumericalError, PluginError
+from tribo.core.errors import CaseError, NumericalError, OverTime, PluginError, TriboError
 from tribo.core.measures import Measures
 from tribo.core.notices import worn_through
 from tribo.core.state import State
@@ -26,6 +26,7 @@ from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed, size_of_fields
 from tribo.simulation.model import Model
+from tribo.simulation.trial_time import limited
 from tribo.simulation.validity import (
     broken_period,
     check_stroke,
@@ -44,8 +45,6 @@ LONGER, FINER, SHARED = 6.5, 0.25, 0.7
 
 Ten templates and the resolved hour take 0.6 to 1.5 times what this says.
 """
-PATIENCE, LITTLE = 1000, 0.01
-"""Steps after which a trial is given up that has slid no more than such a part of the path."""
 BARE_FILE = 1e6
 
 
@@ -96,7 +95,7 @@ class CoarseRun:
     outgrown: float | None = None
     limitation: str | None = None
     worn_through: tuple[Mapping[str, Any], ...] = ()
-    error: CaseError | NumericalError | None = None
+    error: TriboError | None = None
     on_any_cells: bool = False
     run_time: float | None = None
 
@@ -109,7 +108,11 @@ def predict(model: Model) -> Prediction:
     first = measure(model, state)
     hertz = None if model.case.begin else hertz_contact(model.system)
     dx, dy = model.grid.spacing
-    coarse = _coarse_run(model, first)
+    try:
+        with limited():
+            coarse = _coarse_run(model, first)
+    except OverTime as error:
+        coarse = CoarseRun(None, error=error)
     last = coarse.last
     holds = None if last is None else _inside(model, last) or model.may_reach_edge
     across = None if hertz is None else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
@@ -184,16 +187,14 @@ def _stopping(
 def _worn(model: Model, coarse: Model, state: State) -> tuple[State, float | None]:
     """Return the end of a coarse run, and when its contact outgrew the window of `model`, in s."""
     outgrown = None
-    for steps, accepted in enumerate(march(coarse, state), start=1):
-        state = accepted.state
-        if steps >= PATIENCE and state.distance < LITTLE * coarse.end_distance:
-            raise NumericalError(
-                f"its steps are too short: {steps} of them slid {state.distance:.3g} of "
-                f"{coarse.end_distance:.4g} m; find what changes so fast: a wear law, or what "
-                "fills the gap"
-            )
-        if outgrown is None and not _inside(model, measure(coarse, state)):
-            outgrown = state.time
+    try:
+        for accepted in march(coarse, state):
+            state = accepted.state
+            if outgrown is None and not _inside(model, measure(coarse, state)):
+                outgrown = state.time
+    except OverTime as error:
+        slid = f"{state.steps} steps slid {state.distance:.3g} of {coarse.end_distance:.4g} m"
+        raise OverTime(f"{error}, in which {slid}") from None
     return state, outgrown
 
 

@@ -15,9 +15,9 @@ from tribo.case import Case
 from tribo.component import components as named
 from tribo.config.load import load_case, validate_case
 from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
-from tribo.core.files import check_folder, writing
 from tribo.core.notices import Notice
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
+from tribo.core.writing import check_output
 from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
 from tribo.registry.plugins import Plugin
@@ -175,8 +175,7 @@ class Simulation:
                 told = f", with other components: {listed}" if changes else ""
                 raise CaseError(f"{path} is done{told}; there is nothing to resume")
             # It was killed just as it ended.
-            with writing(folder.path):
-                folder.lock()
+            folder.lock()
             folder.remove()
             return partial(Result.open, path)
         if changes and not allow_changed:
@@ -356,10 +355,5 @@ def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
             f"{path} {_held(path)}; choose another with -o, or replace it with --force (in Python "
             "overwrite=True)"
         )
-    if os.path.exists(path) and not os.path.isfile(path):
-        raise CaseError(
-            f"{path} is not a file that could be replaced; give a file name, as "
-            f"{path.with_name('result.h5')}"
-        )
-    check_folder(path)
+    check_output(path)
     return path

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from tribo.case import Case
 from tribo.core.errors import CaseError, TriboWarning, about
-from tribo.core.files import writing
+from tribo.core.writing import make_folder
 from tribo.observers.observer import Observer
 from tribo.registry.registry import Registry
 from tribo.result.read import Result
@@ -87,8 +87,7 @@ def run_variants(
         paths = {label: folder / name for label, name in zip(cases, names, strict=True)}
         if not overwrite:
             _check_own(folder, dict(zip(names, simulations.values(), strict=True)))
-        with writing(folder):
-            folder.mkdir(parents=True, exist_ok=True)
+        make_folder(folder)
     results = []
     for number, (label, simulation) in enumerate(simulations.items(), start=1):
         path = paths[label]

@@ -7,9 +7,10 @@ from typing import Literal
 
 import numpy as np
 
-from tribo.core.errors import CaseError, NumericalError
+from tribo.core.errors import CaseError, NumericalError, OverTime
 from tribo.simulation.coarse import MARGINS, coarsened
 from tribo.simulation.model import Model
+from tribo.simulation.trial_time import limited
 from tribo.study.gradient.gradient import gradient
 from tribo.study.gradient.objective import Deepest, EndTime, Seeds, View
 
@@ -75,7 +76,7 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
     CaseError
         If there is no gradient through the case, or nothing wears.
     NumericalError
-        If the run on a coarse grid fails.
+        If the run on a coarse grid fails, or takes over 30 s.
     """
     if not model.contact.accepts_wear_compliance:
         raise CaseError(
@@ -93,9 +94,12 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
         (2 * CELLS, 1.0, resolved),
     ):
         try:
-            return _of_two(
-                *(coarsened(model.case, n, margin, half_width) for n in (cells, 2 * cells))
-            )
+            with limited():
+                return _of_two(
+                    *(coarsened(model.case, n, margin, half_width) for n in (cells, 2 * cells))
+                )
+        except OverTime as error:
+            raise NumericalError(str(error)) from None
         except (CaseError, NumericalError) as error:
             failed = failed or error
     assert failed is not None

@@ -15,6 +15,7 @@ from concurrent.futures import (
 from pathlib import Path
 
 from tribo.core.errors import Interrupted, OutputError
+from tribo.core.writing import remove, write_file
 from tribo.simulation.interrupt import interrupts_held
 from tribo.study.sweeping.runs_table import Run
 from tribo.study.sweeping.worker import carry_out
@@ -66,11 +67,11 @@ def carry(
             done, _ = wait(futures, TICK, FIRST_COMPLETED)
             if requested.is_set():
                 # Cancelling would lose track of runs that dask has started.
-                stop.touch()
+                write_file(stop)
                 try:
                     wait(futures, patience)
                 finally:
-                    stop.unlink(missing_ok=True)
+                    remove(stop)
                 raise Interrupted("stopped; the same command goes on")
             for future in done:
                 run = futures.pop(future)

@@ -14,8 +14,8 @@ from typing import Any
 import pandas
 
 from tribo.core.errors import CaseError
-from tribo.core.files import write_whole, writing
 from tribo.core.locks import BusyError
+from tribo.core.writing import make_folder, remove, write_file, writing
 from tribo.result.checkpoint import fingerprint
 from tribo.simulation.run import Simulation
 from tribo.study.runs import is_done
@@ -123,9 +123,8 @@ def sweep(
         names = {run.path.name for run in runs}
         before = {} if retry else failed_before(folder / RUNS)
         failures = {name: why for name, why in before.items() if name in names}
-        for name in (RUNS, SAVES):
-            # A table must agree with the results, so there is none while they change.
-            (folder / name).unlink(missing_ok=True)
+        # A table must agree with the results, so there is none while they change.
+        remove(folder / RUNS, folder / SAVES)
         left = [
             run
             for run in runs
@@ -149,7 +148,7 @@ def sweep(
             table, saves = tables(runs, paths, failures)
             for name, rows in ((RUNS, table), (SAVES, saves)):
                 full = rows.dropna(axis=1, how="all") if len(rows) else rows
-                write_whole(folder / name, full.to_csv(index=False))
+                write_file(folder / name, full.to_csv(index=False))
     return Sweep(folder, tuple(runs), table)
 
 
@@ -170,11 +169,11 @@ def _holding(folder: Path) -> Iterator[None]:
     """Create the folder, and lock it against other sweeps."""
     try:
         with writing(folder):
-            (folder / "results").mkdir(parents=True, exist_ok=True)
+            make_folder(folder / "results")
             # This raises if the folder cannot be entered.
             os.listdir(folder / "results")
             with locked(folder / LOCK):
-                (folder / STOP).unlink(missing_ok=True)
+                remove(folder / STOP)
                 yield
     except BusyError:
         raise CaseError(

@@ -11,9 +11,10 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
+from tribo.core.errors import CaseError, Interrupted, OutputError, TriboError, TriboWarning
 from tribo.core.locks import BusyError, lock
 from tribo.core.state import Snapshot
+from tribo.core.writing import open_lock, remove
 from tribo.observers.observer import Observer
 from tribo.simulation.run import Simulation
 from tribo.study.runs import complete, is_done
@@ -51,10 +52,10 @@ def locked(path: Path) -> Iterator[None]:
     ------
     BusyError
         If another process or thread holds it, or has just released it.
-    OSError
+    OutputError
         If the file cannot be made.
     """
-    with path.open("ab") as file:
+    with open_lock(path) as file:
         if not lock(file.fileno()):
             warnings.warn(
                 f"{path}: its file system has no locks, so nothing stops another sweep from "
@@ -73,8 +74,8 @@ def locked(path: Path) -> Iterator[None]:
             yield
         finally:
             # Windows cannot remove an open file.
-            with suppress(PermissionError):
-                path.unlink(missing_ok=True)
+            with suppress(OutputError):
+                remove(path)
 
 
 def _composed(case: dict[str, Any]) -> Simulation:

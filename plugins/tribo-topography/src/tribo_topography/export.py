@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 from tribo import Result
+from tribo.core.writing import make_folder, write_file
 
 HEADER = "Lateral units: m\nValue units: m"
 
@@ -22,11 +24,13 @@ def export_xyz(result: Result, folder: Path) -> list[Path]:
         NAME.xyz of each body NAME.
     """
     x, y = np.broadcast_arrays(*result.grid.mesh)
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
     paths = []
     for name in result.body_names:
         path = folder / f"{name}.xyz"
         points = np.stack([x, y, result.body(name).surface(-1)], axis=-1).reshape(-1, 3)
-        np.savetxt(path, points, fmt="%.9e", header=HEADER)
+        lines = BytesIO()
+        np.savetxt(lines, points, fmt="%.9e", header=HEADER)
+        write_file(path, lines.getbuffer())
         paths.append(path)
     return paths
