@@ -23,4 +23,4 @@ def curve() -> list[tuple[float, float, float, float]]:
 if __name__ == "__main__":
     print(f"{'speed, m/s':>10}{'Λ':>10}{'friction':>12}{'wear':>12}")
     for speed, ratio, coefficient, part in curve():
-        print(f"{speed:10.3g}{ratio:10.3g}{coefficient:12.3f}{part:12.3f}")
+        print(f"{speed:10.3g}{ratio:10.3g}{coefficient:12.3f}{part:12.3g}")

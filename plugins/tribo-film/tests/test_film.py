@@ -60,11 +60,43 @@ def test_it_grows_with_speed_and_falls_with_load_as_it_should():
     assert heavier / film == pytest.approx(2**-0.067)
 
 
-def test_what_the_film_carries_does_not_wear():
-    volume, force = lost(case())
+def summit_integral(apart):
+    """∫ (s − apart)^5/2 exp(−s²/2) ds from there on, by Gauss's rule in √(s − apart)."""
+    root, weight = np.polynomial.legendre.leggauss(80)
+    root, weight = 2 * (root + 1), 2 * weight
+    return float(np.sum(weight * 2 * root**6 * np.exp(-((apart + root**2) ** 2) / 2)))
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.3, 1.0, 2.0, 3.0, 4.0])
+def test_asperities_carry_their_pressure_at_the_thickness_of_the_film(ratio):
+    film = Mixed(**OIL, roughness=1e-7)
+    assert 1 - film.share(ratio) == pytest.approx(
+        summit_integral(ratio) / summit_integral(0.0), rel=1e-8, abs=0
+    )
+
+
+@pytest.mark.parametrize(("apart", "tabulated"), [(0.0, 0.6166), (1.0, 0.0806), (2.0, 0.00542)])
+def test_the_integral_is_the_one_tabulated_as_f_five_halves(apart, tabulated):
+    found = summit_integral(apart) / (2 * np.pi) ** 0.5
+    assert found == pytest.approx(tabulated, rel=1e-3)
+
+
+def test_at_three_roughnesses_asperities_carry_less_than_a_thousandth():
+    film = Mixed(**OIL, roughness=1e-7)
+    assert 0 < 1 - film.share(3.0) < 1e-3
+    assert 1 - film.model_copy(update={"sharing": "olver_spikes"}).share(3.0) == 1 / 16
+
+
+@pytest.mark.parametrize("sharing", ["asperities", "olver_spikes"])
+def test_what_the_film_carries_does_not_wear(sharing):
     ratio = central_film(5e-3, 100, 0.05, 0.1, 2e-8, MODULUS) / 1e-7
-    assert volume == pytest.approx(K * 100 * 2 / (1 + ratio) ** 2, rel=1e-8, abs=0)
-    assert force == pytest.approx(100 * (0.03 + 0.09 / (1 + ratio) ** 2))
+    left = {
+        "asperities": summit_integral(ratio) / summit_integral(0.0),
+        "olver_spikes": 1 / (1 + ratio) ** 2,
+    }[sharing]
+    volume, force = lost(case(sharing=sharing))
+    assert volume == pytest.approx(K * 100 * 2 * left, rel=1e-7, abs=0)
+    assert force == pytest.approx(100 * (0.03 + 0.09 * left))
 
 
 def test_without_viscosity_it_is_the_dry_case_to_the_bit():
@@ -104,4 +136,4 @@ def test_the_stribeck_curve_of_the_readme():
     assert friction[-1] == pytest.approx(0.03, rel=0.1)
     shown = (HERE.parent / "README.md").read_text()
     for speed, ratio, coefficient, part in curve:
-        assert f"{speed:10.3g}{ratio:10.3g}{coefficient:12.3f}{part:12.3f}" in shown
+        assert f"{speed:10.3g}{ratio:10.3g}{coefficient:12.3f}{part:12.3g}" in shown

@@ -1,11 +1,14 @@
 """The contact temperature of the paper's test, and what the effect refuses."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from pydantic import ValidationError
 from tribo import CaseError, ContactConditions, Grid, Material
 
 from tribo_thermal.flash import Flash
+from tribo_thermal.verification import moved_on, steady_cycle, to_and_fro
 
 STEEL = {"young": "207 GPa", "poisson": 0.3}
 HEAT = {"conductivity": "46 W/(m K)", "density": "7850 kg/m^3", "heat_capacity": "460 J/(kg K)"}
@@ -51,6 +54,22 @@ def test_the_papers_case_warms_as_computed_by_hand(radius, moving, resting, shar
     assert rises(where, heat_fraction=MOVING)["disk"] == pytest.approx(moving, abs=0.5)
     assert rises(where, heat_fraction=RESTING)["ball"] == pytest.approx(resting, abs=0.5)
     assert rises(where)["ball"] == pytest.approx(shared, abs=0.5)
+
+
+def test_to_and_fro_the_swept_body_alone_is_hotter_as_by_greens_function():
+    once = contact(WORN)
+    again = replace(once, track=2e-3, turns_back=True)
+    taken = {
+        name: rises(again, rise="mean", heat_fraction=part)[name]
+        / rises(once, rise="mean", heat_fraction=part)[name]
+        for name, part in (("disk", MOVING), ("ball", RESTING))
+    }
+    peclet = 0.1 * WORN * 7850 * 460 / (2 * 46)
+    needed = steady_cycle(to_and_fro, 2e-3 / WORN, peclet) / moved_on(peclet)
+    # Both of a Hertzian flux, of which the joined formula has its error.
+    assert taken["disk"] == pytest.approx(needed, rel=0.05)
+    assert needed > 1.6
+    assert taken["ball"] == 1
 
 
 def test_partition_is_bloks_and_gives_one_temperature():

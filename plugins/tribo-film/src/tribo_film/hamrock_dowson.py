@@ -42,4 +42,4 @@ def central_film(
     pressed = load / (stiffness * radius**2)
     round_contact = 1 - 0.61 * math.exp(-0.73)
     thickness = 2.69 * entrained**0.67 * (pressure_viscosity * stiffness) ** 0.53
-    return radius * thickness * pressed**-0.067 * round_contact
+    return float(radius * thickness * pressed**-0.067 * round_contact)

@@ -138,7 +138,7 @@ def kept_per_power(
     total = integral(older, last, FAR * max(last, length))
     if turns_back:
         total += integral(younger, 0.0, last)
-    return total / (math.pi**1.5 * radius * conductivity)
+    return float(total / (math.pi**1.5 * radius * conductivity))
 
 
 def source_radius(pressure: Array, cell_area: float, profile: Profile) -> float:
