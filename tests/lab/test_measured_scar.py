@@ -23,7 +23,6 @@ from tribo import (
 )
 from tribo.cli.scar import scar as command
 from tribo.lab import heights
-from tribo.lab.alignment import ORIENTATIONS
 from tribo.lab.registration import register
 from tribo.plotting.scar import measured_scar_map
 from tribo.registry.plugins import builtin
@@ -272,32 +271,6 @@ def test_whole_scars_and_tracks_are_not_cut_off(standard):
         for askew in (0, 0.1):
             maps = worn(lambda x, y, slope=askew: 1 - (y - slope * x) ** 2 / 15**2, turn=0.03)
             assert not measured_scar(*maps).cut_off
-
-
-@pytest.mark.parametrize("turn", ORIENTATIONS, ids=lambda turn: turn.words)
-def test_a_map_that_is_mirrored_or_turned_is_told(standard, turn):
-    before, after, *_ = standard
-    turned = turn.of(after.heights)
-    right = after.heights
-    (back,) = (t for t in ORIENTATIONS if np.array_equal(t.of(turned), right, equal_nan=True))
-    words = f"map after looks {back.words} against .*take heights"
-    with pytest.warns(TriboWarning, match=words) as seen:
-        register(before, Heights(turned, after.pitch))
-    told = re.search("take (heights.*) of it", str(seen[0].message))[1]
-    np.testing.assert_array_equal(eval(told, {"heights": turned}), after.heights)
-
-
-def test_smooth_maps_tell_no_orientation_but_swapped_shapes_may():
-    random = np.random.default_rng(5)
-    first, second = (
-        Heights(1e-8 * ndimage.gaussian_filter(random.normal(size=(96, 80)), 2), (PITCH, PITCH))
-        for _ in range(2)
-    )
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        register(first, second)
-    with pytest.warns(TriboWarning, match=r"before has 96 × 80 pixels, .*after 80 × 96.*swap them"):
-        register(first, Heights(second.heights.T, second.pitch))
 
 
 @pytest.mark.filterwarnings("ignore:.*in one gap")
