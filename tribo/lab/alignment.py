@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -13,7 +12,6 @@ import scipy.ndimage as ndimage
 from scipy.stats import median_abs_deviation
 
 from tribo.core.arrays import Array
-from tribo.core.errors import TriboWarning
 from tribo.lab.heights import Heights, nearest_filled, smoothed
 
 SAME = 1e-3
@@ -27,10 +25,6 @@ FINE = 4.0
 LARGEST_ROTATION = math.radians(3.0)
 SIGNIFICANT = 8.0
 """Correlation, in standard deviations, that is not chance."""
-ALIKE = 0.5
-"""Correlation below which a map may be mirrored or turned."""
-BETTER = 1.5
-"""Ratio of correlations from which on a map is mirrored or turned."""
 
 
 def same_pitch(one: Sequence[float], other: Sequence[float]) -> bool:
@@ -41,88 +35,20 @@ def same_pitch(one: Sequence[float], other: Sequence[float]) -> bool:
 class Alignment(NamedTuple):
     """How the map after lies on that before."""
 
-    correlation: float
-    """That of the overlap, times the root of its part of the map; 0 where it may be chance."""
     shift: Array
     """Of its middle from that of the map before, in m, shape (2,)."""
     rotation: float
     """Anticlockwise, in rad."""
 
 
-class Orientation(NamedTuple):
-    """How a map was saved that is not as the other is."""
-
-    words: str
-    swapped: bool
-    along: int
-    """−1 if its first axis runs the other way, after a swap; else 1."""
-    across: int
-
-    def of(self, heights: Array) -> Array:
-        """Return heights as they should have been saved."""
-        return (heights.T if self.swapped else heights)[:: self.along, :: self.across]
-
-    def __str__(self) -> str:
-        """Return what does so in NumPy, to be written after the name of an array."""
-        ends = {(1, 1): "", (-1, 1): "[::-1]", (1, -1): "[:, ::-1]", (-1, -1): "[::-1, ::-1]"}
-        return (".T" if self.swapped else "") + ends[self.along, self.across]
-
-
-ORIENTATIONS = (
-    Orientation("mirrored along x", False, -1, 1),
-    Orientation("mirrored along y", False, 1, -1),
-    Orientation("turned by 180°", False, -1, -1),
-    Orientation("to have its axes swapped", True, 1, 1),
-    Orientation("turned by 90°", True, -1, 1),
-    Orientation("turned by −90°", True, 1, -1),
-    Orientation("to have its axes swapped and mirrored", True, -1, -1),
-)
-
-
 def align(before: Heights, after: Heights) -> Alignment:
     """Return how the map after lies on that before, to about a pixel.
-
-    Warns if their relief is alike only with one of them mirrored or turned.
 
     References
     ----------
     Padfield, D. (2012), Masked object registration in the Fourier domain, IEEE Trans. Image
     Process. 21, 2706-2718.
     """
-    found = _cross_correlated(before, after)
-    if found.correlation < ALIKE:
-        _warn_of_orientation(before, after, found.correlation)
-    return found
-
-
-def _warn_of_orientation(before: Heights, after: Heights, correlation: float) -> None:
-    square = same_pitch(after.pitch, after.pitch[::-1])
-    correlations = {
-        each: _cross_correlated(before, Heights(each.of(after.heights), after.pitch), every=3)[0]
-        for each in ORIENTATIONS
-        if square or not each.swapped
-    }
-    best = max(correlations, key=lambda each: correlations[each])
-    shapes = before.heights.shape, after.heights.shape
-    words = ""
-    if correlations[best] > BETTER * correlation:
-        words = (
-            f"the map after looks {best.words} against that before: their relief correlates by "
-            f"{correlations[best]:.2f} then, and by {correlation:.2f} as it is; measure or save "
-            f"both alike, or take heights{best} of it in NumPy"
-        )
-    elif shapes[0] == shapes[1][::-1] != shapes[1]:
-        first, second = (" × ".join(map(str, shape)) for shape in shapes)
-        words = (
-            f"the map before has {first} pixels, that after {second}, and their relief does not "
-            "correlate; if the axes of one are swapped, swap them back"
-        )
-    if words:
-        warnings.warn(words, TriboWarning, stacklevel=5)
-
-
-def _cross_correlated(before: Heights, after: Heights, every: int = 1) -> Alignment:
-    """Return the alignment of the largest correlation, of every n-th rotation."""
     factor = max(1, math.ceil(max(*before.heights.shape, *after.heights.shape) / COARSE))
     (own, mask), (relief, there) = (_relief(m.heights, factor) for m in (before, after))
     shape = [scipy.fft.next_fast_len(n + m) for n, m in zip(own.shape, relief.shape, strict=True)]
@@ -131,7 +57,7 @@ def _cross_correlated(before: Heights, after: Heights, every: int = 1) -> Alignm
     most = math.ceil(LARGEST_ROTATION / step)
     area = max(float(np.sum(there)), 1.0)
     best = (SIGNIFICANT / math.sqrt(area), np.zeros(2), 0.0)
-    for steps in sorted(range(-(most // every) * every, most + 1, every), key=abs):
+    for steps in sorted(range(-most, most + 1), key=abs):
         angle = steps * step
         images = [_rotated(each, angle) for each in (own, mask)]
         first = [scipy.fft.rfft2(each, shape) for each in (*images, images[0] ** 2)]
@@ -147,9 +73,9 @@ def _cross_correlated(before: Heights, after: Heights, every: int = 1) -> Alignm
             lag = [k - n if k > n // 2 else k for k, n in zip(at, shape, strict=True)]
             off = np.array(lag) + 0.5 * (np.array(relief.shape) - own.shape)
             best = (float(score[at]), off, angle)
-    largest, shift, angle = best
+    _, shift, angle = best
     # The map before was rotated about its own middle.
-    return Alignment(largest, rotation(angle) @ shift * factor * np.array(after.pitch), angle)
+    return Alignment(rotation(angle) @ shift * factor * np.array(after.pitch), angle)
 
 
 def rotation(angle: float) -> Array:

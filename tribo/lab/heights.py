@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +22,11 @@ OTHER_PITCH = 1e-3
 FEWEST = 16
 BLUR = 2.0
 """Width of the Gaussian that maps are smoothed by, in pixels."""
+AROUND = 4.0
+"""Width of the Gaussian that weights the deviations around a pixel, in pixels."""
+OUTLIER = 10.0
+"""Mean deviations by which an outlier lies beyond its neighbours: without outliers 2 of 1.2 million
+pixels of `benchmarks/scar_coverage.py` do."""
 
 
 @dataclass(frozen=True)
@@ -75,11 +79,6 @@ class Heights:
                 "Heights and depths are in m, and NaN where nothing was measured: put NaN for fill "
                 "values, 1e-6 times the height for one in µm"
             )
-
-    @cached_property
-    def filled(self) -> Array:
-        """The heights, with missing ones interpolated."""
-        return interpolated(self.heights, np.isnan(self.heights))
 
     @property
     def grid(self) -> Grid:
@@ -154,6 +153,21 @@ def nearest_filled(heights: Array) -> Array:
     missing = np.isnan(heights)
     nearest = ndimage.distance_transform_edt(missing, return_distances=False, return_indices=True)
     return np.asarray(heights[tuple(nearest)])
+
+
+def outliers(heights: Array) -> Mask:
+    """Return the outliers of a map, single or in pairs.
+
+    An outlier lies above or below all but one of its eight neighbours by over `OUTLIER` times the
+    mean deviation of the pixels around it from the medians of 3 × 3 pixels.
+    """
+    missing, ring = np.isnan(heights), np.array([[1, 1, 1], [1, 0, 1], [1, 1, 1]])
+    whole = interpolated(heights, missing)
+    lower, upper = (ndimage.rank_filter(whole, rank, footprint=ring) for rank in (1, -2))
+    deviation = np.abs(whole - ndimage.median_filter(whole, 3))
+    around = smoothed(np.where(missing, np.nan, deviation), AROUND)
+    found: Mask = ~missing & (np.maximum(whole - upper, lower - whole) > OUTLIER * around)
+    return found
 
 
 def smoothed(heights: Array, width: float = BLUR) -> Array:

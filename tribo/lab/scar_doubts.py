@@ -23,9 +23,10 @@ CURVED = 20.0
 """Sag of the map, relative to its relief, from which on the radius of its surface is known."""
 FEWEST = 100
 """Pixels beside a scar that a form is looked for in."""
-BENT = {2: 20.0, 3: 30.0}
-"""χ² of the terms of a form of an order from which on it is told, which relief alone hardly has; a
-steep ball that was shifted leaves a cubic."""
+ORDER = 4
+"""Order of the polynomial that a form is looked for by."""
+BENT = 40.0
+"""χ² of its 12 terms beyond a tilt, which chance exceeds once in 10⁴ maps."""
 FLAT = 20.0
 """Radius of a surface over a ball's, from which on it is not the ball's."""
 GAP = 0.15
@@ -56,6 +57,16 @@ def warn_of_zeros(heights: Heights, which: str) -> None:
         )
 
 
+def warn_of_outliers(count: int, which: str) -> None:
+    """Warn that pixels of a map were left out."""
+    warnings.warn(
+        f"{count} pixels of the map {which} are outliers: they lie far from all but one of their "
+        "neighbours, and are taken as missing",
+        TriboWarning,
+        stacklevel=4,
+    )
+
+
 def check_scales(before: Heights, after: Heights) -> None:
     """Refuse maps of which one has a whole part of the other's pixels along both axes."""
     ratios = np.divide(before.heights.shape, after.heights.shape)
@@ -72,8 +83,8 @@ def check_scales(before: Heights, after: Heights) -> None:
 def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
     """Warn if what is unworn differs by a form, beyond what relief and noise make of it.
 
-    Not if it is less than how `sure` (m) the mean depth of the scar is. That of the order `form`
-    was taken off.
+    Not if its standard deviation is below the uncertainty `sure` of the scar's mean depth, in m.
+    A form of the order `form` was taken off.
     """
     if _is_covered(unworn):
         warnings.warn(
@@ -83,23 +94,21 @@ def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
             stacklevel=3,
         )
         return
-    count, is_bent = np.count_nonzero(np.isfinite(unworn)), False
-    for order, most in BENT.items():
-        rest = without_form(unworn, order)
-        left = np.nanvar(rest)
-        by_chance = most / (count / variance_inflation(rest)) * left
-        is_bent |= bool(np.nanvar(unworn) - left > max(by_chance, sure**2))
-    if is_bent:
+    rest = without_form(unworn, ORDER)
+    left, count = float(np.nanvar(rest)), np.count_nonzero(np.isfinite(unworn))
+    by_chance = BENT * left * variance_inflation(rest) / count
+    if np.nanvar(unworn) - left > max(by_chance, sure**2):
         doubt = (
             "check the shape given and the pitch"
             if ideal
             else "check that the maps belong together"
         )
-        what = "a curvature" if form == 1 else "more than a curvature"
-        off = ", or take it off with form 2" if form == 1 else ""
+        what, off = (
+            ("tilt", ", or take a curvature off with form 2") if form == 1 else ("curvature", "")
+        )
         warnings.warn(
-            f"the unworn surfaces differ by {what}: {doubt}{off}; volume and depth are off by more "
-            "than their uncertainties",
+            f"the unworn surfaces differ by more than a {what}: {doubt}{off}; volume and depth are "
+            "off by more than their uncertainties",
             TriboWarning,
             stacklevel=3,
         )
@@ -118,7 +127,7 @@ def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
         return True
     rest = without_form(unworn)
     found, noise = radius_across(unworn - rest, after.pitch), float(np.nanstd(rest))
-    sag = after.grid.size[1] ** 2 / (8 * radius)
+    sag = after.grid.size[1] ** 2 / (8 * min(radius, found))
     if sag <= CURVED * noise:
         return True
     found *= radius / _of_ball(after, scar, radius)
