@@ -69,6 +69,7 @@ from tribo.motion.rotating import Rotating as Rotating
 from tribo.motion.unidirectional import Unidirectional as Unidirectional
 from tribo.observers.observer import Observer as Observer
 from tribo.registry.hookspecs import CaseTemplate as CaseTemplate
+from tribo.registry.hookspecs import Command as Command
 from tribo.registry.hookspecs import ExportFormat as ExportFormat
 from tribo.registry.hookspecs import HeightFormat as HeightFormat
 from tribo.registry.hookspecs import LabRow as LabRow

@@ -20,7 +20,7 @@ from pydantic_core import PydanticUndefined
 import tribo
 import tribo.units
 from tribo.case import Body, Case
-from tribo.cli.main import COMMANDS
+from tribo.cli.commands import OWN, imported, own_command
 from tribo.cli.main import tribo as command_line
 from tribo.component import Component
 from tribo.core.dimensions import _SYMBOLS, _UNPREFIXED, PREFIXES
@@ -130,9 +130,8 @@ def units_table() -> Iterator[str]:
 
 def commands_page() -> Iterator[str]:
     """Yield the help of every command."""
-    for name in COMMANDS:
-        command = getattr(import_module(f"tribo.cli.{name}"), name)
-        assert isinstance(command, click.Command)
+    for name in OWN:
+        command = imported(own_command(name))
         yield f"## `tribo {name}`\n"
         parts = [[name]]
         if isinstance(command, click.Group):

@@ -9,7 +9,7 @@ import pytest
 from command_line import tribo
 
 from tribo import load_case
-from tribo.cli.main import COMMANDS
+from tribo.cli.commands import OWN
 from tribo.templates import TEMPLATES, template
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -218,7 +218,7 @@ def test_a_stroke_under_one_half_width_is_refused_unless_asked_for(case):
     assert tribo("run", "my.toml", *short, *allowed).returncode == 0
 
 
-@pytest.mark.parametrize("command", ["", *COMMANDS])
+@pytest.mark.parametrize("command", ["", *OWN])
 def test_every_command_has_help_with_an_example(command):
     done = tribo(*command.split(), "--help")
     assert done.returncode == 0

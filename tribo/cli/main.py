@@ -7,35 +7,16 @@ import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib import import_module
 from typing import Any, NoReturn
 
 import click
 
+from tribo.cli.commands import OWN, imported, offered, own_command
 from tribo.cli.interrupts import no_interrupt_lost
 from tribo.cli.streams import Output, Remarks, over, say
 from tribo.core.errors import CaseError, Interrupted, ReaderGone, TriboError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
 
-COMMANDS = {
-    "demo": "Run the paper's one-hour test.",
-    "new": "Write a case file to start from.",
-    "check": "Validate a case and predict what it will do.",
-    "run": "Run a case.",
-    "sweep": "Run many cases of a study in parallel.",
-    "resume": "Go on with a run that was stopped.",
-    "compare": "Run variants of a case, or take results, side by side.",
-    "calibrate": "Fit a case to measured wear.",
-    "scar": "Measure a scar between two height maps.",
-    "show": "Print a result as a table or as JSON.",
-    "plot": "Draw the pictures of a result.",
-    "report": "Write a result as one HTML file to hand on.",
-    "export": "Write profiles and history as CSV.",
-    "schema": "Print the JSON Schema of a case.",
-    "plugins": "List, show, check and begin plugins.",
-    "verify": "Compare with closed forms and other codes; find the errors of a case.",
-    "doctor": "Test the installation and every plugin.",
-}
 GLOBAL = ("--no-plugin", "--plugins")
 
 
@@ -44,21 +25,21 @@ class LazyGroup(click.Group):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the commands in the order a user meets them."""
-        return list(COMMANDS)
+        return list(offered())
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
         """Import the command's module, and return the command in it."""
-        if cmd_name not in COMMANDS:
-            near = suggestion(did_you_mean(cmd_name, COMMANDS))
+        if cmd_name in OWN:
+            return imported(own_command(cmd_name))
+        if cmd_name not in offered():
+            near = suggestion(did_you_mean(cmd_name, offered()))
             raise click.UsageError(f"No such command {cmd_name!r}{near}", ctx)
-        command = getattr(import_module(f"tribo.cli.{cmd_name}"), cmd_name)
-        assert isinstance(command, click.Command)
-        return command
+        return imported(offered()[cmd_name])
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List the commands without importing any."""
         with formatter.section("Commands"):
-            formatter.write_dl(list(COMMANDS.items()))
+            formatter.write_dl([(name, command.summary) for name, command in offered().items()])
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})

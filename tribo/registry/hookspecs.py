@@ -59,6 +59,17 @@ class CaseTemplate(NamedTuple):
     text: str
 
 
+class Command(NamedTuple):
+    """A command of `tribo`: its name, what it does, and where it lies, as ``"acme.fit:fit"``.
+
+    The click command in that module is imported when it is called.
+    """
+
+    name: str
+    summary: str
+    place: str
+
+
 @hookspec
 def tribo_components() -> Iterable[type[Component]]:
     """Return classes that a case may name; the base of each is its kind."""
@@ -98,4 +109,10 @@ def tribo_templates() -> Iterable[CaseTemplate]:
 @hookspec
 def tribo_cases() -> Iterable[Reference]:
     """Return problems with a known answer, for `tribo verify`."""
+    return ()
+
+
+@hookspec
+def tribo_commands() -> Iterable[Command]:
+    """Return commands of `tribo`."""
     return ()

@@ -8,16 +8,17 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from importlib import metadata
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 from tribo.core.distributions import applies, entry_points, lacking
 from tribo.core.errors import CaseError, TriboWarning
-from tribo.registry import builtin as models
 from tribo.registry.hookspecs import PROJECT
-from tribo.registry.kinds import Classes
+
+if TYPE_CHECKING:
+    from tribo.registry.kinds import Classes
 
 DISABLED = "TRIBO_DISABLE_PLUGINS"
 ONLY = "TRIBO_PLUGINS"
@@ -75,6 +76,8 @@ class Plugin:
 
 def builtin() -> Plugin:
     """Return the plugin that offers the components of tribo itself."""
+    from tribo.registry import builtin as models
+
     version = ""
     with suppress(metadata.PackageNotFoundError):
         version = metadata.version("tribo")
@@ -92,9 +95,10 @@ def installed() -> list[Plugin]:
     """Return the plugins of installed distributions, sorted; imports none.
 
     An entry point ``acme.fretting = "acme_tribo"`` in the group ``tribo`` declares that the module
-    ``acme_tribo`` offers a component of that name. The environment variable TRIBO_DISABLE_PLUGINS
-    lists distributions, or names or prefixes of components, to leave out, ``*`` for all;
-    TRIBO_PLUGINS the only ones that may take part.
+    ``acme_tribo`` offers a component of that name; one that is named after its distribution, as
+    ``acme-tribo = "acme_tribo.hooks"``, that it has hooks and no component. The environment
+    variable TRIBO_DISABLE_PLUGINS lists distributions, or names or prefixes of components, to leave
+    out, ``*`` for all; TRIBO_PLUGINS the only ones that may take part.
     """
     found: dict[tuple[str, str], Plugin] = {}
     for distribution, point in entry_points(PROJECT):
@@ -104,6 +108,8 @@ def installed() -> list[Plugin]:
                 distribution.name, distribution.version, point.value, "installed", load=point.load
             ),
         )
+        if point.name == distribution.name:
+            continue
         plugin.names += (point.name,)
         if "." not in point.name:
             plugin.status = "broken"

@@ -211,9 +211,9 @@ class Registry:
             self._manager.check_pending()
             others = self._manager.get_plugins() - {module}
             classes = offered(self._manager.subset_hook_caller("tribo_components", others)())
-            if plugin.names and set(plugin.names) != set(classes):
+            if plugin.origin == "installed" and set(plugin.names) != set(classes):
                 raise ValueError(
-                    f"its entry points declare {', '.join(plugin.names)}, but its hook "
+                    f"its entry points declare {', '.join(plugin.names) or 'none'}, but its hook "
                     "tribo_components, marked with @hookimpl, returns "
                     f"{', '.join(classes) or 'nothing'}"
                 )
