@@ -12,10 +12,9 @@ from pathlib import Path
 
 import numpy as np
 from scipy.stats import binom
-
-from tribo.study.calibration.fit import fit, interval
-from tribo.study.calibration.linearised import Problem
-from tribo.study.calibration.plan import Search
+from tribo_inverse.calibration.fit import fit, interval
+from tribo_inverse.calibration.linearised import Problem
+from tribo_inverse.calibration.plan import Search
 
 LABS, LEVEL = 1000, 0.95
 DENSITY, DISTANCE = 7850.0, 360.0

@@ -27,17 +27,17 @@ from typing import Any
 import numpy as np
 from scipy.fft import idctn
 from scipy.ndimage import shift as moved
+from tribo_inverse.adjoint.local import localised
+from tribo_inverse.calibration.cells import cell_means
+from tribo_inverse.calibration.maps import fit_maps
+from tribo_inverse.calibration.prior import Prior
+from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT
 
 from tribo import Case, TriboWarning, View
 from tribo.core.arrays import Array
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model
 from tribo.simulation.positions import composed
-from tribo.study.calibration.cells import cell_means
-from tribo.study.calibration.maps import fit_maps
-from tribo.study.calibration.prior import Prior
-from tribo.study.calibration.scar_shift import PRIOR_SHIFT
-from tribo.study.gradient.local import localised
 
 NOISE = 20e-9
 SPOT, AT, RADIUS = 0.4, (60e-6, -40e-6), 60e-6

@@ -16,11 +16,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+from tribo_inverse.calibration.quantities import surface_depth
 
 from tribo import Simulation, TriboWarning, calibrate
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
-from tribo.study.calibration.quantities import surface_depth
 from tribo.templates import template
 
 NOISE = 2e-9

@@ -16,16 +16,16 @@ from time import process_time
 
 import numpy as np
 from gradient_cost import cases
+from tribo_inverse.adjoint.backwards import swept_back
+from tribo_inverse.adjoint.numbers import changed, find
+from tribo_inverse.adjoint.objective import View
+from tribo_inverse.adjoint.parameters import chain
+from tribo_inverse.adjoint.tape import Tape, recorded
+from tribo_inverse.calibration.fit import STEP
 
 from tribo import Case, Depth, TriboWarning, Volume
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
-from tribo.study.calibration.fit import STEP
-from tribo.study.gradient.backwards import swept_back
-from tribo.study.gradient.numbers import changed, find
-from tribo.study.gradient.objective import View
-from tribo.study.gradient.parameters import chain
-from tribo.study.gradient.tape import Tape, recorded
 
 VALUES = {
     f"{name} of the {body}": kind(body)

@@ -10,11 +10,11 @@ import pytest
 from made_results import SHAPES, TIMES, made
 from matplotlib.figure import Figure
 from matplotlib.image import imread
+from tribo_report.page import stills
 
 from tribo.core.errors import CaseError, OutputError
 from tribo.core.grid import Grid
 from tribo.plotting import figures, pressure_map, pressure_sections, save_figures
-from tribo.report.page import stills
 
 CONTACT = ["pressure_map", "pressure_map_early", "pressure_sections"]
 OVER_TIME = ["wear_history", "contact_history"]

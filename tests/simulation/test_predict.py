@@ -5,13 +5,13 @@ import time
 
 import pytest
 from paper_models import K, archard, half_space, motion, named, pair, small, sphere, steel
+from tribo_inverse.adjoint.sensitivity import sensitivity
 
 from tribo import CaseError, Effect, Field, Grid, NumericalError, Simulation, Waves
 from tribo.simulation import trial_time
 from tribo.simulation.predict import predict
 from tribo.stepping import step
 from tribo.stepping.explicit import Explicit
-from tribo.study.gradient.sensitivity import sensitivity
 
 
 def bodies(k=K, hardness=None):

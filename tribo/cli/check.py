@@ -22,7 +22,7 @@ from tribo.simulation.model import Model
 from tribo.simulation.predict import Prediction
 
 if TYPE_CHECKING:
-    from tribo.study.gradient.sensitivity import Sensitivity
+    from tribo_inverse.adjoint.sensitivity import Sensitivity
 
 SPREAD = 3.0
 """Factor to which the time of a run is known."""
@@ -46,12 +46,13 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     Exit codes: 0 nothing found on which the run must stop, 2 bad input, 3
     numerical failure; where it must stop, the code that it would end with.
     """
+    from tribo_inverse.adjoint.sensitivity import sensitivity
+
     from tribo.config.load import load_case
     from tribo.simulation.doubt import unusual
     from tribo.simulation.predict import predict
     from tribo.simulation.run import Simulation
     from tribo.simulation.trial_time import TRIAL_TIME
-    from tribo.study.gradient.sensitivity import sensitivity
 
     read = load_case(case, overrides=overrides)
     doubts = unusual(read)

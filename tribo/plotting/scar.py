@@ -9,12 +9,12 @@ from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from tribo_scar.measurement import MeasuredScar
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.core.words import digits_of
 from tribo.lab.heights import smoothed
-from tribo.lab.measured_scar import MeasuredScar
 from tribo.plotting import style
 from tribo.plotting.maps import Map, new_maps
 from tribo.plotting.sections import removed, scar_mask

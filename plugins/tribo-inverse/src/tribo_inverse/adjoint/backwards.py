@@ -1,0 +1,394 @@
+"""A run gone through backwards: how an objective follows each of its parts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from tribo import LOAD_SHARE, Array, CaseError, ContactSolution, Explicit, Residuals
+from tribo.kernel_api import (
+    CELLS,
+    Box,
+    Memory,
+    Model,
+    assemble,
+    course,
+    first_memory,
+    over,
+    readonly,
+    varied,
+    whole,
+)
+
+from tribo_inverse.adjoint.course import Before, Plain, plain
+from tribo_inverse.adjoint.linear import StepSystem, carriers_between, carriers_of
+from tribo_inverse.adjoint.local import WatchedLaw
+from tribo_inverse.adjoint.objective import Seeds
+from tribo_inverse.adjoint.parameters import Chain
+from tribo_inverse.adjoint.remembering import Alone, Together
+from tribo_inverse.adjoint.slopes import Sloping
+from tribo_inverse.adjoint.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
+
+JUST = 1e-9
+"""Part of the largest pressure, or of the hardness, within which a cell just touches or yields."""
+
+
+def covered(model: Model) -> Model:
+    """Return a model without the effects that no law follows, and no load.
+
+    Raises
+    ------
+    CaseError
+        If there is no gradient through a part of it.
+    """
+    given = {
+        field.name
+        for effect in model.case.effects
+        for field in (*effect.provides, *effect.state_fields)
+    }
+    laws = model.laws.values()
+    followed = LOAD_SHARE.name in given or any(set(law.requires) & given for law in laws)
+    followed = followed or any(field.fills for f in model.effects for field in f.state_fields)
+    if model.hardness:
+        raise CaseError(
+            "the largest pressure of a cell jumps in the step in which it is worn into a layer of "
+            "another hardness, and so does all that follows; a gradient needs one hardness, leave "
+            "that of layers out",
+            "bodies",
+        )
+    if model.contact.operator(model.system, model.gap <= np.min(model.gap)) is None:
+        raise CaseError(f"{model.contact.type!r} does not state its operator", "contact.type")
+    # Explicit steps follow a load along themselves only where something is remembered.
+    if followed or not model.effects or isinstance(model.stepping, Explicit):
+        return model
+    return assemble(varied(model.case, effects=()))
+
+
+Increment = Plain | Alone | Together
+
+
+@dataclass(frozen=True)
+class Derivatives:
+    """The derivatives of an objective: in each parameter, and by body at each cell of its surface.
+
+    These are in a factor on its `wear_rate`, in its `height` outward and in the depth
+    `worn_before`.
+    """
+
+    parameters: Array
+    wear_rate: Mapping[str, Array]
+    height: Mapping[str, Array]
+    worn_before: Mapping[str, Array]
+
+    def plus(self, by: float, other: Derivatives) -> Derivatives:
+        """Return those of this objective plus `by` times another."""
+
+        def both(maps: Mapping[str, Array], others: Mapping[str, Array]) -> Mapping[str, Array]:
+            return {name: each + by * others[name] for name, each in maps.items()}
+
+        return Derivatives(
+            self.parameters + by * other.parameters,
+            both(self.wear_rate, other.wear_rate),
+            both(self.height, other.height),
+            both(self.worn_before, other.worn_before),
+        )
+
+
+def swept_back(
+    model: Model, tape: Tape, seeds: Mapping[float, Seeds], chains: Sequence[Chain]
+) -> Derivatives:
+    """Go through a run backwards; return the derivatives of the objective with these seeds.
+
+    Each step gave w¹ = w⁰ + Δs Σₘ ωₘ Jₘ r(pₘ), with K pₘ + h + Tₘ w¹ = δₘ on its free cells. With
+    λ¹ the derivative of the objective in w¹, and ωₘ r' that of the step's depth in pressure, the
+    adjoint is one more solve on these cells::
+
+        K zₘ + r' Tₘ Σₙ Tₙᵀ ωₙ zₙ + μₘ = r' Tₘ λ¹,  Σ zₘ = 0,  λ⁰ = λ¹ − Σₙ Tₙᵀ ωₙ zₙ
+
+    An explicit step has r' at the contacts before it, which are solved by themselves. Cells at the
+    hardness have a fixed z, by what their overlap adds to the plastic depth. What laws
+    remember adds to the right side, and is followed back through the step.
+    """
+    cells = model.grid.cells
+    touched = Box.of(tape.touched, cells) if tape.touched else whole(cells)
+    back = Backwards(model, chains, touched)
+    for record in reversed(tape):
+        if isinstance(record, Saved):
+            back.look(seeds[record.time])
+        elif isinstance(record, Gave):
+            back.gave = record.places
+        elif isinstance(record, Enveloped):
+            back.spread_out(record)
+        else:
+            back.press(record)
+    return Derivatives(back.parameters, back.wear_rate, back.height, back.worn_before)
+
+
+class Backwards:
+    """The derivatives of an objective that have been gathered so far, from the end of a run back.
+
+    By body at each cell of its surface: in a factor on its `wear_rate`, in its `height` outward and
+    in the depth `worn_before`.
+    """
+
+    def __init__(self, model: Model, chains: Sequence[Chain], touched: Box) -> None:
+        self.laws = {name: WatchedLaw(law) for name, law in model.laws.items()}
+        self.model = model = replace(model, laws=self.laws)
+        self.chains, self.touched = chains, touched
+        cells, positions = model.grid.cells, len(model.cycle)
+        self.shares = np.array([position.share for position in model.cycle])
+        self.carriers = carriers_of(model)
+        own = {name: (carrier.rows, cells[1]) for name, carrier in self.carriers.items()}
+        self.worn_before = {name: np.zeros(shape) for name, shape in own.items()}
+        self.height = {name: np.zeros(shape) for name, shape in own.items()}
+        self.wear_rate = {name: np.zeros(own[name]) for name in model.laws}
+        self.between = carriers_between(model, self.carriers)
+        # An increment of each body alone, unless they share what lies between them.
+        self.together = bool(model.effects or model.filling)
+        self.states = Memory(
+            {
+                name: {key: np.zeros(own[name]) for key in law.initial_state}
+                for name, law in model.laws.items()
+            },
+            {key: np.zeros_like(first) for key, first in first_memory(model).items()},
+        )
+        self.plastic = {
+            name: np.zeros(cells if self.carriers[name].weights is not None else own[name])
+            for name, share in model.plastic_share.items()
+            if model.system.cap is not None
+        }
+        self.gap = np.zeros((positions, *cells))
+        self.pressure: Array | None = None
+        self.gave: Sequence[int] = ()
+        self.stiffness = self.cap = 0.0
+        self.sums = np.zeros(len(chains))
+        self.start = np.zeros((positions, *cells))
+
+    def look(self, seeds: Seeds) -> None:
+        """Add the derivatives of the objective in a saved state."""
+        for name, seed in seeds.wear.items():
+            self.worn_before[name] = self.worn_before[name] + seed
+        if seeds.pressure is not None:
+            if self.pressure is None:
+                self.pressure = np.zeros_like(self.gap)
+            self.pressure[len(self.gap) // 2] += seeds.pressure
+
+    def spread_out(self, record: Enveloped) -> None:
+        """Go back through an envelope: all of a row follows its deepest cell."""
+        for name, rows in record.rows.items():
+            if name in self.plastic:
+                total = np.sum(self.plastic[name], axis=0)
+                self.plastic[name] = np.zeros_like(self.plastic[name])
+                self.plastic[name][rows, np.arange(len(rows))] = total
+
+    def press(self, record: Pressed) -> None:
+        """Go back through a contact, and what was worn under it."""
+        pressed, yielded = self.pressure, self.gave
+        self.pressure, self.gave = None, ()
+        slid = record.slid
+        if slid is None and pressed is None and not yielded:
+            return
+        window = np.zeros_like(self.gap)
+        window[(slice(None), *record.region)] = record.pressure
+        looked = np.zeros_like(window) if pressed is None else pressed
+        for law in self.laws.values():
+            law.seen.clear()
+        increments = self._increments(record, window, slid) if slid else []
+        if slid is not None and slid.ahead:
+            behind = self._behind(increments)
+            self.pressure = looked + over(self.shares) * sum(each.pressure for each in behind)
+        else:
+            behind = self._solve(record, window, looked, yielded, increments)
+        if slid is not None:
+            self._wear(slid, behind)
+
+    def _solve(
+        self,
+        record: Pressed,
+        window: Array,
+        looked: Array,
+        yielded: Sequence[int],
+        increments: Sequence[Increment],
+    ) -> list[Before]:
+        """Go back through a contact that was solved with what it wore; return what is before that.
+
+        `window` are its pressures, and `looked` the derivatives of the objective in them.
+        """
+        model = self.model
+        touching = np.any(window > 0, axis=0)
+        found = model.contact.operator(model.system, touching)
+        assert found is not None
+        box, operator = found
+        here = (slice(None), *box.slices)
+        pressure = window[here]
+        full = np.zeros_like(pressure, dtype=bool)
+        if model.system.cap is not None:
+            full = pressure >= model.system.cap * (1 - JUST)
+        weights = over(np.where(self.shares > 0, self.shares, 1.0))
+        fixed = np.zeros_like(pressure)
+        if yielded and record.overlap is not None:
+            fixed = self._gave(record, yielded)[here] * full / weights
+        free = (pressure > JUST * np.max(pressure)) & ~full
+        bodies = [(own, steep[here]) for each in increments for own, steep in each.bodies]
+        shared = [
+            each for each in increments if isinstance(each, Together) and not each.is_pointwise
+        ]
+        wear = partial(self._of_wear, shared[0], box) if shared else None
+        system = StepSystem(operator, box, self.shares, bodies, free, wear)
+
+        def given() -> tuple[list[Before], Array]:
+            behind = self._behind(increments)
+            return behind, (looked / weights + sum(each.pressure for each in behind))[here]
+
+        z = system.solve(given()[1], fixed, self.start[here])
+        self.start = np.zeros_like(self.start)
+        self.start[here] = z
+        stiff = operator.apply(z)
+        y = over(self.shares) * z
+        self._shift(y, box)
+        self.stiffness += float(np.sum(over(self.shares) * stiff * pressure))
+        behind, after = given()
+        left = after - stiff
+        mean = np.sum(left * free, CELLS) / np.maximum(free.sum(CELLS), 1)
+        self.cap += float(np.sum(over(self.shares) * (left - over(mean)) * full))
+        by_load = self.shares * mean / model.grid.cell_area
+        for at, chain in enumerate(self.chains):
+            self.sums[at] += chain.by_load(record, by_load)
+            self.sums[at] -= chain.by_spread(touching, y, pressure)
+        return behind
+
+    def _behind(self, increments: Sequence[Increment]) -> list[Before]:
+        """Return derivatives before increments from what has been gathered after them."""
+        return [
+            each.back(self.worn_before, self.states)
+            if isinstance(each, Together)
+            else each.back(self.worn_before)
+            for each in increments
+        ]
+
+    def _wear(self, slid: Slid, behind: Sequence[Before]) -> None:
+        """Go back through what a step wore under given contacts."""
+        seen = {name: law.seen for name, law in self.laws.items()}
+        for at, chain in enumerate(self.chains):
+            for weight, other in chain.by_wear(slid, seen, self.carriers):
+                self.sums[at] += weight * sum(each.through(other) for each in behind)
+        for each in behind:
+            for name, factor in each.factor.items():
+                self.wear_rate[name] += factor
+                self.worn_before[name] = each.wear[name]
+            laws = {**self.states.laws, **each.states.laws}
+            self.states = replace(self.states, laws=laws)
+            if self.together:
+                self.states = each.states
+
+    def _increments(self, record: Pressed, window: Array, slid: Slid) -> list[Increment]:
+        """Return an increment in parts that do not touch each other."""
+        model, remembers = self.model, bool(slid.before.values)
+        if not (remembers or self.together):
+            contacts = [_contact(each) for each in window]
+            known = course(model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
+            return [
+                plain(_of(model, name), self.carriers[name], contacts, slid, known)
+                for name in model.laws
+            ]
+
+        def stages(box: Box, *names: str) -> Sloping:
+            own = {name: slid.before.laws[name] for name in names}
+            return Sloping(
+                _of(model, *names),
+                self.carriers,
+                box,
+                [_contact(each[box.slices]) for each in window],
+                replace(slid, before=replace(slid.before, laws=own)),
+                remembers,
+                model.tells_length,
+            )
+
+        window_box = whole(model.grid.cells)
+        if self.together:
+            together = Together(stages(self.touched, *model.laws))
+            if not (self.touched.is_window or together.is_pointwise):
+                # What is remembered elsewhere may come back into the contact.
+                self.touched = window_box
+                together = Together(stages(window_box, *model.laws))
+            return [together]
+        laws, pressed = self.states.laws, Box.of(record.region, model.grid.cells)
+        return [
+            Alone(
+                stages(window_box if law.bottoms else pressed, name),
+                Memory({name: laws[name]}, {}),
+            )
+            for name, law in model.laws.items()
+        ]
+
+    def _of_wear(self, increment: Together, box: Box, z: Array) -> Array:
+        """Return what the wear and the filling that pressures make add to the adjoint of K."""
+        y = over(self.shares) * z
+        wear = {name: self.carriers[name].gathered(y, box) for name in self.model.laws}
+        zeros = [np.zeros_like(value) for value in self.states.values]
+        states = self._filled(self.states.with_values(iter(zeros)), y, box)
+        found: Array = increment.back(wear, states).pressure[(slice(None), *box.slices)]
+        return found
+
+    def _filled(self, states: Memory, y: Array, box: Box) -> Memory:
+        """Return derivatives in what is remembered, with those through what fills the gap."""
+        for name, key in self.model.filling:
+            carrier = self.between[key] if name is None else self.carriers[name]
+            of = states.between if name is None else states.laws[name]
+            new = {**of, key: of[key] - carrier.gathered(y, box)}
+            states = (
+                replace(states, between=new)
+                if name is None
+                else replace(states, laws={**states.laws, name: new})
+            )
+        return states
+
+    def _shift(self, y: Array, box: Box) -> None:
+        """Take what a solve says of the gaps."""
+        for name, carrier in self.carriers.items():
+            taken = carrier.gathered(y, box)
+            self.worn_before[name] = self.worn_before[name] - taken
+            self.height[name] = self.height[name] + taken
+            if name in self.plastic and carrier.weights is None:
+                self.plastic[name] = self.plastic[name] - taken
+            elif name in self.plastic:
+                self.plastic[name][box.slices] -= np.sum(y, axis=0)
+        self.gap[:, *box.slices] -= y
+        self.states = self._filled(self.states, -y, box)
+
+    def _gave(self, record: Pressed, places: Sequence[int]) -> Array:
+        """Return the derivative in the overlap at each position, shape (positions, nx, ny)."""
+        model, overlap = self.model, np.zeros_like(self.gap)
+        assert record.overlap is not None
+        overlap[(slice(None), *record.region)] = record.overlap
+        found = np.zeros_like(overlap)
+        for name, share in model.plastic_share.items():
+            if share == 0:
+                continue
+            laid = np.stack([model.spread(name, overlap[m], m) for m in places])
+            first = np.argmax(laid, axis=0)
+            for at, m in enumerate(places):
+                deeper = np.where(first == at, self.plastic[name], 0.0)
+                found[m] += share * model.under(name, deeper, m)
+        return found
+
+    @property
+    def parameters(self) -> Array:
+        """The derivative in each parameter."""
+        rest = [
+            chain.by_rest(self.gap, self.stiffness, self.cap, self.states) for chain in self.chains
+        ]
+        return self.sums + rest
+
+
+def _of(model: Model, *names: str) -> Model:
+    """Return a model of which only some bodies wear."""
+    return replace(model, laws={name: model.laws[name] for name in names})
+
+
+def _contact(pressure: Array) -> ContactSolution:
+    """Return a contact as laws are asked in it."""
+    shown = readonly(pressure)
+    return ContactSolution(shown, 0.0, np.zeros_like(shown), 0, Residuals(0.0, 0.0, 0.0))

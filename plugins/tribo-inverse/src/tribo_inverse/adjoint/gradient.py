@@ -1,0 +1,279 @@
+"""The gradient of a run: the derivative of a number of its result in every input."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import ValidationError
+from tribo import Array, Case, CaseError, Simulation
+from tribo.kernel_api import Model
+
+from tribo_inverse.adjoint.backwards import covered, swept_back
+from tribo_inverse.adjoint.ending import at_depth
+from tribo_inverse.adjoint.local import factor_shape, localised, unreached
+from tribo_inverse.adjoint.numbers import changed, find, listed
+from tribo_inverse.adjoint.objective import Objective, View, is_finite, looked
+from tribo_inverse.adjoint.parameters import Chain, chain
+from tribo_inverse.adjoint.tape import Tape, recorded
+
+FURTHEST = 30.0
+"""Change of the logarithm of a number beyond which no case is asked for."""
+
+
+@dataclass(frozen=True)
+class Gradient:
+    """The derivatives of an objective.
+
+    Parameters
+    ----------
+    value : float
+        The objective.
+    parameters : Mapping[str, float]
+        By path: the derivative in each number of the case, in its SI unit.
+    relative : Mapping[str, float]
+        By path: by how many per cent the objective changes for one per cent of the number; NaN if
+        the objective is 0.
+    wear_rate : Mapping[str, ndarray]
+        By body: the derivative in a factor, 1 here, on its wear rate at each cell of its own
+        surface.
+    height : Mapping[str, ndarray]
+        By body: in its height outward at each cell of its own surface, in 1/m.
+    worn_before : Mapping[str, ndarray]
+        By body: in the depth worn before the run, on its own surface, in 1/m.
+    refused : Mapping[str, str]
+        By path: why the objective has no derivative in this number.
+    """
+
+    value: float
+    parameters: Mapping[str, float]
+    relative: Mapping[str, float]
+    wear_rate: Mapping[str, Array]
+    height: Mapping[str, Array]
+    worn_before: Mapping[str, Array]
+    refused: Mapping[str, str]
+
+    def __str__(self) -> str:
+        """Return which numbers rule the objective, in per cent for one per cent, as lines."""
+        ranked = sorted(self.relative.items(), key=lambda item: -abs(item[1]))
+        width = max((len(path) for path in self.relative), default=0)
+        lines = [f"{path:{width}}  {percent:+.3f} % for 1 %" for path, percent in ranked]
+        if self.value == 0:
+            lines = ["The objective is 0, as of a body that does not wear: there are no per cent."]
+        lines += [f"{path}: {reason}" for path, reason in self.refused.items()]
+        return "\n".join(lines)
+
+    def __getitem__(self, path: str) -> float:
+        """Return the derivative in the number at `path`; `CaseError` if there is none."""
+        if path in self.refused:
+            raise CaseError(self.refused[path], path)
+        return self.parameters[path]
+
+
+def gradient(
+    case: Case | Mapping[str, Any] | str | Path | Model,
+    objective: Objective | Mapping[float, Objective],
+    wrt: Sequence[str] | None = None,
+    *,
+    factors: Mapping[str, Array] | None = None,
+) -> Gradient:
+    """Run a case; return the derivatives of a number of its result in every input.
+
+    They are exact for the steps that the run took (the discrete adjoint): their ends are held at
+    the same parts of the time between saves. One solve more a step gives all derivatives, and two
+    where a depth ends the run, which is then as long as it takes to wear to that depth.
+
+    Parameters
+    ----------
+    case : Case, Mapping, str, Path or Model
+        As `Simulation` takes it.
+    objective : callable, or Mapping of float to callable
+        What is differentiated, at the end of the run; or the sum of several, by the time (s) of the
+        save that each looks at. See `tribo_inverse.adjoint.objective`.
+    wrt : sequence of str, optional
+        Paths of numbers, as ``bodies.ball.wear.k``; ``*`` stands for each body. All numbers of
+        bodies, load, motion, friction and contact, and ``stop.depth``, if left out.
+    factors : Mapping[str, ndarray], optional
+        By body: a factor on its wear rate at each cell of its own surface, of the shape of
+        `View.wear`; 1 if left out.
+
+    Returns
+    -------
+    Gradient
+        With the maps, which cost nothing more.
+
+    Raises
+    ------
+    CaseError
+        If the case has parts through which no gradient goes, or a path leads to no number, or to
+        one in which there is no derivative.
+    NumericalError
+        If the run fails.
+    """
+    factors = factors or {}
+    model = localised(covered(Simulation(case).model), factors)
+    model = unreached(model, model)
+    chains, refused = _chains(model, wrt, factors)
+    looks = _looks(objective, model.end_time)
+    with closing(Tape()) as tape:
+        states = recorded(model, list(looks), tape)
+        seen = {time: looked(look, View(model, states[time])) for time, look in looks.items()}
+        total = float(sum(value for value, _ in seen.values()))
+        seeds = {time: seed for time, (_, seed) in seen.items()}
+        end = states.get(model.end_time)
+        if end is not None and end.time < model.end_time:
+            chains = [each.until(end.time) for each in chains]
+            found, by_depth = at_depth(model, tape, seeds, chains, end)
+        else:
+            found, by_depth = swept_back(model, tape, seeds, chains), 0.0
+    parameters = {}
+    for each, through in zip(chains, found.parameters, strict=True):
+        direct = sum(
+            variant.weight * looked(looks[time], View(variant.model, state))[0]
+            for variant in each.variants
+            for time, state in states.items()
+        )
+        direct += sum(each.by_save(state.time, seeds[time]) for time, state in states.items())
+        direct += each.by_stop(by_depth)
+        parameters[each.path] = float(through + direct)
+    scaled = {each.path: parameters[each.path] * each.value for each in chains}
+    relative = {path: each / total if total else float("nan") for path, each in scaled.items()}
+    return Gradient(
+        total, parameters, relative, found.wear_rate, found.height, found.worn_before, refused
+    )
+
+
+def _chains(
+    model: Model, wrt: Sequence[str] | None, factors: Mapping[str, Array]
+) -> tuple[list[Chain], dict[str, str]]:
+    """Return what each number changes; and by path why one of all has no derivative."""
+    chains, refused = list[Chain](), dict[str, str]()
+    for path, places, value in find(model.case, wrt):
+        try:
+            chains.append(chain(model, path, places, value, factors))
+        except CaseError as error:
+            if wrt is not None:
+                raise
+            refused[path] = str(error).removeprefix(f"{path}: ")
+    return chains, refused
+
+
+def _looks(
+    objective: Objective | Mapping[float, Objective], end_time: float
+) -> Mapping[float, Objective]:
+    """Return objectives by the time (s) that they look at; refuse what is none."""
+    looks = objective if isinstance(objective, Mapping) else {end_time: objective}
+    for time in looks:
+        if not is_finite(time):
+            raise CaseError(
+                f"an objective is to look at the time {time!r}; give a number, that of a save in s"
+            )
+    for look in looks.values() or [None]:
+        if not callable(look) or isinstance(look, type):
+            raise CaseError(
+                f"{look!r} is no objective; give a Volume, Depth, Deepest, Pressure, Width, "
+                "Misfit, EndTime or EndDistance, or a function of a View"
+            )
+    return looks
+
+
+def value_and_gradient(
+    case: Case | Mapping[str, Any] | str | Path | Model,
+    objective: Objective | Mapping[float, Objective],
+    wrt: Sequence[str] = (),
+    wear_rate: Sequence[str] = (),
+) -> ValueAndGradient:
+    """Return an objective with its gradient, for ``scipy.optimize.minimize(…, jac=True)``.
+
+    Unknown are the logarithms of numbers of the case, relative to what they are there, and of
+    factors on wear rates at each cell of bodies: one vector, which begins with `start`, all 0.
+
+    Parameters
+    ----------
+    case : Case, Mapping, str, Path or Model
+        As `gradient` takes it.
+    objective : callable, or Mapping of float to callable
+        As `gradient` takes it.
+    wrt : sequence of str, optional
+        Paths of the numbers.
+    wear_rate : sequence of str, optional
+        Bodies whose wear rate has a factor at each cell.
+
+    Raises
+    ------
+    CaseError
+        If a path leads to no number, or a body does not wear.
+
+    Examples
+    --------
+    >>> from tribo import Volume, value_and_gradient
+    >>> fit = value_and_gradient("case.toml", Volume("ball"), ["load.normal"])  # doctest: +SKIP
+    >>> value, slope = fit(fit.start)  # doctest: +SKIP
+    """
+    return ValueAndGradient(case, objective, wrt, wear_rate)
+
+
+class ValueAndGradient:
+    """An objective with its gradient, a function of one vector; see `value_and_gradient`."""
+
+    def __init__(
+        self,
+        case: Case | Mapping[str, Any] | str | Path | Model,
+        objective: Objective | Mapping[float, Objective],
+        wrt: Sequence[str],
+        wear_rate: Sequence[str],
+    ) -> None:
+        self._model = Simulation(case).model
+        self._objective = objective
+        self._numbers = find(self._model.case, wrt)
+        self._shapes = {name: factor_shape(self._model, name) for name in listed(wear_rate)}
+
+    @property
+    def start(self) -> Array:
+        """The unknowns of the case itself: 0."""
+        return np.zeros(len(self._numbers) + sum(a * b for a, b in self._shapes.values()))
+
+    @np.errstate(over="ignore")
+    def at(self, unknowns: Array) -> tuple[Case, dict[str, Array]]:
+        """Return the case and the factors on wear rates, by body, for a vector of unknowns.
+
+        `CaseError` if it has another length than `start`, or a number that the case may not have.
+        """
+        if np.shape(unknowns) != self.start.shape:
+            raise CaseError(f"{np.size(unknowns)} unknowns were given; start has {self.start.size}")
+        case, at = self._model.case, len(self._numbers)
+        for (path, places, value), log in zip(self._numbers, unknowns[:at], strict=True):
+            if abs(log) > FURTHEST:
+                raise CaseError(
+                    f"was asked for {log:+.3g} away in its logarithm: a step of the optimiser went "
+                    "too far; give it bounds, as method='L-BFGS-B', "
+                    "bounds=[(-2, 2)] * len(fit.start)",
+                    path,
+                )
+            number = float(value * np.exp(log))
+            try:
+                for place in places:
+                    case = changed(case, place, number)
+            except ValidationError as error:
+                raise CaseError(
+                    f"may not be {number:g}: {error.errors()[0]['msg']}", path
+                ) from None
+        factors = {}
+        for name, shape in self._shapes.items():
+            factors[name] = np.exp(unknowns[at : at + shape[0] * shape[1]]).reshape(shape)
+            at += factors[name].size
+        return case, factors
+
+    def __call__(self, unknowns: Array) -> tuple[float, Array]:
+        """Return the objective and its derivatives in the unknowns."""
+        case, factors = self.at(unknowns)
+        paths = [path for path, *_ in self._numbers]
+        found = gradient(case, self._objective, paths, factors=factors)
+        values = np.exp(unknowns[: len(paths)]) * [value for *_, value in self._numbers]
+        parts = values * [found.parameters[path] for path in paths]
+        maps = [found.wear_rate[name].ravel() for name in self._shapes]
+        return found.value, np.concatenate([parts, *maps])

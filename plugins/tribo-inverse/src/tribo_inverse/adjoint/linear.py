@@ -1,0 +1,353 @@
+"""The linear system of a step backwards: the operator of the step on the cells in contact."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.fft
+from tribo import Array, CaseError, NumericalError, Operator
+from tribo.kernel_api import CELLS, Box, Mask, Model, add_from, over
+
+Map = Callable[[Array], Array]
+
+TOLERANCE = 1e-8
+"""Residual of a system, relative to its right side: as that of a run's contacts."""
+MIRRORED = 1e-9
+"""Relative difference below which positions mirror each other."""
+MOST, RESTART = 400, 60
+"""Iterations of which the method gives up, and after which GMRES starts anew."""
+
+
+@dataclass(frozen=True)
+class Carrier:
+    """How a body's own surface meets the window.
+
+    It has `rows` cells along x, and the window begins at the row `starts` of it at each position.
+    `weights`, shape (nx, ny), are those with which an average takes the cells of a row; None where
+    points keep their own.
+    """
+
+    rows: int
+    starts: Sequence[int]
+    weights: Array | None
+
+    def differs(self, other: Carrier) -> bool:
+        """Whether another one lies or counts otherwise."""
+        same = self.rows == other.rows and [*self.starts] == [*other.starts]
+        own, others = (np.array(0) if c.weights is None else c.weights for c in (self, other))
+        return not (same and np.array_equal(own, others))
+
+    def gathered(self, parts: Array, box: Box) -> Array:
+        """Return what fields on a box, by position, add up to on the body: shape (rows, ny)."""
+        along, columns = box.slices
+        own = np.zeros((self.rows, box.window[1]))
+        if self.weights is not None:
+            own[0, columns] = np.sum(parts, axis=(0, 1))
+            return own
+        for part, start in zip(parts, self.starts, strict=True):
+            add_from(own[:, columns], part, start + along.start)
+        return own
+
+    def seen(self, own: Array, box: Box) -> Array:
+        """Return fields on the body, shape (…, rows, ny), as they lie in a box, by position."""
+        along, columns = box.slices
+        field = own[..., columns]
+        if self.weights is not None or not any(self.starts):
+            here = field if self.weights is not None else field[..., along, :]
+            shape = (*own.shape[:-2], len(self.starts), *box.shape)
+            placed = here[..., None, :, :]
+            return placed if placed.shape == shape else np.broadcast_to(placed, shape)
+        rows = np.arange(along.start, along.stop)
+        each = [np.take(field, start + rows, -2, mode="wrap") for start in self.starts]
+        return np.stack(each, axis=-3)
+
+    def part(self, box: Box) -> Array | float:
+        """Return what each cell of a box counts for in the mean rate of its point."""
+        return 1.0 if self.weights is None else self.weights[box.slices]
+
+
+@dataclass(frozen=True)
+class Uniform(Carrier):
+    """Where one number lies that stands for all of the window."""
+
+    def gathered(self, parts: Array, box: Box) -> Array:
+        """Return the sum of fields on a box, shape (1, 1)."""
+        return np.sum(parts).reshape(1, 1)
+
+    def seen(self, own: Array, box: Box) -> Array:
+        """Return the number, shape (…, 1, 1), at each cell of a box, by position."""
+        shape = (*own.shape[:-2], len(self.starts), *box.shape)
+        return np.broadcast_to(own[..., None, :, :], shape)
+
+
+def carriers_between(model: Model, of_bodies: Mapping[str, Carrier]) -> dict[str, Carrier]:
+    """Return where what effects remember lies, by its name."""
+    found: dict[str, Carrier] = {}
+    rows, starts = model.grid.cells[0], [0] * len(model.cycle)
+    for key, (effect, field) in model.between.items():
+        if field.uniform:
+            even = np.full(model.grid.cells, 1 / np.prod(model.grid.cells))
+            found[key] = Uniform(1, starts, even)
+        elif effect.carrier is None:
+            found[key] = Carrier(rows, starts, None)
+        else:
+            found[key] = of_bodies[effect.carrier]
+    return found
+
+
+def carriers_of(model: Model) -> dict[str, Carrier]:
+    """Return how the surfaces of bodies meet the window, by name."""
+    return {name: carrier_of(model, name) for name in model.bodies}
+
+
+def carrier_of(model: Model, name: str) -> Carrier:
+    """Return how a body's own surface meets the window.
+
+    Raises
+    ------
+    CaseError
+        If the average over a track is not a weighted sum over its rows.
+    """
+    exposure, cells = model.exposures[name], model.grid.cells
+    starts = exposure.starts if exposure.starts is not None else [0] * len(model.cycle)
+    trial = np.random.default_rng(0).random(cells)
+    answer, expected, weights = exposure.average(trial), trial, None
+    if exposure.averaged:
+        weights = np.zeros(cells)
+        for row, of_row in enumerate(weights):
+            probe = np.zeros(cells)
+            probe[row] = 1.0
+            of_row[:] = exposure.average(probe)[0]
+        expected = np.sum(weights * trial, axis=0, keepdims=True)
+    if answer.shape != expected.shape or not np.allclose(answer, expected, rtol=1e-12, atol=0):
+        raise CaseError(
+            f"the average of {model.case.kinematics.type!r} over the track of {name} is not a sum "
+            "over its rows, for which gradients are known",
+            "kinematics.type",
+        )
+    return Carrier(exposure.rows, starts, weights)
+
+
+@dataclass(frozen=True)
+class StepSystem:
+    """K z plus the wear that a step adds, transposed, on the free cells of each position.
+
+    With the shares ω of the positions, Tₘ from a body's surface to the window and ωₘ r'ₘ the
+    derivative of a point's depth in the pressure of each of its cells::
+
+        (A z)ₘ = K zₘ + Σ over bodies r'ₘ Tₘ Σₙ Tₙᵀ ωₙ zₙ
+
+    `operator` is K on the `box`, `bodies` has of each that wears its carrier and r', shape
+    (positions, nx, ny), in m/Pa, and `free` the cells whose pressure is between its bounds. `wear`
+    gives A z − K z where that is more than `bodies` say, which then only precondition. `mirrored`
+    tells whether each position also stands for one that mirrors it along x; the last for itself.
+    """
+
+    operator: Operator
+    box: Box
+    shares: Array
+    bodies: Sequence[tuple[Carrier, Array]]
+    free: Mask
+    wear: Map | None = None
+    mirrored: bool = False
+
+    def apply(self, z: Array) -> Array:
+        """Return A z on all of the box."""
+        found = self.operator.apply(z)
+        if self.wear is not None:
+            return found + self.wear(z)
+        if self.bodies:
+            weighed = over(self.shares) * z
+            for carrier, slope in self.bodies:
+                own = carrier.gathered(weighed, self.box)
+                if self.mirrored:
+                    own = own + own[::-1]
+                found = found + slope * carrier.seen(own, self.box)
+        return found
+
+    def solve(self, given: Array, fixed: Array, start: Array) -> Array:
+        """Return z, with which `given` − A z is one number on the free cells of each position.
+
+        On the other cells it is `fixed`, and its sum over all is 0; `start` is one to start from.
+        """
+        if self._mirrors(given, fixed):
+            return _both(self._one_side().solve(*(a[: self._half] for a in (given, fixed, start))))
+        count = self.free.sum(CELLS)
+        if np.any((count == 0) & (np.sum(fixed, CELLS) != 0)):
+            raise NumericalError(
+                "all cells in contact are at the hardness at once: the approach has no derivative "
+                "there; take a finer grid or a lower load"
+            )
+        share = 1.0 / np.maximum(count, 1)
+        z = np.where(self.free, start, 0.0)
+        z -= over(share * (z.sum(CELLS) + fixed.sum(CELLS))) * self.free
+        z += fixed
+        symbol, difference = self._symbols()
+
+        def centred(values: Array) -> Array:
+            kept: Array = values * self.free
+            kept -= over(share * kept.sum(CELLS)) * self.free
+            return kept
+
+        def preconditioned(values: Array) -> Array:
+            modes = scipy.fft.rfft2(values)
+            modes /= symbol
+            if difference is not None:
+                mean = np.sum(over(self.shares) * values, axis=0)
+                modes += difference * scipy.fft.rfft2(mean + mean[::-1] if self.mirrored else mean)
+            return centred(scipy.fft.irfft2(modes, s=self.box.shape, overwrite_x=True))
+
+        def applied(values: Array) -> Array:
+            return centred(self.apply(values))
+
+        left = given - self.apply(z)
+        residual = centred(left)
+        # A uniform right side is balanced by μ alone, but for rounding.
+        scale = max(_norm(given * self.free), _norm((given - left) * self.free))
+        if scale > 0 and _norm(residual) > TOLERANCE * scale:
+            method = self._conjugate if self.is_symmetric else _minimal
+            z = z + method(applied, preconditioned, residual, TOLERANCE * scale)
+        return z
+
+    @property
+    def _half(self) -> int:
+        return len(self.shares) // 2 + 1
+
+    def _one_side(self) -> StepSystem:
+        shares = self.shares[: self._half].copy()
+        # The middle position mirrors itself.
+        shares[-1] *= 0.5
+        bodies = [
+            (replace(carrier, starts=carrier.starts[: self._half]), slope[: self._half])
+            for carrier, slope in self.bodies
+        ]
+        return replace(
+            self, shares=shares, bodies=bodies, free=self.free[: self._half], mirrored=True
+        )
+
+    def _mirrors(self, given: Array, fixed: Array) -> bool:
+        """Whether each position mirrors another along x, and the middle one itself."""
+        beside = 2 * self.box.first[0] + self.box.shape[0] - self.box.window[0]
+        if (
+            self.wear
+            or self.mirrored
+            or len(self.shares) < 3
+            or len(self.shares) % 2 == 0
+            or beside
+        ):
+            return False
+        for carrier, _ in self.bodies:
+            rest = carrier.rows - self.box.window[0]
+            pairs = zip(carrier.starts, reversed(carrier.starts), strict=True)
+            if carrier.weights is None and any((a + b - rest) % carrier.rows for a, b in pairs):
+                return False
+        # Laws are asked in a region around the contact that need not mirror itself.
+        pressed = [given * self.free, *(slope * self.free for _, slope in self.bodies)]
+        fields = [self.free.astype(float), fixed, *pressed]
+        return np.allclose(self.shares, self.shares[::-1], rtol=MIRRORED) and all(
+            np.max(np.abs(field - field[::-1, ::-1])) <= MIRRORED * np.max(np.abs(field))
+            for field in fields
+        )
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether A is symmetric in the product Σ ωₘ zₘᵀ qₘ."""
+        if self.wear is not None:
+            return False
+        for carrier, slope in self.bodies:
+            local = carrier.weights is None and len(self.shares) == 1
+            inside = slope[self.free]
+            if not local and inside.size and np.ptp(inside) > 1e-9 * np.max(np.abs(inside)):
+                return False
+        return True
+
+    def _symbols(self) -> tuple[Array, Array | None]:
+        """Return eigenvalues to precondition with, and what more 1 over them is for the mean.
+
+        A body that stays in the window wears by the mean over all positions.
+        """
+        symbol, stays = self.operator.symbol(), 0.0
+        for carrier, slope in self.bodies:
+            inside = slope[self.free]
+            mean = max(float(np.mean(inside)), 0.0) if inside.size else 0.0
+            passed = max(carrier.starts) - min(carrier.starts)
+            if carrier.weights is not None:
+                symbol[0] += mean * self.box.shape[0]
+            elif passed:
+                symbol[0] += mean * min(1.0, self.box.shape[0] / passed)
+            else:
+                stays += mean
+        if len(self.shares) == 1:
+            return symbol + stays, None
+        return symbol, 1 / (symbol + stays) - 1 / symbol
+
+    def _conjugate(
+        self, applied: Map, preconditioned: Map, residual: Array, tolerance: float
+    ) -> Array:
+        """Solve by conjugate gradients."""
+
+        def dot(a: Array, b: Array) -> float:
+            return float(np.sum(self.shares * np.sum(a * b, axis=CELLS)))
+
+        found = np.zeros_like(residual)
+        direction, before = np.zeros_like(residual), 1.0
+        for _ in range(MOST):
+            z = preconditioned(residual)
+            now = dot(residual, z)
+            direction = z + (now / before) * direction
+            response = applied(direction)
+            length = now / dot(direction, response)
+            found += length * direction
+            residual = residual - length * response
+            before = now
+            if _norm(residual) <= tolerance:
+                return found
+        raise _unsolved(residual, tolerance)
+
+
+def _minimal(applied: Map, preconditioned: Map, residual: Array, tolerance: float) -> Array:
+    """Solve by GMRES, started anew where it takes long."""
+    found = np.zeros_like(residual)
+    for _ in range(MOST // RESTART):
+        size = _norm(residual)
+        basis, moved = [residual / size], []
+        upper = np.zeros((RESTART + 1, RESTART))
+        for k in range(RESTART):
+            moved.append(preconditioned(basis[k]))
+            ahead = applied(moved[k])
+            for i, each in enumerate(basis):
+                upper[i, k] = float(np.sum(each * ahead))
+                ahead -= upper[i, k] * each
+            upper[k + 1, k] = _norm(ahead)
+            target = np.zeros(k + 2)
+            target[0] = size
+            parts, *_ = np.linalg.lstsq(upper[: k + 2, : k + 1], target)
+            missed = target - np.sum(upper[: k + 2, : k + 1] * parts, axis=1)
+            if _norm(missed) <= 0.5 * tolerance or upper[k + 1, k] == 0:
+                break
+            basis.append(ahead / upper[k + 1, k])
+        change = sum(part * each for part, each in zip(parts, moved, strict=True))
+        found += change
+        residual = residual - applied(change)
+        if _norm(residual) <= tolerance:
+            return found
+    raise _unsolved(residual, tolerance)
+
+
+def _both(values: Array) -> Array:
+    """Return fields at all positions, from those on one side and in the middle."""
+    middle = 0.5 * (values[-1:] + values[-1:, ::-1])
+    return np.concatenate([values[:-1], middle, values[-2::-1, ::-1]])
+
+
+def _norm(values: Array) -> float:
+    return float(np.sqrt(np.sum(values * values)))
+
+
+def _unsolved(residual: Array, tolerance: float) -> NumericalError:
+    return NumericalError(
+        f"the gradient of a step did not converge: its residual is {_norm(residual):.1e}, wanted "
+        f"{tolerance:.1e}"
+    )

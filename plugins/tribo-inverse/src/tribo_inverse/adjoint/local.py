@@ -1,0 +1,141 @@
+"""Wear laws with a factor at each cell of their body's surface, and what they look at."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from copy import copy
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from tribo import Array, CaseError, LocalConditions, Material, WearRate
+from tribo.kernel_api import DEPTH_ACCURACY, PLACE_X, PLACE_Y, GuardedLaw, Model, times
+
+SPEED = "speed"
+"""What a law may be told of the motion."""
+
+
+class LocalLaw(GuardedLaw):
+    """A law of a body, times a factor at each cell of the body's own surface.
+
+    Parameters
+    ----------
+    law : GuardedLaw
+        The law.
+    factor : ndarray, shape (rows, ny)
+        Its factor, not negative.
+    spacing : tuple of float
+        Edge lengths of a cell along x and y, in m.
+    """
+
+    def __init__(self, law: GuardedLaw, factor: Array, spacing: tuple[float, float]) -> None:
+        vars(self).update(vars(law))
+        self._law = law
+        self._factor, self._is_even = factor, bool(np.ptp(factor) == 0)
+        if not self._is_even:
+            self.requires = tuple(dict.fromkeys((*law.requires, PLACE_X.name, PLACE_Y.name)))
+        self._spacing = spacing
+
+    def rate(self, local: LocalConditions, over: Array | float = 0.0) -> WearRate:
+        """Return the law's rate and its derivative, times the factor of the place."""
+        if self._is_even:
+            return times(self._factor[0, 0], self._law.rate(local, over))
+        cells = tuple(
+            np.rint(local.fields[place.name] / spacing + 0.5 * (count - 1)).astype(int)
+            for place, spacing, count in zip(
+                (PLACE_X, PLACE_Y), self._spacing, self._factor.shape, strict=True
+            )
+        )
+        return times(self._factor[cells], self._law.rate(local, over))
+
+
+class WatchedLaw(GuardedLaw):
+    """A law of a body that notes in `seen` which properties of its material, and `SPEED`, it read.
+
+    Copies of what it is told count as read.
+    """
+
+    def __init__(self, law: GuardedLaw) -> None:
+        vars(self).update(vars(law))
+        self._law = law
+        self.seen: set[str] = set()
+
+    def rate(self, local: LocalConditions, over: Array | float = 0.0) -> WearRate:
+        """Return the law's rate."""
+        material: Any = _Watched(local.material, self.seen)
+        told = _WatchedConditions(**{**vars(local), "material": material}, seen=self.seen)
+        return self._law.rate(told, over)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _WatchedConditions(LocalConditions):
+    seen: set[str]
+
+    def __getattribute__(self, name: str) -> Any:
+        if name == SPEED:
+            self.seen.add(name)
+        return super().__getattribute__(name)
+
+
+class _Watched:
+    def __init__(self, material: Material, seen: set[str]) -> None:
+        self._material, self._seen = material, seen
+
+    def __getattr__(self, name: str) -> Any:
+        fields = Material.model_fields
+        self._seen.update([name] if name in fields else fields)
+        return getattr(self._material, name)
+
+
+def localised(model: Model, factors: Mapping[str, Array]) -> Model:
+    """Return a model with a factor on the wear rate of bodies, at each cell of their surfaces.
+
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    factors : Mapping[str, ndarray]
+        By name of the body, of the shape of its wear.
+
+    Raises
+    ------
+    CaseError
+        If a body does not wear, or a map does not have that shape, or is negative or not finite.
+    """
+    laws = dict(model.laws)
+    for name, factor in factors.items():
+        shape = factor_shape(model, name)
+        if np.shape(factor) != shape:
+            raise CaseError(f"the factors of {name} have the shape {np.shape(factor)}, not {shape}")
+        if not np.all(np.isfinite(factor) & (factor >= 0)):
+            raise CaseError(f"a factor on the wear rate of {name} is negative, NaN or infinite")
+        laws[name] = LocalLaw(laws[name], factor, model.grid.spacing)
+    return replace(model, laws=laws)
+
+
+def factor_shape(model: Model, name: str) -> tuple[int, int]:
+    """Return the shape of the factors on the wear rate of a body; `CaseError` if it has none."""
+    if name not in model.laws:
+        raise CaseError(f"there is no body {name!r} that wears: {', '.join(model.laws)}")
+    return model.exposures[name].rows, model.grid.cells[1]
+
+
+def unreached(model: Model, base: Model) -> Model:
+    """Return a model in which layers that the run of `base` does not wear through end deeper.
+
+    A depth that ends the run exactly at the bottom of a layer has the derivative of a run that ends
+    just above it. `base` is the case itself, and `model` may have another number.
+    """
+    stop, laws = base.case.stop, dict(model.laws)
+    if stop.depth is None:
+        return model
+    for name in stop.whose(model.laws):
+        bottoms = base.laws[name].bottoms if name in laws else ()
+        if not bottoms or bottoms[-1] < stop.depth * (1 - DEPTH_ACCURACY):
+            continue
+        laws[name] = copy(laws[name])
+        laws[name].bottoms = tuple(
+            own if bottom < stop.depth * (1 - DEPTH_ACCURACY) else own + stop.depth
+            for own, bottom in zip(laws[name].bottoms, bottoms, strict=True)
+        )
+    return replace(model, laws=laws)

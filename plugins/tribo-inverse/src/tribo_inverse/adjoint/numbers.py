@@ -1,0 +1,98 @@
+"""The numbers of a case, by their path in it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+from pydantic import BaseModel
+from tribo import Case, CaseError
+from tribo.kernel_api import did_you_mean, leaves, path_keys, suggestion
+
+ANY = "*"
+"""The key that stands for each body, as in ``bodies.*.material.hardness``."""
+HOW = ("grid", "stepping")
+"""Parts of a case that say how it is computed, and have no derivative."""
+NOT_PHYSICS = (*HOW, "output", "stop", "begin", "observers", "requires")
+"""Parts of a case whose numbers are left out unless they are named."""
+END = ("stop", "depth")
+"""The number of them that is not, since it may be what rules how long a body lasts."""
+
+
+def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[Any, ...]], float]]:
+    """Return path, places and value of the numbers that are asked for, or of all.
+
+    Those of a table of numbers, as measured heights, have to be asked for.
+
+    Raises
+    ------
+    CaseError
+        If a path does not lead to a number with decimals, or to several different ones, or to one
+        that says how the run is computed.
+    """
+    known = {place: value for place, value, _ in leaves(case) if isinstance(value, float)}
+    if asked is None:
+        return [
+            (".".join(map(str, place)), [place], value)
+            for place, value in known.items()
+            if place == END or place[0] not in NOT_PHYSICS
+            if not (_is_tolerance(place) or value == 0)
+            if not any(isinstance(i, int) and isinstance(j, int) for i, j in pairwise(place))
+        ]
+    return [_named(known, path) for path in listed(asked)]
+
+
+def listed(names: Sequence[str]) -> Sequence[str]:
+    """Return names; `CaseError` if they are a single one, whose letters would be taken for them."""
+    if isinstance(names, str):
+        raise CaseError(f"a list of names is needed, {names!r} was given; give [{names!r}]")
+    return names
+
+
+def _named(
+    known: Mapping[tuple[Any, ...], float], path: str
+) -> tuple[str, list[tuple[Any, ...]], float]:
+    keys = path_keys(path.replace(ANY, "any-body"))
+    keys = [ANY if key == "any-body" else key for key in keys]
+    places = [place for place in known if _fits(place, keys)]
+    if places == [] and keys == ["load", "normal"]:
+        raise CaseError("has several stages; name one, as load.normal.0.normal", path)
+    if not places:
+        paths = [".".join(map(str, place)) for place in known]
+        raise CaseError(
+            f"is no number with decimals in this case{suggestion(did_you_mean(path, paths))}", path
+        )
+    if any(place[0] in HOW or _is_tolerance(place) for place in places):
+        raise CaseError(
+            "says how the run is computed, in which there is no derivative; name numbers of "
+            "bodies, load, motion, friction or contact",
+            path,
+        )
+    values = {known[place] for place in places}
+    if len(values) > 1:
+        raise CaseError(f"stands for different numbers: {sorted(values)}", path)
+    return path, places, values.pop()
+
+
+def _is_tolerance(place: Sequence[Any]) -> bool:
+    return str(place[-1]).endswith("tolerance")
+
+
+def _fits(place: Sequence[Any], keys: Sequence[str]) -> bool:
+    return len(place) == len(keys) and all(
+        key in (ANY, str(at)) for key, at in zip(keys, place, strict=True)
+    )
+
+
+def changed(value: Any, place: Sequence[Any], number: float) -> Any:
+    """Return a case, or a part of it, with the number at a place in it."""
+    if not place:
+        return number
+    key, *rest = place
+    if isinstance(value, BaseModel):
+        inside = changed(getattr(value, key), rest, number)
+        return type(value).model_validate({**dict(value), key: inside})
+    if isinstance(value, Mapping):
+        return {**value, key: changed(value[key], rest, number)}
+    return tuple(changed(v, rest, number) if i == key else v for i, v in enumerate(value))

@@ -1,0 +1,354 @@
+"""What is differentiated: a number of the saved states of a run, and its derivative in each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from numbers import Real
+from typing import Any
+
+import numpy as np
+from tribo import Array, CaseError, Grid, State
+from tribo.kernel_api import Model, did_you_mean, suggestion
+
+
+@dataclass(frozen=True)
+class View:
+    """A saved state, as an objective sees it.
+
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    state : State
+        The state.
+    """
+
+    model: Model
+    state: State
+
+    @property
+    def grid(self) -> Grid:
+        """The window."""
+        return self.model.grid
+
+    @property
+    def pressure(self) -> Array:
+        """Pressure in the middle of the cycle, shape (nx, ny), in Pa."""
+        return self.state.contact.pressure
+
+    def wear(self, body: str) -> Array:
+        """Return the depth worn off a body's own surface, in m.
+
+        Its shape is that of the window; (1, ny) of a body that is averaged along its track, and
+        (rows, ny) of one that passes through a resolved cycle.
+        """
+        if not isinstance(body, str) or body not in self.state.bodies:
+            meant = suggestion(did_you_mean(str(body), self.state.bodies))
+            raise CaseError(
+                f"there is no body {body!r}{meant} The bodies are {', '.join(self.state.bodies)}"
+            )
+        return self.state.bodies[body].wear
+
+    def volume(self, body: str) -> float:
+        """Return the volume worn off a body, in m³."""
+        return self.model.exposures[body].volume(self.wear(body))
+
+    def cell(self, field: Array, x: float, y: float) -> tuple[int, int]:
+        """Return the cell of a field, around the middle, that is nearest to a place, in m."""
+        found = []
+        for place, spacing, count in zip((x, y), self.grid.spacing, field.shape, strict=True):
+            index = 0 if count == 1 else int(np.floor(place / spacing + 0.5 * count))
+            if not 0 <= index < count:
+                raise CaseError(
+                    f"{1e3 * place:g} mm lies beyond {0.5e3 * count * spacing:g} mm from the middle"
+                )
+            found.append(index)
+        return found[0], found[1]
+
+
+@dataclass(frozen=True)
+class Seeds:
+    """The derivatives of an objective with respect to a state.
+
+    Parameters
+    ----------
+    wear : Mapping[str, ndarray], optional
+        By the depth worn off a body, by name, of its shape, in 1/m.
+    pressure : ndarray, shape (nx, ny), optional
+        By the pressure in the middle of the cycle, in 1/Pa.
+    time : float, optional
+        By the time of the state, in 1/s.
+    distance : float, optional
+        By the distance slid until then, in 1/m.
+    """
+
+    wear: Mapping[str, Array] = field(default_factory=dict)
+    pressure: Array | None = None
+    time: float = 0.0
+    distance: float = 0.0
+
+
+Objective = Callable[[View], tuple[float, Seeds]]
+"""A function of a `View` that returns a number and its `Seeds`."""
+
+
+def looked(objective: Objective, view: View) -> tuple[float, Seeds]:
+    """Return what an objective says of a state.
+
+    Raises
+    ------
+    CaseError
+        If that is not a finite number and its finite `Seeds`, of the shapes of what they are by.
+    """
+    name = getattr(objective, "__name__", type(objective).__name__)
+    answer: Any = objective(view)
+    match answer:
+        case (value, Seeds(wear=Mapping()) as seeds):
+            pass
+        case _:
+            raise CaseError(
+                f"{name} gave {answer!r}; an objective gives its value and Seeds, whose wear is by "
+                "body"
+            )
+    parts: list[tuple[str, Any, tuple[int, ...]]] = [
+        ("value", value, ()),
+        ("seed by time", seeds.time, ()),
+        ("seed by distance", seeds.distance, ()),
+    ]
+    if seeds.pressure is not None:
+        parts.append(("seed by pressure", seeds.pressure, view.pressure.shape))
+    for body, seed in seeds.wear.items():
+        parts.append((f"seed by the wear of {body}", seed, view.wear(body).shape))
+    for what, given, shape in parts:
+        array = as_numbers(given)
+        if array is not None and array.shape != shape:
+            raise CaseError(f"the {what} of {name} has the shape {array.shape}, not {shape}")
+        if array is None or not np.all(np.isfinite(array)):
+            raise CaseError(f"the {what} of {name} is NaN, infinite or no number")
+    return float(value), seeds
+
+
+def is_finite(value: object) -> bool:
+    """Whether something is a finite number."""
+    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def as_numbers(values: object) -> Array | None:
+    """Return an array of numbers; None of text, or of rows that are not alike."""
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):
+        return None
+    return array if array.dtype.kind in "fiu" else None
+
+
+def _check_place(x: float, y: float) -> None:
+    if not (is_finite(x) and is_finite(y)):
+        raise CaseError(f"the place x = {x!r}, y = {y!r} is none; give both in m, from the middle")
+
+
+@dataclass(frozen=True)
+class Volume:
+    """The volume worn off a body, in m³."""
+
+    body: str
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the volume, and the volume per depth of each cell."""
+        wear, volume = view.wear(self.body), view.model.exposures[self.body].volume
+        ones = np.ones_like(wear)
+        if len(wear) == 1 < view.grid.cells[0]:
+            # Rows of a track may be of different length.
+            each = np.array([[volume(row[None]) for row in np.eye(wear.shape[1])]])
+        else:
+            each = ones * (volume(ones) / wear.size)
+        return view.volume(self.body), Seeds({self.body: each})
+
+
+@dataclass(frozen=True)
+class Depth:
+    """The depth worn off a body at a place, in m: of the cell nearest to `x` and `y`, in m.
+
+    Places count from the middle of its own surface; `x` is left aside on a body that is averaged.
+    """
+
+    body: str
+    x: float = 0.0
+    y: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check_place(self.x, self.y)
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the depth, and 1 at its cell."""
+        wear = view.wear(self.body)
+        cell, seed = view.cell(wear, self.x, self.y), np.zeros_like(wear)
+        seed[cell] = 1.0
+        return float(wear[cell]), Seeds({self.body: seed})
+
+
+@dataclass(frozen=True)
+class Deepest:
+    """The largest depth worn off a body, in m, made smooth: Σ wᵐ / Σ wᵐ⁻¹ with m = `order`.
+
+    It lies below the largest depth, by 1/m of it where the scar is round at its deepest.
+    """
+
+    body: str
+    order: float = 100.0
+
+    def __post_init__(self) -> None:
+        if not (is_finite(self.order) and self.order >= 2):
+            raise CaseError(
+                f"an order of {self.order!r} of Deepest is not allowed; give a number, 2 or more"
+            )
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the mean, and its derivative."""
+        wear = view.wear(self.body)
+        most = float(np.max(wear))
+        if most <= 0:
+            return 0.0, Seeds({self.body: np.zeros_like(wear)})
+        part, m = wear / most, self.order
+        total = float(np.sum(part ** (m - 1)))
+        mean = float(np.sum(part**m)) / total
+        slope = (m * part ** (m - 1) - (m - 1) * mean * part ** (m - 2)) / total
+        return most * mean, Seeds({self.body: slope})
+
+
+@dataclass(frozen=True)
+class Width:
+    """The width of a scar, in m, made smooth: that of a parabola as wide in the mean.
+
+    Of the profile through the middle it is √20 times the standard deviation of the place of what
+    is gone. That is exact of a parabola, as a ball worn flat has lost it; on a groove with a toe it
+    is some 6 % less than to its edge. `axis` is 0 along the sliding direction, 1 across it.
+    """
+
+    body: str
+    axis: int = 1
+
+    def __post_init__(self) -> None:
+        if self.axis not in (0, 1):
+            raise CaseError(
+                f"an axis of {self.axis!r} of Width is none; give 0, along, or 1, across"
+            )
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the width, and its derivative."""
+        wear = view.wear(self.body)
+        lines, n = np.moveaxis(wear, self.axis, 0), wear.shape[self.axis]
+        if n == 1:
+            raise CaseError(f"{self.body} has no width along its track")
+        middle = slice((lines.shape[1] - 1) // 2, lines.shape[1] // 2 + 1)
+        profile, seed = np.mean(lines[:, middle], axis=1), np.zeros_like(lines)
+        if np.count_nonzero(profile) < 2:
+            return 0.0, Seeds({self.body: np.zeros_like(wear)})
+        total = np.sum(profile)
+        place = view.grid.spacing[self.axis] * np.arange(n)
+        part = profile / total
+        off = (place - np.sum(part * place)) ** 2
+        variance = float(np.sum(part * off))
+        width = (20 * variance) ** 0.5
+        seed[:, middle] = (10 / width * (off - variance) / total / lines[0, middle].size)[:, None]
+        return width, Seeds({self.body: np.moveaxis(seed, 0, self.axis)})
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """Half of the sum of squares of what a body's depth misses a measured map by.
+
+    Parameters
+    ----------
+    body : str
+        Name of the body.
+    depth : ndarray
+        The measured depth, in m, of the shape of `View.wear`; NaN where nothing was measured.
+    uncertainty : float, optional
+        By which each difference is divided, in m.
+    """
+
+    body: str
+    depth: Array
+    uncertainty: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not (is_finite(self.uncertainty) and self.uncertainty > 0):
+            raise CaseError(
+                f"an uncertainty of {self.uncertainty!r} is none; give Misfit one above 0, in m"
+            )
+        depth = as_numbers(self.depth)
+        if depth is None or np.any(np.isinf(depth)) or np.all(np.isnan(depth)):
+            raise CaseError(
+                f"the measured depth of {self.body} is no array of numbers, is infinite somewhere "
+                "or NaN everywhere; give depths in m, and NaN where nothing was measured"
+            )
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the misfit, and its derivative."""
+        wear = view.wear(self.body)
+        if np.shape(self.depth) != wear.shape:
+            raise CaseError(
+                f"the measured depth of {self.body} has the shape {np.shape(self.depth)}, its wear "
+                f"{wear.shape}; give it on the same cells"
+            )
+        off = np.where(np.isnan(self.depth), 0.0, (wear - self.depth) / self.uncertainty)
+        return 0.5 * float(np.sum(off * off)), Seeds({self.body: off / self.uncertainty})
+
+
+@dataclass(frozen=True)
+class Pressure:
+    """The pressure in the middle of the cycle at a place, in Pa: of the cell nearest to it, in m.
+
+    A cell that just touches has the derivative of one that is open.
+    """
+
+    x: float = 0.0
+    y: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check_place(self.x, self.y)
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the pressure, and 1 at its cell."""
+        cell, seed = view.cell(view.pressure, self.x, self.y), np.zeros_like(view.pressure)
+        seed[cell] = 1.0
+        return float(view.pressure[cell]), Seeds(pressure=seed)
+
+
+@dataclass(frozen=True)
+class EndTime:
+    """The time at which a depth ends a run, in s: how long a body lasts."""
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the time, and 1; `CaseError` if no depth has ended the run."""
+        _check_ended(view)
+        return view.state.time, Seeds(time=1.0)
+
+
+@dataclass(frozen=True)
+class EndDistance:
+    """The distance slid when a depth ends a run, in m: how far a body lasts."""
+
+    def __call__(self, view: View) -> tuple[float, Seeds]:
+        """Return the distance, and 1; `CaseError` if no depth has ended the run."""
+        _check_ended(view)
+        return view.state.distance, Seeds(distance=1.0)
+
+
+def _check_ended(view: View) -> None:
+    """Refuse a run that goes on to its own end, which says nothing of how long a body lasts."""
+    model, time = view.model, view.state.time
+    if time < model.end_time:
+        return
+    stop = model.case.stop
+    if stop.depth is None:
+        raise CaseError("is not given: without it no depth ends the run", "stop.depth")
+    most = max(float(np.max(view.wear(name))) for name in stop.whose(model.bodies))
+    raise CaseError(
+        f"is not reached: after {time:g} s the largest depth is {1e6 * most:.3g} µm of "
+        f"{1e6 * stop.depth:.3g} µm; give the motion a longer duration, or a lower depth",
+        "stop.depth",
+    )

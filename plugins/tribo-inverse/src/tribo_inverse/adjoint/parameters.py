@@ -1,0 +1,365 @@
+"""What each number of a case changes in a step whose pressures are given."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from pydantic import ValidationError
+from tribo import Array, CaseError, Operator, TriboError
+from tribo.kernel_api import Mask, Memory, Model, Moment, assemble
+
+from tribo_inverse.adjoint.course import Other
+from tribo_inverse.adjoint.linear import Carrier, carriers_of
+from tribo_inverse.adjoint.local import SPEED, localised, unreached
+from tribo_inverse.adjoint.numbers import ANY, changed
+from tribo_inverse.adjoint.objective import Seeds
+from tribo_inverse.adjoint.response import ASIDE, NUDGE
+from tribo_inverse.adjoint.tape import Pressed, Slid
+
+LAW = "law"
+"""What a number changes of a law that it enters."""
+CONTACT = ("young", "poisson", "hardness")
+"""Numbers of a material that contacts follow."""
+MOVES = "it moves the positions of the cycle by whole cells"
+
+
+@dataclass(frozen=True)
+class Stops:
+    """Times at which steps of a model end in any case, in s, and how far it has slid by then, in m.
+
+    In between, a model with another number makes its steps at the same parts of each stretch.
+    """
+
+    times: Array
+    distances: Array
+
+    @staticmethod
+    def of(model: Model) -> Stops:
+        """Return those of a model, 0 among them."""
+        edges = {*model.loads.edges, *model.motion.edges()}
+        within = {time for time in edges if 0 < time < model.end_time}
+        return Stops.at(model, sorted({0.0, *model.saves, *within}))
+
+    @staticmethod
+    def at(model: Model, times: Iterable[float]) -> Stops:
+        """Return those of a model at these times."""
+        found = np.array(list(times))
+        return Stops(found, np.array([model.motion.distance_at(float(time)) for time in found]))
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A model with a number changed, and its weight in the derivative.
+
+    `carriers` is None where the motion is that of the case.
+    """
+
+    model: Model
+    weight: float
+    stops: Stops
+    carriers: Mapping[str, Carrier] | None
+
+
+@dataclass(frozen=True)
+class Chain:
+    """What the number at a path of a case changes, by differences of models that differ in it.
+
+    The weighted sum over `variants` is the derivative; `base` is the model of the case itself, and
+    `stops` are its own. `wears` has the bodies whose wear under given contacts differs, and what of
+    their laws it may be that does: the `LAW` itself, or only properties of their material or the
+    `SPEED`. `spreads` tells whether K changes its shape too, and not only its size.
+    """
+
+    path: str
+    value: float
+    variants: Sequence[Variant]
+    base: Model
+    stops: Stops
+    wears: Mapping[str, Set[str]]
+    spreads: bool
+
+    def until(self, end: float) -> Chain:
+        """Return what it changes of a run that ends at a time (s) before that of the model."""
+        before = self.stops.times < end
+        own = Stops.at(self.base, [*self.stops.times[before], end])
+        variants = [
+            replace(each, stops=own)
+            if each.stops is self.stops
+            else replace(each, stops=Stops.at(each.model, [*each.stops.times[before], end]))
+            for each in self.variants
+        ]
+        return replace(self, stops=own, variants=variants)
+
+    def by_save(self, time: float, seeds: Seeds) -> float:
+        """Return what comes through when a save is, in the case at `time` (s), and how far on."""
+        return sum(
+            each.weight * (seeds.time * when + seeds.distance * each.model.motion.distance_at(when))
+            for each in self.variants
+            for when in [self._then(each, time)]
+        )
+
+    def by_stop(self, by_depth: float) -> float:
+        """Return what comes through the depth that ends the run, given the derivative in it."""
+        stops = ((each.weight, each.model.case.stop.depth) for each in self.variants)
+        return by_depth * sum(weight * depth for weight, depth in stops if depth is not None)
+
+    def by_load(self, record: Pressed, by_load: Array) -> float:
+        """Return what comes through the loads of a contact, given the derivative in each."""
+        total = 0.0
+        for each in self.variants:
+            loads = getattr(each.model.loads, record.load)
+            times = [self._then(each, time) for time in record.times]
+            total += each.weight * float(np.sum(by_load * np.array(loads(*times))))
+        return total
+
+    def by_spread(self, touching: Mask, seeds: Array, pressure: Array) -> float:
+        """Return what comes through the displacements K p, given the derivatives in them.
+
+        Both lie on the box of K around what touches, shape (positions, nx, ny). It is 0 of a number
+        that K only grows with, which `by_rest` has.
+        """
+        return sum(
+            each.weight * float(np.sum(seeds * _operator(each.model, touching).apply(pressure)))
+            for each in self.variants
+            if self.spreads
+        )
+
+    def by_wear(
+        self, slid: Slid, seen: Mapping[str, Set[str]], carriers: Mapping[str, Carrier]
+    ) -> Iterator[tuple[float, Other]]:
+        """Yield what a step slides otherwise under given contacts, with its weight.
+
+        `seen` is what each law read for it, and `carriers` are those of the case.
+        """
+        # A law that the number does not enter need not be asked about it again.
+        asks = {name for name, through in self.wears.items() if through & {LAW, *seen[name]}}
+        wears = asks | {name for name, through in self.wears.items() if SPEED in through}
+        for each in self.variants if wears else ():
+            if each.stops is self.stops:
+                # Of a difference to one side, the case itself.
+                continue
+            begun, ended = (self._then(each, time) for time in (slid.time, slid.moment.time))
+            end = slid.moment.distance
+            began, distance = (
+                float(np.interp(place, self.stops.distances, each.stops.distances))
+                for place in (end - slid.increment, end)
+            )
+            rests = slid.moment.speed == 0
+            increment = ended - begun if rests else distance - began
+            moment = Moment(ended, distance, 0.0 if rests else increment / (ended - begun))
+            then = replace(slid, time=begun, increment=increment, moment=moment)
+            yield each.weight, Other(each.model, each.carriers or carriers, then, wears, asks)
+
+    def by_rest(
+        self,
+        gap: Array,
+        stiffness: float,
+        cap: float,
+        states: Memory,
+    ) -> float:
+        """Return what comes through shapes, moduli, the hardness and what laws begin with."""
+        total = 0.0
+        for each in self.variants:
+            model = each.model
+            through = sum(
+                float(np.sum(g * shape)) for g, shape in zip(gap, model.gaps, strict=True)
+            )
+            if not self.spreads:
+                through -= stiffness * np.log(softness(model) / softness(self.base))
+            if model.system.cap is not None:
+                through += cap * model.system.cap
+            for name, law in model.laws.items():
+                for key, first in law.initial_state.items():
+                    through += first * float(np.sum(states.laws[name][key]))
+            for key, (effect, _) in model.between.items():
+                through += effect.initial_state[key] * float(np.sum(states.between[key]))
+            total += each.weight * through
+        return total
+
+    def _then(self, each: Variant, time: float) -> float:
+        """Return the time in a variant of what happens at `time` (s) in the case."""
+        return float(np.interp(time, self.stops.times, each.stops.times))
+
+
+def chain(
+    base: Model,
+    path: str,
+    places: Sequence[Sequence[Any]],
+    value: float,
+    factors: Mapping[str, Array],
+) -> Chain:
+    """Return what a number changes, `factors` on the wear rates being the base's.
+
+    Raises
+    ------
+    CaseError
+        If the case has no derivative in it.
+    """
+    if value == 0:
+        raise CaseError("is 0, of which no part can be taken as a difference", path)
+    moves = places[0][0] == "kinematics"
+    # Numbers of the motion may be at any phase of many cycles.
+    step = value * (ASIDE if moves else NUDGE)
+    error: Exception | None = None
+    central, upper = [(1, 0.5), (-1, -0.5)], [(0, -1.5), (1, 2.0), (2, -0.5)]
+    if all(map(_only_wears, places)):
+        # Only what is worn under given contacts follows it, which is known of the case itself.
+        step, central, upper = ASIDE * value, [], [(0, -1.0), (1, 1.0)]
+    lower = [(-by, -weight) for by, weight in upper]
+    for scheme in filter(None, (central, upper, lower)):
+        try:
+            models = [
+                _varied(base, places, value + by * step, factors) if by else base
+                for by, _ in scheme
+            ]
+        except (TriboError, ValidationError) as failed:
+            error = error or failed
+            continue
+        if scheme is central:
+            _check_smooth(models[0], base, models[1], path)
+        own = Stops.of(base)
+        variants = [
+            Variant(
+                model,
+                weight / step,
+                own if model is base else Stops.of(model),
+                moved(model, base) if moves else None,
+            )
+            for model, (_, weight) in zip(models, scheme, strict=True)
+        ]
+        wears, spreads = _wears(base, models[-1]), _spreads(base, models[-1])
+        return Chain(path, value, variants, base, own, wears, spreads)
+    why = error.errors()[0]["msg"] if isinstance(error, ValidationError) else str(error)
+    for place in (path, *(".".join(map(str, place)) for place in places)):
+        why = why.removeprefix(f"{place}: ")
+    raise CaseError(f"has no derivative here: {why}", path)
+
+
+def _only_wears(place: Sequence[Any]) -> bool:
+    """Whether a number at a place of a case changes no contact, but only what is worn under it."""
+    of_material = place[2:3] == ["material"] and place[3] not in CONTACT
+    return place[0] in ("effects", "friction") or "wear" in place[2:] or of_material
+
+
+def moved(model: Model, base: Model) -> Mapping[str, Carrier] | None:
+    """Return how the surfaces of bodies meet the window; None if as in the base."""
+    found, own = carriers_of(model), carriers_of(base)
+    shares, others = ([position.share for position in each.cycle] for each in (model, base))
+    alike = shares == others and not any(found[name].differs(own[name]) for name in found)
+    return None if alike else found
+
+
+def of_length(model: Model, end: float) -> Chain:
+    """Return what it changes when a run ends at a later time than `end`, in s."""
+    times = Stops.of(model).times
+    before = times[times < end]
+    step = ASIDE * (end - before[-1])
+    variants = [
+        Variant(model, 0.5 * by / step, Stops.at(model, [*before, end + by * step]), None)
+        for by in (1, -1)
+    ]
+    wears = dict.fromkeys(model.laws, frozenset({LAW}))
+    own = Stops.at(model, [*before, end])
+    return Chain("stop.depth", end, variants, model, own, wears, False)
+
+
+def _varied(
+    base: Model, places: Sequence[Sequence[Any]], number: float, factors: Mapping[str, Array]
+) -> Model:
+    """Return the model of a case with another number; refuse one that changes more than values."""
+    case = base.case
+    for place in places:
+        case = changed(case, place, number)
+    model = unreached(localised(assemble(case), factors), base)
+    ways, others = (
+        [(e.rows, None if e.starts is None else tuple(e.starts)) for e in each.exposures.values()]
+        for each in (base, model)
+    )
+    if ways != others or len(base.cycle) != len(model.cycle):
+        raise CaseError(MOVES)
+    if base.plastic_share != model.plastic_share:
+        raise CaseError(
+            "both bodies have the same hardness, and either may be the softer; name both, as "
+            f"bodies.{ANY}.material.hardness"
+        )
+    times, other_times = Stops.of(base).times, Stops.of(model).times
+    if len(times) != len(other_times):
+        moved = np.setxor1d(times, other_times)[0]
+        of_load, of_motion = set(base.loads.edges), set(base.motion.edges())
+        both = (of_load & of_motion) | ((of_load | of_motion) & base.saves)
+        at = min(both, key=lambda time: abs(time - moved), default=moved)
+        raise CaseError(
+            f"it parts what falls together at {at:g} s: a save, the end of a stage of the load or "
+            "of the motion; move one of them a little"
+        )
+    return model
+
+
+def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
+    """Return the bodies that wear otherwise under given contacts, and through what."""
+    one, other = base.case, model.case
+    everything = dict.fromkeys(model.laws, frozenset({LAW}))
+    keeps = model.between or any(law.initial_state for law in model.laws.values())
+    if one.load != other.load and keeps and not isinstance(one.load.normal, float):
+        # What is remembered follows a load that changes along a step.
+        return everything
+    if one.friction != other.friction or one.effects != other.effects:
+        return everything
+    if one.kinematics != other.kinematics or not np.array_equal(
+        Stops.of(base).times, Stops.of(model).times
+    ):
+        # Points that slide further wear more, whatever their law looks at.
+        if model.effects or any(position.reach is not None for position in model.cycle):
+            return everything
+        return dict.fromkeys(model.laws, frozenset({SPEED}))
+    if model.effects and any(
+        (was.wear, was.layers, was.material) != (now.wear, now.layers, now.material)
+        for was, now in zip(one.bodies.values(), other.bodies.values(), strict=True)
+    ):
+        # An effect that a law follows may look at either body.
+        return everything
+    found = {}
+    for name in model.laws:
+        was, now = one.bodies[name], other.bodies[name]
+        if (was.wear, was.layers) != (now.wear, now.layers):
+            found[name] = frozenset({LAW})
+        elif was.material != now.material:
+            found[name] = frozenset(
+                key for key, value in was.material if value != getattr(now.material, key)
+            )
+    return found
+
+
+def _check_smooth(higher: Model, base: Model, lower: Model, path: str) -> None:
+    """Refuse a number at which the shares of the positions have a kink."""
+    up, at, down = (
+        np.array([position.share for position in model.cycle]) for model in (higher, base, lower)
+    )
+    if np.max(np.abs(up + down - 2 * at)) > 1e-3 * np.max(np.abs(up - down)) + 1e-13:
+        raise CaseError(MOVES, path)
+
+
+def _spreads(base: Model, model: Model) -> bool:
+    """Whether K of a model has another shape, as with another elasticity of a layer."""
+    ratio = _symbol(model) / _symbol(base)
+    return bool(np.ptp(ratio) > 1e-9 * np.max(ratio))
+
+
+def softness(model: Model) -> float:
+    """Return a number to which K is proportional, in m/Pa."""
+    return float(np.max(_symbol(model)))
+
+
+def _symbol(model: Model) -> Array:
+    cell = np.zeros(model.grid.cells, dtype=bool)
+    cell[model.grid.cells[0] // 2, model.grid.cells[1] // 2] = True
+    return _operator(model, cell).symbol()
+
+
+def _operator(model: Model, touching: Mask) -> Operator:
+    found = model.contact.operator(model.system, touching)
+    assert found is not None
+    return found[1]

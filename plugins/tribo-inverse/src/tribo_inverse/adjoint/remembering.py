@@ -1,0 +1,339 @@
+"""An increment of bodies that remember, or that follow what lies between them, backwards."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+
+import numpy as np
+from tribo import Array, CaseError
+from tribo.kernel_api import CELLS, Memory, over
+
+from tribo_inverse.adjoint.course import Before, Other
+from tribo_inverse.adjoint.linear import Carrier
+from tribo_inverse.adjoint.passing import lowered, with_bottoms
+from tribo_inverse.adjoint.replay import Part, replayed, weight
+from tribo_inverse.adjoint.response import ALONE, Arrays, Field
+from tribo_inverse.adjoint.slopes import Slopes, Sloping
+from tribo_inverse.adjoint.stages import together
+
+_Seeded = tuple[Slopes, Sequence[Field]]
+"""Rates, and the derivatives in them."""
+
+
+@dataclass(frozen=True)
+class _Along:
+    """Derivatives of an objective along an increment.
+
+    `rates` has those in the `means` of the rates at its stages.
+    """
+
+    rates: Sequence[_Seeded]
+    stages: Sloping
+
+    def plus(self, other: _Along, by: Array) -> _Along:
+        """Return the sum with another's, times a number at each point."""
+        rates = [
+            (stage, _added(seeds, _times(by, more)))
+            for (stage, seeds), (_, more) in zip(self.rates, other.rates, strict=True)
+        ]
+        return _Along(rates, self.stages)
+
+    @cached_property
+    def by_cell(self) -> Arrays:
+        """The derivatives in the rates at each cell, shape (stages, positions, nx, ny)."""
+        shares = over(self.stages.shares)
+        each = [self.stages.seen(seeds) for _, seeds in self.rates]
+        shape = self.rates[0][0].rates[0].shape
+        return [
+            np.stack([np.broadcast_to(shares * seed, shape) for seed in of_rate])
+            for of_rate in zip(*each, strict=True)
+        ]
+
+    @cached_property
+    def states(self) -> Arrays:
+        """What is remembered at their stages, shape (stages, rows, ny)."""
+        return together([stage.states for stage, _ in self.rates])
+
+    @cached_property
+    def found(self) -> Arrays:
+        """The rates there, shape (stages, positions, nx, ny)."""
+        return together([stage.rates for stage, _ in self.rates])
+
+    @cached_property
+    def by_bottoms(self) -> dict[str, list[float]]:
+        """The derivatives in the depths at which layers end, by body."""
+        found = {
+            name: [0.0] * len(self.stages.model.laws[name].bottoms) for name in self.stages.layered
+        }
+        for rates, seeds in self.rates:
+            for name, more in self.stages.by_bottoms(rates, seeds).items():
+                found[name] = [a + b for a, b in zip(found[name], more, strict=True)]
+        return found
+
+    @property
+    def by_length(self) -> float:
+        """The derivative in ln(its length) where the rates stay as they are."""
+        products = (_products(seeds, stage.means) for stage, seeds in self.rates)
+        return sum(float(np.sum(each)) for of_stage in products for each in of_stage)
+
+
+@dataclass(frozen=True)
+class _Back:
+    """Derivatives of an objective in what an increment depends on, and `along` it.
+
+    In the pressure of each cell; in the load and Σp²/2 of each position, still by cell; in factors
+    on the rates of bodies; and in the `states` before.
+    """
+
+    pressure: Field
+    load: Field
+    square: Field
+    factors: Sequence[Field]
+    states: Sequence[Field]
+    along: _Along
+
+
+@dataclass(frozen=True)
+class Remembering:
+    """An increment of the bodies of a model that wear, and the rates at its stages."""
+
+    stages: Sloping
+
+    def _before(
+        self, wear: Mapping[str, Array], states: Memory, found: _Back, along: Callable[[], _Along]
+    ) -> Before:
+        each = iter(np.asarray(state) for state in found.states)
+        pressure = found.pressure + _summed(found.load)
+        pressure = pressure + _summed(found.square) * self.stages.pressure
+        pressure = self.stages.embedded(pressure)
+        states = states.with_values(each)
+        through = {
+            name: wear[name] + seed for name, seed in zip(self.stages.layered, each, strict=True)
+        }
+        factors = dict(zip(self.stages.model.laws, map(np.asarray, found.factors), strict=True))
+        return Before(
+            pressure,
+            {**wear, **through},
+            states,
+            factors,
+            lambda other: self._through(along(), other),
+        )
+
+    def _through(self, along: _Along, other: Other) -> float:
+        laws = self.stages.model.laws
+        if not other.wears & laws.keys():
+            return 0.0
+        others = replace(
+            self.stages,
+            model=replace(other.model, laws=with_bottoms(other.model, self.stages.model, [*laws])),
+            carriers=other.carriers,
+            slid=replace(other.slid, before=self.stages.slid.before),
+        )
+        longer = others.slid.increment / self.stages.slid.increment
+        # Rates follow the length where they are means over it, or loads change along it.
+        asks = other.asks & laws.keys() or self.stages.follows_length
+        total = (longer - 1) * along.by_length
+        for name, deeper in along.by_bottoms.items():
+            total += float(np.dot(deeper, lowered(other.model, self.stages.model, name)))
+        rates, moves = along.found, other.carriers is not self.stages.carriers
+        if asks:
+            places = [
+                others.with_shares(s.states, s.place._replace(over=longer * s.place.over))
+                for s, _ in along.rates
+            ]
+            rates = others.rates(along.states, places)
+        if moves:
+            return total + sum(
+                _dot(seeds, others.means([rate[i] for rate in rates]), stage.means)
+                for i, (stage, seeds) in enumerate(along.rates)
+            )
+        return total + _dot(along.by_cell, rates, along.found) if asks else total
+
+    @cached_property
+    def _parts(self) -> list[Part[Slopes]]:
+        return replayed(self.stages)
+
+    def _back(self, depth: Sequence[Field], after: Sequence[Field]) -> _Back:
+        """Go back from derivatives in the depths and the states after."""
+        total: list[Field] = [0.0] * (3 + len(depth))
+        along = list[_Seeded]()
+
+        def behind(seeded: _Seeded, before: Sequence[Field]) -> list[Field]:
+            """Go back through rates; return what they add to derivatives in the states before."""
+            along.append(seeded)
+            found, states = self.stages.behind(*seeded)
+            total[:] = _added(total, found)
+            return _added(before, states)
+
+        for part in reversed(self._parts):
+            before: list[Field] = [0.0] * len(after)
+            bends: list[Field] = [0.0] * len(after)
+            starts: list[_Seeded] = []
+            lengths = [len(row) for row in part.rows]
+            pairs = zip(part.rows, part.lasting, part.bending, strict=True)
+            for steps, (row, counted, bent_by) in zip(lengths, pairs, strict=True):
+                counts = weight(steps, lengths)
+                seeds = [counts * seed for seed in after]
+                step = part.length / steps
+                deep = [step * counts * seed for seed in depth]
+                for stage in reversed(row):
+                    for at, bend in enumerate(bent_by):
+                        if np.ndim(bend):
+                            bends[at] = bends[at] + seeds[at] * stage.means[len(depth) + at] * bend
+                    kept = [seed * by for seed, by in zip(seeds, counted, strict=True)]
+                    each: _Seeded = (stage, [*deep, *kept])
+                    if stage is row[0]:
+                        _join(starts, *each)
+                    else:
+                        seeds = behind(each, seeds)
+                before = _added(before, seeds)
+            self._join_relaxing(starts, part, bends)
+            for each in starts:
+                before = behind(each, before)
+            after = before
+        pressure, load, square, *factors = total
+        return _Back(pressure, load, square, factors, after, _Along(along, self.stages))
+
+    def _join_relaxing(
+        self, seeded: list[_Seeded], part: Part[Slopes], bends: Sequence[Field]
+    ) -> None:
+        """Add derivatives in the rates that tell how fast states relax, from those in that."""
+        own = len(self.stages.own)
+        for at, moved, by in part.moved:
+            falls = np.asarray(part.relaxing[at]) < 0
+            for stage, sign in ((moved, 1.0), (part.rows[0][0], -1.0)):
+                seeds: list[Field] = [0.0] * (own + len(bends))
+                seeds[own + at] = sign * falls * bends[at] / by
+                _join(seeded, stage, seeds)
+
+
+@dataclass(frozen=True)
+class Together(Remembering):
+    """An increment of bodies that follow what lies between them."""
+
+    def back(self, wear: Mapping[str, Array], states: Memory) -> Before:
+        """Return derivatives before it from those in the depths and what is remembered after."""
+        laws = self.stages.model.laws
+        # What the depths in layers come to within the increment counts as their wear.
+        within = [0.0] * len(self.stages.layered)
+        found = self._back([wear[name] for name in laws], [*states.values, *within])
+        return self._before(wear, states, found, lambda: found.along)
+
+    @cached_property
+    def is_pointwise(self) -> bool:
+        """Whether a point's depth follows the pressures of its own cells alone.
+
+        Then `bodies` say all that the wear adds to the system of a step. Not where effects are
+        refused, as those that reach beyond a box.
+        """
+        model = self.stages.model
+        if len(model.cycle) > 1 or self.stages.layered or model.filling:
+            return False
+        if any(kept.weights is not None for kept in self.stages.kept):
+            return False
+        try:
+            _, reach = self.stages.first
+        except CaseError:
+            return False
+        return all(each == ALONE for each in (reach.pressure, *reach.states))
+
+    @cached_property
+    def bodies(self) -> Sequence[tuple[Carrier, Array]]:
+        """Of each body its carrier and the derivative of a point's depth in its cells' pressures.
+
+        Where more follows those, that as the increment begins, to precondition with.
+        """
+        if self.is_pointwise:
+            shape, none = self.stages.pressure.shape, [0.0] * len(self.stages.begin)
+            found = []
+            for at, own in enumerate(self.stages.own):
+                seeds: list[Field] = [0.0] * len(self.stages.own)
+                seeds[at] = np.ones((own.rows, self.stages.box.window[1]))
+                by = self._back(seeds, none).pressure
+                found.append((own, self.stages.embedded(np.broadcast_to(by, shape))))
+            return found
+        start, window = self._parts[0].rows[0][0], np.ones(self.stages.pressure.shape)
+        return [
+            (own, self.stages.slid.increment * own.part(self.stages.box) * by.own * window)
+            for own, by in zip(self.stages.own, start.by_pressure, strict=False)
+        ]
+
+
+@dataclass(frozen=True)
+class Alone(Remembering):
+    """An increment of one body, of which each point follows its own cells and memory alone.
+
+    Derivatives before it are proportional to that in the depth of the point, but for what comes of
+    those in what is remembered `after` it.
+    """
+
+    after: Memory
+
+    @property
+    def bodies(self) -> Sequence[tuple[Carrier, Array]]:
+        """Its carrier, and the derivative of a point's depth in the pressures of its cells."""
+        (carrier,) = self.stages.own
+        return [(carrier, self.stages.embedded(np.asarray(self._of_depth.pressure)))]
+
+    def back(self, wear: Mapping[str, Array]) -> Before:
+        """Return derivatives before it from those in the depths after."""
+        (name,), (carrier,) = self.stages.model.laws, self.stages.own
+        one, other, by = self._of_states, self._of_depth, wear[name]
+        cells = carrier.seen(by, self.stages.box)
+        found = _Back(
+            one.pressure + cells * other.pressure,
+            one.load + cells * other.load,
+            one.square + cells * other.square,
+            _added(one.factors, _times(by, other.factors)),
+            _added(one.states, _times(by, other.states)),
+            one.along,
+        )
+        along = cache(lambda: one.along.plus(other.along, by))
+        return self._before({name: by}, self.after, found, along)
+
+    @cached_property
+    def _of_depth(self) -> _Back:
+        return self._back([np.ones(self._shape)], [0.0] * len(self.stages.begin))
+
+    @cached_property
+    def _of_states(self) -> _Back:
+        # What the depth in layers comes to within the increment counts as its wear.
+        return self._back([0.0], [*self.after.values, *(0.0 for _ in self.stages.layered)])
+
+    @property
+    def _shape(self) -> tuple[int, int]:
+        return self.stages.own[0].rows, self.stages.model.grid.cells[1]
+
+
+def _join(seeded: list[_Seeded], stage: Slopes, seeds: Sequence[Field]) -> None:
+    """Add derivatives in the rates of a stage, to those in them that there are already."""
+    for at, (other, before) in enumerate(seeded):
+        if other is stage:
+            seeded[at] = stage, _added(before, seeds)
+            return
+    seeded.append((stage, seeds))
+
+
+def _times(by: Array, fields: Sequence[Field]) -> list[Field]:
+    return [by * field for field in fields]
+
+
+def _products(one: Sequence[Field], other: Sequence[Field]) -> list[Field]:
+    return [a * b for a, b in zip(one, other, strict=True)]
+
+
+def _added(one: Sequence[Field], other: Sequence[Field]) -> list[Field]:
+    return [a + b for a, b in zip(one, other, strict=True)]
+
+
+def _dot(seeds: Sequence[Field], now: Arrays, before: Arrays) -> float:
+    """Return what changes make, from derivatives in what changes."""
+    changes = zip(seeds, now, before, strict=True)
+    return sum(float(np.sum(seed * (new - old))) for seed, new, old in changes)
+
+
+def _summed(field: Field) -> Field:
+    """Return the sum over each contact of what is known by cell."""
+    return over(np.sum(field, CELLS)) if np.ndim(field) else field

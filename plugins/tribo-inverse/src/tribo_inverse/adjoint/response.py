@@ -1,0 +1,242 @@
+"""How rates follow what they are asked at: at each point, beside it, the load, and Σp²."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+
+import numpy as np
+from tribo import Array
+from tribo.kernel_api import CELLS, over
+
+NUDGE = 3e-5
+"""Part of a value by which it is varied up and down to find a derivative, or once for a second."""
+ASIDE = 1e-7
+"""The same where it is varied to one side only, or a derivative may soon change."""
+LEAST = 0.1
+"""Part of a cell's pressure that must be varied to find what follows it."""
+AGREES, CERTAIN = 1e-4, 1e-7
+"""Relative difference up to which a change in all that is varied is the sum of its parts; and of
+parts that leave out most of what it could follow."""
+
+MOST = 25
+"""Points around one, itself among them, that it may follow."""
+PLACES = 8
+"""About as many cells are varied, one after the other, to see how far points follow them."""
+SLIGHT = 1e-9
+"""Of the largest change, what is below it is none."""
+
+Arrays = list[Array]
+Field = Array | float
+"""Values at each cell or point, or one that they all have."""
+Rates = Callable[[Array], Arrays]
+"""Rates at pressures, shape (positions, nx, ny), or at other values."""
+Offset = tuple[int, int]
+"""Cells along x and y from a point to another one."""
+ALONE = (0, 0)
+"""How many cells apart along x and y points are that follow each other, where they do not."""
+
+
+@dataclass(frozen=True)
+class Response:
+    """The derivatives of a rate at each cell, of the shape (…, positions, nx, ny) or 0.
+
+    In the value of that cell, and of those `beside` it, by how far they lie from it; and in the sum
+    of the pressures of all at its position, and in half the sum of their squares.
+    """
+
+    own: Field
+    load: Field = 0.0
+    square: Field = 0.0
+    beside: Mapping[Offset, Array] = field(default_factory=dict)
+
+    def change(self, pressure: Array, by: Array) -> Array:
+        """Return what a change of the pressures, or of other values, adds to the rate."""
+        found: Array = self.own * by + self.load * over(np.sum(by, CELLS))
+        for offset, slope in self.beside.items():
+            found = found + slope * np.roll(by, (-offset[0], -offset[1]), CELLS)
+        return found + self.square * over(np.sum(pressure * by, CELLS))
+
+    def at(self, stage: int) -> Response:
+        """Return those of one of several stages, which are on the first axis."""
+        own, load, square = (
+            each[stage] if isinstance(each, np.ndarray) else each
+            for each in (self.own, self.load, self.square)
+        )
+        return Response(own, load, square, {o: each[stage] for o, each in self.beside.items()})
+
+
+def back(seeds: Sequence[Field], responses: Sequence[Response]) -> Field:
+    """Return derivatives in the values at each cell from those in rates."""
+    found: Field = 0.0
+    for seed, response in zip(seeds, responses, strict=True):
+        if not np.ndim(seed):
+            continue
+        if np.ndim(response.own):
+            found = found + seed * response.own
+        for offset, slope in response.beside.items():
+            found = found + np.roll(seed * slope, offset, CELLS)
+    return found
+
+
+def local(rates: Rates, found: Arrays, pressure: Array, reach: Offset = ALONE) -> list[Response]:
+    """Return the responses of rates that follow the pressures of their own cell, and near it."""
+    return near(rates, found, pressure, ASIDE * pressure, reach)
+
+
+def near(
+    rates: Rates,
+    found: Arrays,
+    values: Array,
+    nudge: Array,
+    reach: Offset,
+    seen: Callable[[Array], Array] = lambda values: values,
+) -> list[Response]:
+    """Return the responses of rates in values that lie on cells.
+
+    `found` are the rates at the values, each of which is varied by its `nudge`. Cells so far apart
+    that nothing follows two of them are varied at once. Of values that lie on a body `seen` tells
+    how they lie where the rates do.
+    """
+    # What is added is not quite the nudge: its last digits are lost.
+    span = (values + nudge) - values
+    if reach == ALONE:
+        moved = rates(values + nudge)
+        span = seen(span)
+        by = np.where(span == 0, np.inf, span)
+        pairs = zip(moved, found, strict=True)
+        return [Response((after - before) / by) for after, before in pairs]
+    colours, ends = _colours(values.shape, reach), []
+    for colour in range(int(np.max(colours)) + 1):
+        moved = rates(np.where(colours == colour, values + nudge, values))
+        ends.append([after - before for after, before in zip(moved, found, strict=True)])
+    span, colours = seen(span), seen(colours)
+    changes = [np.stack(each) for each in zip(*ends, strict=True)]
+    slopes: dict[Offset, Arrays] = {}
+    for offset in product(*(range(-far, far + 1) for far in reach)):
+        here = -offset[0], -offset[1]
+        by, source = np.roll(span, here, CELLS), np.roll(colours, here, CELLS).astype(int)
+        by[by == 0] = np.inf
+        slopes[offset[0], offset[1]] = [
+            np.take_along_axis(change, source[None], 0)[0] / by for change in changes
+        ]
+    own = slopes.pop(ALONE)
+    return [
+        Response(each, beside={o: of[at] for o, of in slopes.items() if np.any(of[at])})
+        for at, each in enumerate(own)
+    ]
+
+
+def reached(changes: Arrays, place: Sequence[int]) -> Offset:
+    """Return how far apart points are that follow the one at a place, which has changed these."""
+    position, *cell = place
+    far = [0, 0]
+    for change in changes:
+        hit = np.abs(change[position]) > SLIGHT * np.max(np.abs(change[position]))
+        for axis, index in enumerate(cell):
+            apart = np.abs(np.flatnonzero(np.any(hit, axis=1 - axis)) - index)
+            around = np.minimum(apart, hit.shape[axis] - apart)
+            far[axis] = max(far[axis], int(np.max(around, initial=0)))
+    return far[0], far[1]
+
+
+def furthest(reaches: Sequence[Offset], *, on_track: bool = False) -> Offset:
+    """Return the furthest of all; `ALONE` where that is too far.
+
+    What is one along a track reaches no further along it.
+    """
+    along, across = (max(far) for far in zip(*reaches, strict=True))
+    along = 0 if on_track else along
+    return (along, across) if (2 * along + 1) * (2 * across + 1) <= MOST else ALONE
+
+
+def _colours(shape: Sequence[int], reach: Offset) -> Array:
+    """Return numbers from 0 on, alike only on cells that are too far apart for one to follow both.
+
+    Those at one end of the window may lie beside those at the other.
+    """
+    *_, rows, columns = shape
+    along, across = _in_row(rows, reach[0]), _in_row(columns, reach[1])
+    colours = along[:, None] * (1 + np.max(across)) + across
+    return np.array(np.broadcast_to(colours, shape))
+
+
+def _in_row(count: int, far: int) -> Array:
+    every, cell = 2 * far + 1, np.arange(count)
+    colours = cell % every + every * (cell >= count // every * every)
+    return np.unique(colours, return_inverse=True)[1].astype(float)
+
+
+def shared(rates: Rates, pressure: Array) -> list[Response]:
+    """Return the responses of rates that also follow the load and the mean of squares.
+
+    As effects do that share the load, or that are uniform over a contact of this load and area.
+    """
+    stripes = _balanced(pressure)
+    steeper = pressure**2 / over(np.max(pressure, CELLS))
+    ways = [stripes * pressure, pressure, steeper]
+    of_stripes, of_all, of_steeper = (
+        [
+            (higher - lower) / (2 * NUDGE)
+            for higher, lower in zip(
+                rates(pressure + NUDGE * way), rates(pressure - NUDGE * way), strict=True
+            )
+        ]
+        for way in ways
+    )
+    moved = np.where(np.abs(stripes) > LEAST, ways[0], np.inf)
+    moved = np.where(pressure > 0, moved, np.inf)
+    # What both ways change of both sums, relative to the first's: alike where pressures are even.
+    sums, squares = _sums(ways[1:]), _sums([pressure * way for way in ways[1:]])
+    inverse = _inverse(sums[1] / sums[0], squares[1] / squares[0])
+    found = []
+    for by_stripes, *others in zip(of_stripes, of_all, of_steeper, strict=True):
+        own = by_stripes / moved
+        left = [other - own * way for other, way in zip(others, ways[1:], strict=True)]
+        load, square = (
+            over(inverse[..., row, 0] / total) * left[0]
+            + over(inverse[..., row, 1] / total) * left[1]
+            for row, total in enumerate((sums[0], squares[0]))
+        )
+        found.append(Response(own, load, square))
+    return found
+
+
+def _balanced(pressure: Array) -> Array:
+    """Return signs that alternate, so that neither the load nor Σp² changes by them."""
+    signs = np.where(np.indices(pressure.shape[-2:]).sum(axis=0) % 2, -1.0, 1.0)
+    part = pressure / over(np.max(pressure, CELLS))
+    first, second, third = _sums([part, part**2, part**3])
+    of_sum, of_squares = _sums([part * signs, part**2 * signs])
+    inverse = _inverse(second / first, third / second)
+    even, steep = (
+        over(inverse[..., row, 0] * of_sum + inverse[..., row, 1] * of_squares) / over(total)
+        for row, total in enumerate((first, second))
+    )
+    return np.where(pressure > 0, signs - even - steep * part, 0.0)
+
+
+def _sums(fields: Arrays) -> Arrays:
+    return [np.sum(field, CELLS) for field in fields]
+
+
+def _inverse(one: Array, other: Array) -> Array:
+    """Return the inverse of [[1, 1], [one, other]] at each position."""
+    ones = np.ones_like(one)
+    matrix: Array = np.stack([np.stack([ones, ones], -1), np.stack([one, other], -1)], -2)
+    return np.asarray(np.linalg.pinv(matrix, rcond=1e-9), dtype=np.float64)
+
+
+def agrees(parts: Sequence[Arrays], found: Arrays, rates: Arrays, within: float) -> bool:
+    """Whether rates, in a change of all at once, change by the sum of what they do by each part.
+
+    It need be so within a part of the largest change; those by pressures and by a state may all but
+    cancel.
+    """
+    return all(
+        np.max(np.abs(sum(changes) - other))
+        <= within * max(np.max(np.abs(each)) for each in (other, *changes))
+        + 1e-8 * NUDGE * np.max(np.abs(rate))
+        for *changes, other, rate in zip(*parts, found, rates, strict=True)
+    )

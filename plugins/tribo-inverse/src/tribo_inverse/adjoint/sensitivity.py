@@ -1,0 +1,131 @@
+"""Which numbers of a case rule its answer, from runs on two coarse grids."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from tribo import CaseError, NumericalError
+from tribo.kernel_api import MARGINS, Model, OverTime, coarsened, limited
+
+from tribo_inverse.adjoint.gradient import gradient
+from tribo_inverse.adjoint.objective import Deepest, EndTime, Seeds, View
+
+CELLS = 24
+"""Along the longer edge of the coarser window; the finer has twice as many.
+
+An error of first order in the size of a cell is as large on the finer grid as the two differ.
+"""
+LEAST = 0.005
+"""Per cent for one per cent, below which a number is left out."""
+
+Answer = Literal["depth", "end_time"]
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """How the largest depth worn follows the numbers of a case, or the time until it is reached.
+
+    Parameters
+    ----------
+    body : str
+        The body that is worn deepest, or of which a depth ends the run.
+    of : str
+        ``"depth"`` of the body, or ``"end_time"`` where a depth ends the run.
+    percent : dict of float
+        By path, the largest first: by how many per cent that changes for one per cent of the
+        number, on the finer grid. What is smaller than its uncertainty is left out.
+    uncertainty : dict of float
+        By path: by how many per cent for one per cent the two grids differ.
+    cells : tuple of tuple of int
+        Cells of the two grids, along x and y.
+    """
+
+    body: str
+    of: Answer
+    percent: dict[str, float]
+    uncertainty: dict[str, float]
+    cells: tuple[tuple[int, int], tuple[int, int]]
+
+    @property
+    def whence(self) -> str:
+        """The grids, in words."""
+        coarse, fine = (" × ".join(map(str, cells)) for cells in self.cells)
+        return f"a run on {fine} cells; ±: its difference from one on {coarse}"
+
+    def shown(self, path: str) -> str:
+        """Return the change for one per cent of a number, in words."""
+        return f"{self.percent[path]:+.2f} ± {self.uncertainty[path]:.2f} %"
+
+
+def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
+    """Return which numbers rule the largest depth of a run, or its end, from coarse grids.
+
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    half_width_x : float
+        Half the extent of its first contact along x, in m.
+
+    Raises
+    ------
+    CaseError
+        If there is no gradient through the case, or nothing wears.
+    NumericalError
+        If the run on a coarse grid fails, or takes over 30 s.
+    """
+    if not model.contact.accepts_wear_compliance:
+        raise CaseError(
+            f"{model.contact.type!r} takes explicit steps only, and a coarse run implicit ones",
+            "contact.type",
+        )
+    if model.case.begin is not None:
+        raise CaseError("the wear that a run begins with is left out on a coarse grid", "begin")
+    resolved = np.inf if model.contact.periodic else half_width_x
+    wide = 1.0 if model.may_reach_edge else MARGINS[0]
+    failed: CaseError | NumericalError | None = None
+    # The average of the stroke is the cheapest, but has not all surfaces.
+    for cells, margin, half_width in (
+        (CELLS, wide, np.inf if model.contact.periodic else 0.0),
+        (2 * CELLS, 1.0, resolved),
+    ):
+        try:
+            with limited():
+                return _of_two(
+                    *(coarsened(model.case, n, margin, half_width) for n in (cells, 2 * cells))
+                )
+        except OverTime as error:
+            raise NumericalError(str(error)) from None
+        except (CaseError, NumericalError) as error:
+            failed = failed or error
+    assert failed is not None
+    raise failed
+
+
+def _of_two(coarse: Model, fine: Model) -> Sensitivity:
+    asked: list[tuple[str, Answer]] = []
+
+    def answer(view: View) -> tuple[float, Seeds]:
+        if not asked:
+            asked.append(_asked(view))
+        body, of = asked[0]
+        return EndTime()(view) if of == "end_time" else Deepest(body)(view)
+
+    before, after = gradient(coarse, answer), gradient(fine, answer)
+    if not after.value > 0:
+        raise CaseError("no body wears", "bodies")
+    off = {p: abs(value - before.relative.get(p, np.inf)) for p, value in after.relative.items()}
+    ranked = sorted(after.relative.items(), key=lambda item: -abs(item[1]))
+    percent = {p: float(value) for p, value in ranked if abs(value) >= max(LEAST, off[p])}
+    uncertainty = {path: float(off[path]) for path in percent}
+    return Sensitivity(*asked[0], percent, uncertainty, (coarse.grid.cells, fine.grid.cells))
+
+
+def _asked(view: View) -> tuple[str, Answer]:
+    model, state = view.model, view.state
+    deepest = max(model.laws, key=lambda name: float(np.max(view.wear(name))))
+    if state.time < model.end_time:
+        return model.case.stop.body or deepest, "end_time"
+    return deepest, "depth"

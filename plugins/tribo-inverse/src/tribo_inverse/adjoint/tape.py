@@ -1,0 +1,197 @@
+"""The steps of a run, kept to be gone through backwards."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+from tempfile import SpooledTemporaryFile
+
+import numpy as np
+from numpy.typing import NDArray
+from tribo import Array, CaseError, State
+from tribo.kernel_api import (
+    Drawn,
+    Event,
+    Memory,
+    Model,
+    Moment,
+    Plan,
+    Region,
+    Worn,
+    Yielded,
+    begin,
+    bounds,
+    march,
+    union,
+)
+
+IN_MEMORY = 1 << 24
+"""Bytes of a tape that are kept in memory; a longer one goes to a temporary file."""
+
+
+@dataclass(frozen=True)
+class Slid:
+    """How a step slid: from a time (s) on, and by an increment (m; s of a rest), to a moment.
+
+    `before` is what laws and effects remembered, and `plan` how the step was divided for that, and
+    is to be again; `ahead` tells whether it wore under contacts that were solved before it.
+    """
+
+    time: float
+    increment: float
+    moment: Moment
+    before: Memory
+    plan: Plan
+    ahead: bool
+
+
+@dataclass(frozen=True)
+class Pressed:
+    """The contacts of a cycle, in a region of the window that holds all their pressure.
+
+    Pressures, and depths by which the bodies overlap at the hardness (None where nothing yields),
+    have the shape (positions, rows, columns). The method `load` of `tribo.core.loads.Loads` gave
+    their loads when asked for `times` (s), and the step `slid` wore the bodies under them, if any.
+    """
+
+    region: Region
+    pressure: Array
+    overlap: Array | None
+    load: str
+    times: tuple[float, ...]
+    slid: Slid | None
+
+
+@dataclass(frozen=True)
+class Gave:
+    """What overlapped at some positions became plastic depth."""
+
+    places: Sequence[int]
+
+
+@dataclass(frozen=True)
+class Enveloped:
+    """The plastic depth of averaged bodies, by name, became that of one row at each y."""
+
+    rows: Mapping[str, NDArray[np.intp]]
+
+
+@dataclass(frozen=True)
+class Saved:
+    """A state that an objective looks at."""
+
+    time: float
+
+
+Record = Pressed | Gave | Enveloped | Saved
+
+
+class Tape:
+    """The records of a run in their order, which are read backwards.
+
+    Beyond 16 MiB they lie in a temporary file, so that the memory does not grow with the run.
+    `touched` is the region that holds all contacts, None before the first.
+    """
+
+    def __init__(self) -> None:
+        self._file = SpooledTemporaryFile(IN_MEMORY)  # noqa: SIM115
+        self._ends = [0]
+        self.touched: Region | None = None
+
+    def append(self, record: Record) -> None:
+        """Write a record after those there are."""
+        if isinstance(record, Pressed):
+            self.touched = union(self.touched or record.region, record.region)
+        pickle.dump(record, self._file, pickle.HIGHEST_PROTOCOL)
+        self._ends.append(self._file.tell())
+
+    def __reversed__(self) -> Iterator[Record]:
+        for start in self._ends[-2::-1]:
+            self._file.seek(start)
+            yield pickle.load(self._file)
+
+    def close(self) -> None:
+        """Give up the records."""
+        self._file.close()
+
+
+def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float, State]:
+    """Run a model, recorded on a tape; return the states at times (s) that are saved.
+
+    That at the model's own end is the last one, also where a depth ends the run sooner.
+    """
+    heard: list[Event] = []
+    states: dict[float, State] = {}
+    telling = replace(model, tell=heard.append)
+    state = begin(telling)
+    _keep(tape, model, heard, "after", 0.0, 0.0)
+    if 0.0 in looked_at:
+        states[0.0] = state
+        tape.append(Saved(0.0))
+    for accepted in march(telling, state):
+        before, state = state, accepted.state
+        _keep(tape, model, heard, "before", state.time, before.time)
+        time = model.end_time if accepted.last else state.time
+        if accepted.save and time in looked_at:
+            states[time] = state
+            tape.append(Saved(time))
+    missing = [time for time in looked_at if time not in states]
+    if missing and state.time == 0:
+        raise CaseError("is reached before the run begins; give a larger depth", "stop.depth")
+    if missing and state.time < missing[0] <= model.end_time:
+        raise CaseError(
+            f"a depth ends the run at {state.time:g} s, before {missing[0]:g} s, at which an "
+            "objective is to look; give a larger depth, or let it look at a save before that",
+            "stop.depth",
+        )
+    if missing:
+        raise CaseError(
+            f"nothing is saved at {missing[0]:g} s, which an objective is to look at; add it to "
+            "output.save_times"
+        )
+    return states
+
+
+def _keep(
+    tape: Tape, model: Model, heard: list[Event], load: str, time: float, begun: float
+) -> None:
+    """Write down what was heard up to an accepted state, without the steps that were rejected."""
+    steps = [i for i, event in enumerate(heard) if isinstance(event, Worn)]
+    if steps:
+        for event in heard[: steps[0]]:
+            tape.append(_written(event, model, "after", begun))
+        del heard[: steps[-1]]
+    for event in heard:
+        tape.append(_written(event, model, load, time))
+    heard.clear()
+
+
+def _written(event: Event, model: Model, load: str, time: float) -> Record:
+    if isinstance(event, Yielded):
+        return Gave(tuple(event.places))
+    if isinstance(event, Drawn):
+        averaged = [name for name, exposure in model.exposures.items() if exposure.averaged]
+        return Enveloped({name: np.argmax(event.before[name], axis=0) for name in averaged})
+    times: tuple[float, ...] = (time,)
+    slid = None
+    if isinstance(event, Worn):
+        load, times = "mean", (event.time, event.moment.time)
+        # Only in layers a law depends on how deep its body is worn.
+        worn = {name: event.before.worn[name] for name, law in model.laws.items() if law.bottoms}
+        laws = {name: event.before.laws[name] for name in model.laws}
+        before = Memory(laws, event.before.between if model.effects else {}, worn)
+        plan = replace(event.plan, accuracy=np.inf)
+        slid = Slid(event.time, event.increment, event.moment, before, plan, event.ahead)
+    contacts = event.contacts
+    region = reduce(union, (bounds(contact.pressure > 0) for contact in contacts))
+    yields = any(np.any(contact.overlap > 0) for contact in contacts)
+    return Pressed(
+        region=region,
+        pressure=np.stack([contact.pressure[region] for contact in contacts]),
+        overlap=np.stack([c.overlap[region] for c in contacts]) if yields else None,
+        load=load,
+        times=times,
+        slid=slid,
+    )

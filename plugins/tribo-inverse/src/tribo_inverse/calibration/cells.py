@@ -1,0 +1,172 @@
+"""A measured depth map, averaged over the cells of a body's surface."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import pandas as pd
+from scipy.ndimage import binary_opening, correlate1d
+from tribo import Array, CaseError, Heights, read_heights
+from tribo.kernel_api import Mask, Model, interpolated, located
+
+ROUNDING = 1e-6
+"""Relative rounding of pixel pitch and cell size."""
+COVERED = 0.5 - 1e-6
+"""Part of a cell that must be measured."""
+HOLES = 0.05
+"""Part of a cell that may lie in holes of 3 × 3 pixels or more."""
+MOST_BLOCKS = 600
+"""Blocks that a map is averaged over where a few parameters are fitted to it."""
+SWAPPED = 3.0
+"""Ratio of the unevenness along a track to that across it, each in units of its noise, above which
+the axes of a map are swapped."""
+
+
+def read_map(file: str, pitch: float | None, place: str) -> Heights:
+    """Read measured depths; CaseError, at their place, if they cannot be."""
+    with located(f"{place}.depth"):
+        return read_heights(file, None if pitch is None else (pitch, pitch))
+
+
+def surface_shape(model: Model, body: str) -> tuple[int, int]:
+    """Return the number of cells along and across a body's own surface."""
+    return model.exposures[body].rows, model.grid.cells[1]
+
+
+def block_means(depth: Array, noise: Array, spacing: tuple[float, float]) -> pd.DataFrame:
+    """Return the mean of a map over equal blocks of cells, 600 at most, one row each.
+
+    `measured` is the mean, `x_m` and `y_m` its position, `cells` the flat indices of the cells
+    that were measured, and `noise` its standard deviation; for depths and noise of `on_cells`.
+    """
+    side = 1
+    while np.prod(-(-np.array(depth.shape) // side)) > MOST_BLOCKS:
+        side += 1
+    (rows, ny), cells = depth.shape, np.arange(depth.size)
+    i, j = cells // ny, cells % ny
+    known = pd.DataFrame(
+        {
+            "measured": depth.ravel(),
+            "noise": noise.ravel() ** 2,
+            "x_m": spacing[0] * (i - 0.5 * (rows - 1)),
+            "y_m": spacing[1] * (j - 0.5 * (ny - 1)),
+            "cells": cells,
+            "block": i // side * ny + j // side,
+        }
+    ).dropna()
+    blocks = known.groupby("block")
+    means = blocks[["measured", "noise", "x_m", "y_m"]].mean()
+    means["noise"] = (means["noise"] / blocks.size()) ** 0.5
+    return means.assign(cells=blocks["cells"].agg(tuple)).reset_index(drop=True)
+
+
+def cell_means(depth: Array) -> Array:
+    """Return the means over cells of a depth given at their centres.
+
+    The mean is the value at the centre plus h²/24 times the second derivative along each axis.
+    """
+    found = depth.copy()
+    for axis in (0, 1):
+        found += correlate1d(depth, [1 / 24, -1 / 12, 1 / 24], axis, mode="nearest")
+    return found
+
+
+def means_over(depth: Array, cells: Iterable[tuple[int, ...]]) -> Array:
+    """Return the mean of a map over each block of cells of `block_means`."""
+    flat = depth.ravel()
+    return np.array([np.mean(flat[list(each)]) for each in cells])
+
+
+def on_cells(
+    heights: Heights,
+    shape: tuple[int, int],
+    spacing: tuple[float, float],
+    shift: tuple[float, float] = (0.0, 0.0),
+) -> tuple[Array, Array]:
+    """Return the mean of a map over each cell of a surface, weighted by shared area.
+
+    The point at `shift` from the middle of the map, in m, lies on the middle of the surface.
+    Missing pixels are interpolated, but for a track. NaN in cells of which less than half was
+    measured, or that have a part in a larger hole. Also the noise of each relative to that of a
+    cell without missing pixels, 1 where NaN.
+    """
+    averaged = shape[0] == 1
+    cell = heights.heights.shape[0] * heights.pitch[0] if averaged else spacing[0], spacing[1]
+    if any(pitch > (1 + ROUNDING) * size for pitch, size in zip(heights.pitch, cell, strict=True)):
+        raise CaseError(
+            f"its pixels, {1e6 * heights.pitch[0]:g} × {1e6 * heights.pitch[1]:g} µm, are larger "
+            f"than cells, {1e6 * cell[0]:g} × {1e6 * cell[1]:g} µm; check pitch, or lower "
+            "grid.cells"
+        )
+    known = np.isfinite(heights.heights)
+    # Along a track all is alike, so that nothing need be interpolated.
+    used = known if averaged else np.ones(known.shape)
+    filled = interpolated(heights.heights, ~known)
+    pixels = np.where(used, filled, 0.0)
+    if averaged and _has_swapped_axes(pixels, known):
+        raise CaseError(
+            "it is uneven along x, the sliding direction, and even across it, but a track is even "
+            "along x: its axes are swapped; x goes from row to row of the map, y along each"
+        )
+    # A cell takes parts of pixels: linear interpolation gives the mean of each part.
+    slopes = [np.where(used, slope, 0.0) for slope in np.gradient(filled)]
+    (in_x, offset_x), (in_y, offset_y) = (
+        _overlaps(n, width, m, pitch, off)
+        for n, width, m, pitch, off in zip(
+            shape,
+            cell,
+            known.shape,
+            heights.pitch,
+            (0.0 if averaged else shift[0], shift[1]),
+            strict=True,
+        )
+    )
+    total = in_x @ pixels @ in_y.T
+    total = total + offset_x @ slopes[0] @ in_y.T + in_x @ slopes[1] @ offset_y.T
+    measured = in_x @ known @ in_y.T
+    enough = measured >= COVERED * cell[0] * cell[1]
+    if not averaged:
+        in_holes = in_x @ binary_opening(~known, np.ones((3, 3))) @ in_y.T
+        enough &= in_holes <= HOLES * cell[0] * cell[1]
+    covered = in_x @ used @ in_y.T
+    found = np.divide(total, covered, out=np.full(shape, np.nan), where=enough)
+    if not np.any(enough):
+        raise CaseError(
+            "it does not lie on the window: its middle is taken as the contact's; check pitch, "
+            f"{1e6 * heights.pitch[0]:g} × {1e6 * heights.pitch[1]:g} µm"
+        )
+    return found, np.sqrt(cell[0] * cell[1] / np.where(enough, measured, cell[0] * cell[1]))
+
+
+def _has_swapped_axes(depth: Array, known: Mask) -> bool:
+    """Whether a map, with its tilt removed, is uneven along x and even across it."""
+    plane = np.stack([*np.nonzero(known), np.ones(np.sum(known))], axis=1)
+    level = np.zeros(depth.shape)
+    level[known] = depth[known] - plane @ np.linalg.lstsq(plane, depth[known], rcond=None)[0]
+    uneven, noise = [], []
+    for axis in (0, 1):
+        count = np.sum(known, axis=1 - axis)
+        there = count >= 0.5 * depth.shape[1 - axis]
+        if not np.any(there):
+            return False
+        means = np.sum(level, axis=1 - axis) / np.maximum(count, 1)
+        uneven.append(np.std(means[there]))
+        within = (level - np.expand_dims(means, 1 - axis))[known]
+        noise.append(np.std(within) / np.mean(count[there]) ** 0.5)
+    return bool(uneven[0] * noise[1] > SWAPPED * uneven[1] * noise[0])
+
+
+def _overlaps(
+    cells: int, width: float, pixels: int, pitch: float, shift: float
+) -> tuple[Array, Array]:
+    """Return the lengths shared by cells and pixels, shape (cells, pixels), at a shift.
+
+    Also each length times the offset of its middle from that of the pixel, in pixels.
+    """
+    to_cell = width * (np.arange(cells + 1)[:, None] - 0.5 * cells)
+    to_pixel = pitch * (np.arange(pixels + 1) - 0.5 * pixels) - shift
+    begin = np.maximum(to_cell[:-1], to_pixel[:-1])
+    end = np.minimum(to_cell[1:], to_pixel[1:])
+    shared = np.maximum(end - begin, 0.0)
+    return shared, 0.5 * shared * (begin + end - to_pixel[:-1] - to_pixel[1:]) / pitch

@@ -1,0 +1,172 @@
+"""Selection between several cases, of different wear laws say, by Schwarz's criterion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from tribo import Case, CaseError
+from tribo.kernel_api import about, case_tables, validate_case
+
+from tribo_inverse.calibration.calibrate import Calibration, calibrate
+from tribo_inverse.calibration.experiment import Experiment
+from tribo_inverse.calibration.measured import Measurements, read_measurements
+from tribo_inverse.calibration.notes import UNLIKELY
+from tribo_inverse.calibration.parameters import is_number
+from tribo_inverse.calibration.quantities import in_words, p_words, percent
+
+STRONG = 6.0
+"""Difference of the criterion from which on evidence is strong (Kass & Raftery)."""
+_SIGNIFICANT = 2.0
+"""Standard errors by which a case must predict left-out tests worse to be rejected."""
+SAME = 1e-6
+"""Relative rounding of two ratios."""
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """Several cases calibrated to the same data, and their comparison."""
+
+    cases: pd.DataFrame
+    """One row per case, the best first: `case`, its name; `bic`, Schwarz's criterion,
+    −2 ln L + p ln n for p parameters and n values; `weight`, its posterior probability with equal
+    priors; `left_out`, the sum of the log-likelihoods of tests predicted from the others, NaN if
+    these do not determine a parameter; `parameters`, their number."""
+    calibrations: Mapping[str, Calibration]
+    """By the name of the case."""
+    verdict: str
+    """The result in a sentence."""
+
+    def as_json(self) -> dict[str, Any]:
+        """Return it as plain data in SI units; NaN stands for none."""
+        own = [self.calibrations[name].as_json() for name in self.cases["case"]]
+        cases = self.cases.assign(calibration=own).to_dict("records")
+        return {"verdict": self.verdict, "cases": cases}
+
+
+def choose_case(
+    cases: Mapping[str, Case | Mapping[str, Any] | str | Path],
+    measured: Measurements | Mapping[str, Any] | str | Path,
+    *,
+    level: float = 0.95,
+    on_run: Callable[[str, int, float], object] = lambda name, run, misfit: None,
+) -> Choice:
+    """Calibrate several cases to the same data, and compare them by Schwarz's criterion.
+
+    Parameters
+    ----------
+    cases : Mapping
+        Cases, their tables, or their TOML files, by name.
+    measured : Measurements, Mapping, str or Path
+        As for `calibrate`. Each case fits those of the parameters that it has.
+    level, on_run
+        As for `calibrate`; `on_run` gets the name of the case first.
+
+    Raises
+    ------
+    CaseError, NumericalError
+        If there are fewer than two cases, or one cannot be calibrated.
+
+    References
+    ----------
+    Schwarz (1978), Ann. Stat. 6, 461-464. Kass and Raftery (1995), J. Am. Stat. Assoc. 90, 773-795.
+    Vehtari, Gelman and Gabry (2017), Stat. Comput. 27, 1413-1432.
+    """
+    if len(cases) < 2:
+        raise CaseError("give two cases or more to choose from")
+    found, of_each = {}, _measurements_of_each(cases, read_measurements(measured))
+    # What is wrong with one is told before another is run.
+    for name, own in of_each.items():
+        with about(name):
+            Experiment.of(cases[name], own)
+    for name, own in of_each.items():
+        with about(name):
+            found[name] = calibrate(cases[name], own, level=level, on_run=partial(on_run, name))
+    rows = pd.DataFrame(
+        {
+            "case": name,
+            "bic": each.bic,
+            "left_out": float(np.sum(each.left_out)) if len(each.left_out) else np.nan,
+            "parameters": len(each.parameters),
+        }
+        for name, each in found.items()
+    ).sort_values("bic", ignore_index=True)
+    weight = np.exp(-0.5 * (rows["bic"] - rows["bic"].min()))
+    rows.insert(2, "weight", weight / weight.sum())
+    return Choice(rows, found, _verdict(rows, found))
+
+
+def _measurements_of_each(
+    cases: Mapping[str, Case | Mapping[str, Any] | str | Path], measurements: Measurements
+) -> dict[str, Measurements]:
+    """Return the measurements for each case, with those parameters to fit that it has."""
+    known = {name: validate_case(case_tables(case)) for name, case in cases.items()}
+    fits = {
+        name: tuple(entry for entry in measurements.fit if is_number(case, entry.path))
+        for name, case in known.items()
+    }
+    for i, entry in enumerate(measurements.fit):
+        if not any(entry in fit for fit in fits.values()):
+            raise CaseError(f"{entry.path} is a number of none of the cases", f"fit.{i}.path")
+    for name, fit in fits.items():
+        if measurements.fit and not fit:
+            raise CaseError(f"{name} has none of the numbers to fit; add one of its own to fit")
+    return {name: measurements.model_copy(update={"fit": fit}) for name, fit in fits.items()}
+
+
+def _verdict(rows: pd.DataFrame, found: Mapping[str, Calibration]) -> str:
+    best, *others = rows.itertuples()
+    doubts = []
+    for other in others:
+        by = other.bic - best.bic
+        ahead = found[best.case].left_out - found[other.case].left_out
+        error = float(np.std(ahead, ddof=1) * len(ahead) ** 0.5) if len(ahead) > 1 else np.inf
+        # NaN, where a test alone determines a parameter, does not reject.
+        rejected = bool(np.sum(ahead) < -_SIGNIFICANT * error)
+        if by < STRONG or rejected:
+            doubts.append((other.case, by))
+    if not doubts:
+        by = others[0].bic - best.bic
+        verdict = (
+            f"the data speak for {best.case}: Schwarz's criterion is lower by {by:.3g} or more"
+        )
+        p_value = found[best.case].p_value
+        if p_value is not None and p_value < UNLIKELY:
+            verdict += f"; yet {best.case} does not describe them either ({p_words(p_value)})"
+        return verdict
+    names = " and ".join([best.case, *(name for name, _ in doubts)])
+    differs = ", ".join(f"{by:.2g}" for _, by in doubts)
+    return (
+        f"these data cannot tell {names} apart: Schwarz's criterion differs by {differs}, where "
+        f"{STRONG:g} is strong evidence{_next_quantity(found, best.case, doubts[0][0])}"
+    )
+
+
+def _next_quantity(found: Mapping[str, Calibration], first: str, second: str) -> str:
+    """Name the unmeasured quantity in which two cases differ most, for the next test."""
+    keys = ["test", "body", "quantity"]
+    both = found[first].predictions.merge(found[second].predictions, on=keys)
+    both["ratio"] = both["value_x"] / both["value_y"]
+    data = found[first].data
+    ratios = data.assign(ratio=data["computed"] / found[second].data["computed"])
+
+    def is_new(row: Any) -> bool:
+        # A quantity proportional to a measured one, as a volume to a mass, tells nothing new.
+        own = ratios[(ratios["test"] == row.test) & (ratios["body"] == row.body)]
+        return not np.any(np.abs(own["ratio"] / row.ratio - 1) < SAME)
+
+    both = both[[is_new(row) for row in both.itertuples()]]
+    if not len(both):
+        return ""
+    each = both.loc[np.abs(np.log(both["ratio"])).idxmax()]
+    where = f" in {each.test}" if each.test else ""
+    values = [in_words(each.quantity, value) for value in (each.value_x, each.value_y)]
+    return (
+        f"; of what was not measured they differ most in the {each.quantity} of {each.body!r}"
+        f"{where}: {values[0]} and {values[1]}, {percent(abs(each.ratio - 1))} % apart"
+    )

@@ -1,0 +1,57 @@
+"""How exactly values were measured."""
+
+from __future__ import annotations
+
+import numpy as np
+from tribo import Array, CaseError
+from tribo.kernel_api import number
+
+from tribo_inverse.calibration.quantities import FIELDS, in_words
+
+MOST_UNCERTAINTY = 1e4
+"""Largest relative uncertainty of a number: more is a wrong unit."""
+LEAST_UNCERTAINTY = 1e-6
+"""Smallest relative uncertainty."""
+_SIGNIFICANT = 3.0
+"""Standard deviations by which a mean depth below 0 is not noise."""
+
+
+class Part(float):
+    """An uncertainty as a part of each value, as ``"5 %"``."""
+
+
+def part_of(text: str, quantity: str) -> Part:
+    """Return the part of a value that a text in per cent says; CaseError if it cannot be one."""
+    if quantity in FIELDS:
+        raise CaseError(f"{text!r}: of depths at many places give it with a unit, as '10 nm'")
+    try:
+        part = number(text[:-1]) / 100
+    except ValueError:
+        raise CaseError(f"{text!r} is no number of per cent; write '5 %'") from None
+    if not 0 < part < 1:
+        raise CaseError(f"{text!r}: an uncertainty is above 0 % and below 100 %")
+    return Part(part)
+
+
+def data_error(quantity: str, sigma: Array | float, values: Array) -> str:
+    """Return why values cannot be right: in another unit, or depths negative; else empty."""
+    each = np.broadcast_to(sigma, values.shape)
+    if np.any(exact := each < LEAST_UNCERTAINTY * np.abs(values)):
+        worst = int(np.argmax(exact * np.abs(values)))
+        return (
+            f"known to {in_words(quantity, float(each[worst]))}, less than a millionth of "
+            f"{in_words(quantity, float(values[worst]))}: no run is that exact; check the "
+            "uncertainty, and the units of both"
+        )
+    if quantity not in FIELDS and np.all(each > MOST_UNCERTAINTY * np.abs(values)):
+        return (
+            f"known to {in_words(quantity, float(each[0]))}, over {MOST_UNCERTAINTY:g} times "
+            f"{in_words(quantity, float(values[0]))}: check the uncertainty, and the units of both"
+        )
+    mean = float(np.mean(values))
+    if not mean < -_SIGNIFICANT * np.max(each) / np.sqrt(len(values)):
+        return ""
+    return (
+        f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards from "
+        "the unworn surface, positive where it is worn: turn the sign round, or level them"
+    )

@@ -1,0 +1,264 @@
+"""The tests, parameters and data of a calibration, and runs of the model for them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from tribo import Array, Case, CaseError, Heights
+from tribo.kernel_api import case_tables, located, validate_case
+
+from tribo_inverse.calibration.cells import (
+    block_means,
+    cell_means,
+    means_over,
+    on_cells,
+    read_map,
+    surface_shape,
+)
+from tribo_inverse.calibration.exactness import data_error
+from tribo_inverse.calibration.linearised import Problem
+from tribo_inverse.calibration.measured import Measurements, read_measurements
+from tribo_inverse.calibration.parameters import Parameter, check_set, find_parameters
+from tribo_inverse.calibration.quantities import (
+    AXES,
+    DEPTH_MAP,
+    DEPTH_SIGMA,
+    DIAMETER_SIGMA,
+    EDGE_CELL_SIGMA,
+    FIELDS,
+    PROFILES,
+    Reading,
+    edge_sigma,
+)
+from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes
+from tribo_inverse.calibration.setups import READ, Run, Setup, find_setups, make_run, unmeasured
+
+LINEAR_BELOW = 0.1
+"""Part of the largest depth of a profile or map below which depths are taken as linear."""
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """Parameters of a case, its tests, and the measured data."""
+
+    setups: list[Setup]
+    parameters: list[Parameter]
+    table: pd.DataFrame
+    """`Measurements.table` with `setup` and `edge`, the σ of a computed diameter."""
+    heights: Mapping[int, Heights]
+    """Measured depth maps by their row of the table."""
+    data: pd.DataFrame
+    """The table with its row, `reading`. A depth map has one row per block of cells, with `x_m`,
+    `y_m`, and the shift of its scar, `shift_x_m`, `shift_y_m`."""
+    predicted: pd.DataFrame
+    """Quantities at the end that were not measured: `setup`, `test` and `READ`."""
+    repeatability: float | None
+    """From test to test; None to estimate it."""
+    shifts: Mapping[int, ScarShift] = field(default_factory=dict)
+    """Shift of the scar of a map, by its row of the table."""
+    runs: dict[bytes, Run] = field(default_factory=dict)
+    """Runs by the bytes of the parameters, with the readings of the table and those predicted."""
+
+    @classmethod
+    def of(
+        cls,
+        case: Case | Mapping[str, Any] | str | Path,
+        measured: Measurements | Mapping[str, Any] | str | Path,
+    ) -> Experiment:
+        """Read a case and measured values; CaseError if they are wrong or do not fit together."""
+        tables, measurements = case_tables(case), read_measurements(measured)
+        if measurements.map:
+            raise CaseError("asks for local coefficients; see calibrate_maps", "map")
+        base = validate_case(tables)
+        data = measurements.table()
+        setups = find_setups(tables, measurements.tests, data)
+        parameters = find_parameters(base, measurements.fit, data["body"].unique())
+        for place, test in measurements.tests.items():
+            check_set(parameters, test.set, f"{place}set")
+        diameter = data["position_m"].isna() & data["quantity"].isin(AXES)
+        axis = data["quantity"].map(AXES).fillna(0).astype(int)
+        spacing = np.array([setup.model.grid.spacing for setup in setups])
+        data["edge"] = np.where(diameter, DIAMETER_SIGMA * spacing[data["setup"], axis], 0.0)
+        seen = data[~data["below"]].groupby(["setup", *READ], dropna=False)["specimen"]
+        repeatability = measurements.repeatability
+        if repeatability is None and not np.any(seen.nunique() > 1):
+            repeatability = 0.0
+        heights = {
+            each.Index: read_map(each.entry.depth, each.entry.pitch, each.place)
+            for each in data.itertuples()
+            if each.quantity == DEPTH_MAP and each.entry.depth is not None
+        }
+        found = cls(
+            setups, parameters, data, heights, data, unmeasured(setups, data), repeatability
+        )
+        return found.moved({})
+
+    @property
+    def start(self) -> Array:
+        """Start of the fit, rounded as in the fit, which works with logarithms."""
+        return np.exp(np.log([p.start for p in self.parameters]))
+
+    @property
+    def run_count(self) -> int:
+        """Number of simulations."""
+        return len(self.setups) * len(self.runs)
+
+    @cached_property
+    def readings(self) -> list[tuple[Array, list[Reading]]]:
+        """Readings of each setup, and their rows in the table followed by the predictions."""
+        both = pd.concat([self.table, self.predicted], ignore_index=True)
+        return [
+            (own.index.to_numpy(), [Reading(*row) for row in own[READ].itertuples(index=False)])
+            for _, own in both.groupby("setup")
+        ]
+
+    def moved(self, shifts: Mapping[int, ScarShift]) -> Experiment:
+        """Return it with maps moved so that their scars lie on the middle of the contact."""
+        parts = []
+        for reading, row in self.table.groupby(level=0):
+            rows = row.assign(reading=reading)
+            if row["quantity"].iloc[0] == DEPTH_MAP:
+                rows = self._of_map(rows, shifts.get(reading, ScarShift()).shift)
+            parts.append(rows)
+        return replace(self, data=pd.concat(parts, ignore_index=True), shifts=shifts)
+
+    def on_cells(self, reading: int, shift: tuple[float, float]) -> tuple[Array, Array]:
+        """Return a map on the cells of its surface, in m, and its noise; see `cells.on_cells`.
+
+        0 for one that is not measured yet.
+        """
+        row = self.table.loc[reading]
+        model = self.setups[row["setup"]].model
+        shape = surface_shape(model, row["body"])
+        if reading not in self.heights:
+            return np.zeros(shape), np.ones(shape)
+        with located(f"{row['place']}.depth"):
+            return on_cells(self.heights[reading], shape, model.grid.spacing, shift)
+
+    def _of_map(self, row: pd.DataFrame, shift: tuple[float, float]) -> pd.DataFrame:
+        """Return a row of the table for each block of cells of a map."""
+        (each,) = row.itertuples()
+        depth, noise = self.on_cells(each.Index, shift)
+        if error := data_error(DEPTH_MAP, each.entry.sigma, depth[np.isfinite(depth)]):
+            raise CaseError(error, f"{each.place}.depth")
+        blocks = block_means(depth, noise, self.setups[each.setup].model.grid.spacing)
+        if each.entry.depth is None:
+            blocks["measured"] = math.nan
+        blocks[["shift_x_m", "shift_y_m"]] = shift
+        rows = row.loc[row.index.repeat(len(blocks))].reset_index(drop=True).assign(**blocks)
+        for name in ("sigma", "step_sigma"):
+            rows[name] *= rows["noise"]
+        return rows
+
+    def centred(self, values: Array) -> Experiment:
+        """Return it with maps moved so that their scars lie where a run has them."""
+        found = {}
+        for reading, depth in self._readings_of(values).maps.items():
+            if reading in self.heights:
+                row = self.table.loc[reading]
+                spacing = self.setups[row["setup"]].model.grid.spacing
+                sigma = math.hypot(row["sigma"], DEPTH_SIGMA * float(np.max(depth)))
+                shift = find_shift(self.heights[reading], depth, spacing, sigma)
+                found[reading] = shift.unless_near(self.shifts.get(reading, ScarShift()), spacing)
+        return self.moved(found) if found else self
+
+    def run(self, values: Array) -> Run:
+        """Return a run with one response per row of the data, then per prediction."""
+        return self.of_data(self._readings_of(values))
+
+    def of_data(self, made: Run) -> Run:
+        """Return a run of readings with one response per row of the data, then per prediction."""
+        predicted = len(self.table) + np.arange(len(self.predicted))
+        reading = np.append(self.data["reading"], predicted).astype(int)
+        responses, grid_sigma = made.responses[reading], made.grid_sigma[reading]
+        for i, depth in made.maps.items():
+            rows = np.flatnonzero(reading == i)
+            cells = self.data["cells"].iloc[rows]
+            responses[rows] = means_over(cell_means(depth), cells)
+            at_edge = means_over(edge_sigma(depth, EDGE_CELL_SIGMA) ** 2, cells) / cells.map(len)
+            grid_sigma[rows] = np.sqrt(grid_sigma[rows] ** 2 + at_edge)
+        return made._replace(responses=responses, grid_sigma=grid_sigma)
+
+    def _readings_of(self, values: Array) -> Run:
+        """Return the readings of a run, which is cached."""
+        key = values.tobytes()
+        if key in self.runs:
+            return self.runs[key]
+        responses, grid_sigma = np.empty((2, len(self.table) + len(self.predicted)))
+        notices: dict[str, list[str]] = {}
+        maps: dict[int, Array] = {}
+        for i, (rows, wanted) in enumerate(self.readings):
+            tables, name = self.setups[i].tables, f"run {self.run_count + i + 1}"
+            made = make_run(tables, self.parameters, values, wanted, name)
+            responses[rows], grid_sigma[rows] = made.responses, made.grid_sigma
+            for j, depth in made.maps.items():
+                shape = surface_shape(self.setups[i].model, wanted[j].body)
+                maps[int(rows[j])] = depth[: shape[0]]
+            for notice in made.notices:
+                notices.setdefault(notice, []).append(self.setups[i].name or "the case as it is")
+        positive = ~self.table["quantity"].isin(FIELDS).to_numpy()
+        for each in self.table[positive & (responses <= 0)[: len(self.table)]].itertuples():
+            raise CaseError(
+                f"the case gives a {each.quantity} of 0 for {each.body!r}; begin with more wear: "
+                "give start in fit",
+                each.place,
+            )
+        notes = (
+            notice if len(of) == len(self.setups) else f"{', '.join(of)}: {notice}"
+            for notice, of in notices.items()
+        )
+        self.runs[key] = Run(responses, grid_sigma, maps, tuple(notes))
+        return self.runs[key]
+
+    def problem(self, values: Array) -> Problem:
+        """Return the least-squares problem, with the errors of the grid in a run of `values`."""
+        data, run = self.data, self.run(values)
+        sigma = np.hypot(data["sigma"], run.grid_sigma[: len(data)]).to_numpy()
+        computed = pd.Series(run.responses[: len(data)]).abs()
+        largest = computed.groupby(data["place"]).transform("max").to_numpy()
+        is_field = data["quantity"].isin(FIELDS)
+        small = np.where(is_field, np.maximum(LINEAR_BELOW * largest, sigma), 0.0)
+        with np.errstate(divide="ignore"):
+            lower, upper = np.log([(p.lower, p.upper) for p in self.parameters]).T
+        return Problem(
+            names=tuple(p.path for p in self.parameters),
+            observed=data["measured"].to_numpy(),
+            sigma=sigma,
+            below=data["below"].to_numpy(),
+            specimen=data["specimen"].to_numpy(),
+            repeatability=self.repeatability,
+            small=np.append(small, np.zeros(len(self.predicted))),
+            lower=lower,
+            upper=upper,
+            common=self._common(run),
+        )
+
+    def _common(self, run: Run) -> Array:
+        """Return `Problem.common`: errors of the grid, and shifts of maps, in a whole field."""
+        columns = []
+
+        def add(rows: Any, source: Array) -> None:
+            columns.append(np.zeros(len(self.data)))
+            columns[-1][rows] = source
+
+        for _, own in self.data[self.data["quantity"].isin(PROFILES)].groupby("place"):
+            rows = own.index.to_numpy()
+            depth, error = run.responses[rows], np.min(run.grid_sigma[rows])
+            if (largest := np.max(depth)) > 0:
+                add(rows, error * depth / largest)
+        for reading, depth in run.maps.items():
+            rows = np.flatnonzero(self.data["reading"] == reading)
+            spacing = self.setups[self.data["setup"].iloc[rows[0]]].model.grid.spacing
+            sources = [DEPTH_SIGMA * depth]
+            for axis, slope in slopes(depth, spacing).items():
+                sources.append(PRIOR_SHIFT * spacing[axis] * depth.shape[axis] * slope)
+            for source in sources:
+                add(rows, means_over(source, self.data["cells"].iloc[rows]))
+        return np.array(columns).reshape(-1, len(self.data)).T

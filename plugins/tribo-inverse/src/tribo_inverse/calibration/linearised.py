@@ -1,0 +1,344 @@
+"""A model linearised about a run, its residuals and its likelihood."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import least_squares, minimize_scalar
+from scipy.special import log_ndtr
+from scipy.stats import multivariate_normal
+from tribo import Array
+from tribo.kernel_api import Mask
+
+LONGEST_STEP = np.log(100.0)
+"""Largest change of a logarithm between two runs."""
+LONGEST_STEP_OF_DEPTHS = np.log(4.0)
+"""The same where profiles or depth maps, which are linearised, are among the data."""
+REPEATABILITY_RANGE = (1e-3, 3.0)
+"""Smallest and largest repeatability that is estimated."""
+INSENSITIVE = 0.1
+"""Change of all data together, in standard deviations, per change of a parameter by a factor e,
+below which the data are taken as insensitive to it."""
+COLLINEAR = 0.01
+"""Singular value of the Jacobian with normalised columns, 1 if the effects of parameters are
+orthogonal, up to which the data do not tell them apart: a step does not go that way."""
+_STAY = 0.1
+"""Weight of a move that way, relative to the effects of the parameters on the data."""
+_ITERATIONS, _CONVERGED, _RIDGE = 30, 1e-5, 1e-12
+_UNDETERMINED = 10.0
+"""Standard deviation of a logarithm from which on a parameter counts as undetermined."""
+
+
+@dataclass(frozen=True)
+class Weights:
+    """Root W of the inverse covariance of the data, WᵀW = V⁻¹.
+
+    V = S (1 + B Bᵀ) S with the independent standard deviations S and the correlated errors B,
+    shape (n, k), in units of S. With the singular vectors U of B, W = (1 − U c Uᵀ) S⁻¹.
+    """
+
+    sigma: Array
+    """Standard deviations S of the independent errors, shape (n,)."""
+    vectors: Array
+    """U, shape (n, k)."""
+    reduction: Array
+    """c, shape (k,)."""
+
+    @classmethod
+    def of(cls, sigma: Array, correlated: Array | None = None) -> Weights:
+        """Return the weights for independent errors and correlated ones, S B, shape (n, k)."""
+        if correlated is None:
+            return cls(sigma, np.zeros((len(sigma), 0)), np.zeros(0))
+        vectors, sizes, _ = np.linalg.svd(correlated / sigma[:, None], full_matrices=False)
+        return cls(sigma, vectors, 1 - (1 + sizes**2) ** -0.5)
+
+    def weigh(self, values: Array) -> Array:
+        """Return W times values, of shape (n,) or (n, m)."""
+        return self._root((values.T / self.sigma).T)
+
+    def weigh_transposed(self, values: Array) -> Array:
+        """Return Wᵀ times values, of the same shape."""
+        return (self._root(values).T / self.sigma).T
+
+    def _root(self, values: Array) -> Array:
+        common = self.reduction * (self.vectors.T @ values).T
+        return np.asarray(values - self.vectors @ common.T)
+
+    def diagonal(self, rows: Mask) -> Array:
+        """Return the diagonal of W at some rows."""
+        return np.asarray((1 - self.vectors[rows] ** 2 @ self.reduction) / self.sigma[rows])
+
+    def log_determinant(self, rows: Mask) -> float:
+        """Return ln |W| of some rows, whose errors are independent of those of the others."""
+        inside = self.vectors[rows].T @ self.vectors[rows]
+        size = np.linalg.slogdet(np.eye(len(inside)) - self.reduction[:, None] * inside)[1]
+        return float(size - np.sum(np.log(self.sigma[rows])))
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A least-squares problem: p parameters, n data, and m responses of which n are of the data."""
+
+    names: tuple[str, ...]
+    """Of the parameters."""
+    observed: Array
+    """Measured values, shape (n,)."""
+    sigma: Array
+    """Their standard deviations, shape (n,)."""
+    below: Mask
+    """Whether a value is censored, below a limit of detection; shape (n,)."""
+    specimen: Array
+    """Number of the test that a value is of, shape (n,)."""
+    repeatability: float | None
+    """Relative standard deviation of the parameters from test to test; None to estimate it."""
+    small: Array
+    """Depth below which a response is linear rather than a power law, shape (m,); 0 for a
+    positive response."""
+    lower: Array
+    """Lower bounds of the logarithms of the parameters, shape (p,); −infinity for none."""
+    upper: Array
+    """Upper bounds, infinity for none."""
+    common: Array
+    """Correlated errors: what one standard deviation of each source adds to the data, shape
+    (n, k)."""
+
+    def weights(self, scatter: Array | None = None) -> Weights:
+        """Return the weights of the data, with more correlated errors, shape (n, j), if given."""
+        parts = [self.common] if scatter is None else [self.common, scatter]
+        return Weights.of(self.sigma, np.concatenate(parts, axis=1))
+
+    def without_common(self) -> Problem:
+        """Return the problem without correlated errors."""
+        return replace(self, common=self.common[:, :0])
+
+    def scaled(self, responses: Array) -> Array:
+        """Return responses on a scale on which slopes change little: logarithms, linear near 0.
+
+        A prediction of 0 stays 0.
+        """
+        found = np.log(responses, out=responses.copy(), where=responses > 0)
+        depth = self.small > 0
+        found[depth] = np.arcsinh(responses[depth] / self.small[depth])
+        return found
+
+    def residuals(self, responses: Array, weights: Weights) -> Array:
+        """Return weighted residuals; their sum of squares is −2 ln L but for a constant.
+
+        That of a censored value is √(−2 ln Φ(z)), where the response lies z standard deviations
+        below the limit of detection.
+        """
+        found = weights.weigh(responses[: len(self.observed)] - self.observed)
+        found[self.below] = np.sqrt(-2 * log_ndtr(-found[self.below]))
+        return found
+
+    def by_test(self, effects: Array) -> Array:
+        """Return the effects of parameters that differ from test to test, shape (n, tests · p).
+
+        Each censored value counts as a test of its own, so that it is independent of the others.
+        """
+        test = np.where(self.below, -1 - np.arange(len(self.below)), self.specimen)
+        own = test[:, None] == np.unique(test)
+        return np.asarray((own[:, :, None] * effects[:, None, :]).reshape(len(effects), -1))
+
+
+@dataclass(frozen=True)
+class Linearised:
+    """The model about a run: power laws of the parameters, and depths linear in the logarithms."""
+
+    problem: Problem
+    point: Array
+    """Logarithms of the parameters of the run, shape (p,)."""
+    responses: Array
+    """Its responses, shape (m,)."""
+    slopes: Array
+    """Derivatives of `Problem.scaled` by the logarithms of the parameters, shape (m, p)."""
+    weights: Weights
+    repeatability: float = 0.0
+    """Relative standard deviation from test to test, included in the weights."""
+
+    def at(self, point: Array) -> Array:
+        """Return the responses at another point."""
+        change = np.sum(self.slopes * (point - self.point), axis=1)
+        moved, power = self.responses + self._steepness * change, self.problem.small == 0
+        moved[power] = np.exp((self.problem.scaled(self.responses) + change)[power])
+        return np.asarray(moved)
+
+    @property
+    def _steepness(self) -> Array:
+        """Derivatives of the responses by `Problem.scaled`, shape (m,)."""
+        return np.asarray(np.hypot(self.responses, self.problem.small))
+
+    def effects(self, point: Array) -> Array:
+        """Return the derivatives of the data by the logarithms of the parameters, shape (n, p)."""
+        n = len(self.problem.observed)
+        # Depths are linear, so that tests scatter by the same effects at every point.
+        factor = np.where(self.problem.small > 0, self._steepness, self.at(point))[:n]
+        return np.asarray(factor[:, None] * self.slopes[:n])
+
+    def residuals(self, point: Array) -> Array:
+        """Return the weighted residuals of the data; see `Problem.residuals`."""
+        return self.problem.residuals(self.at(point), self.weights)
+
+    def jacobian(self, point: Array) -> Array:
+        """Return the derivatives of `residuals`, shape (n, p)."""
+        found = self.weights.weigh(self.effects(point))
+        below = self.problem.below
+        # d/dz of √(−2 ln Φ(z)) is −φ/(Φ √(−2 ln Φ)).
+        root = self.residuals(point)[below]
+        above = (self.at(point)[: len(below)] - self.problem.observed)[below]
+        above = above * self.weights.diagonal(below)
+        inside = np.exp(-0.5 * above**2 + 0.5 * root**2) / np.sqrt(2 * np.pi)
+        slope = np.divide(inside, root, out=np.zeros_like(root), where=root > 0)
+        found[below] *= slope[:, None]
+        return found
+
+    def sensitivity(self) -> Array:
+        """Return the weighted derivatives of the data, shape (n, p).
+
+        Of a censored value they are those at the limit of detection.
+        """
+        effects, observed = self.effects(self.point), self.problem.observed
+        below = self.problem.below
+        met = observed[below] / self.responses[: len(below)][below]
+        effects[below] *= np.maximum(met, 1.0)[:, None]
+        return self.weights.weigh(effects)
+
+    def limited(self) -> Mask:
+        """Return which parameters only censored values depend on, shape (p,)."""
+        found, below = self.sensitivity(), self.problem.below
+        not_by_values = np.sqrt(np.sum(found[~below] ** 2, axis=0)) < INSENSITIVE
+        by_limits = np.any(np.abs(found[below]) > INSENSITIVE, axis=0)
+        return np.asarray(by_limits & not_by_values)
+
+    def bounds(self, reach: float) -> tuple[Array, Array]:
+        """Return the bounds of points within `reach` of that of the run."""
+        lower = np.maximum(self.problem.lower, self.point - reach)
+        return lower, np.minimum(self.problem.upper, self.point + reach)
+
+    def least(self, start: Array, rows: Mask | slice = slice(None)) -> Array:
+        """Return the least-squares point of rows of the data, within bounds and a longest step.
+
+        It stays where it is along directions that the data do not determine.
+        """
+        has_depths = np.any(self.problem.small > 0)
+        ends = self.bounds(LONGEST_STEP_OF_DEPTHS if has_depths else LONGEST_STEP)
+        size, angles, directions = normalised(self.sensitivity())
+        stay = _STAY * directions[angles <= COLLINEAR] * size
+        found = least_squares(
+            lambda point: np.append(self.residuals(point)[rows], stay @ (point - self.point)),
+            np.clip(start, *ends),
+            lambda point: np.concatenate([self.jacobian(point)[rows], stay]),
+            ends,
+            xtol=1e-10,
+            ftol=1e-10,
+            gtol=1e-10,
+        )
+        return np.asarray(found.x)
+
+    def best(self) -> tuple[Linearised, Array]:
+        """Return the model with the weights of its least-squares point, and that point."""
+        here, point = self, self.least(self.point)
+        if self.problem.repeatability == 0:
+            return here, point
+        for _ in range(_ITERATIONS):
+            given = self.problem.repeatability
+            here = here.weighed(point, here._estimated(point) if given is None else given)
+            former, point = point, here.least(point)
+            if np.max(np.abs(point - former)) < _CONVERGED:
+                break
+        return here, point
+
+    def weighed(self, point: Array, repeatability: float) -> Linearised:
+        """Return the model with the weights that follow from a repeatability at a point."""
+        scatter = None
+        if repeatability > 0:
+            scatter = repeatability * self.problem.by_test(self.effects(point))
+        weights = self.problem.weights(scatter)
+        return replace(self, weights=weights, repeatability=repeatability)
+
+    def degrees_of_freedom(self, direction: Array) -> float:
+        """Return the degrees of freedom of the variance of direction · point.
+
+        2 g²/Var(g) for a variance g (Satterthwaite 1946, Biometrics Bulletin 2, 110-114);
+        infinite if the repeatability is stated.
+        """
+        if self.problem.repeatability is not None:
+            return np.inf
+        jacobian = self.sensitivity()
+        scatter = self.weights.weigh(self.problem.by_test(self.effects(self.point)))
+        directions = np.linalg.svd(jacobian, full_matrices=False)[0]
+        left = scatter - directions @ (directions.T @ scatter)
+        root = root_covariance(jacobian)
+        effect = np.sum(jacobian * np.sum(root * (direction @ root), axis=1), axis=1)
+        slope = np.sum((effect @ scatter) ** 2)
+        variance = np.sum((direction @ root) ** 2)
+        information = np.sum((left.T @ left) ** 2)
+        return float(variance**2 * information / slope**2) if slope > 0 else np.inf
+
+    def deviance(self, point: Array) -> float:
+        """Return −2 ln L at a point."""
+        values = ~self.problem.below
+        scale = np.sum(values) * np.log(2 * np.pi) - 2 * self.weights.log_determinant(values)
+        return float(np.sum(self.residuals(point) ** 2) + scale)
+
+    def left_out(self) -> Array:
+        """Return the log-likelihood of each test predicted from all others, shape (tests,).
+
+        NaN if the others do not determine a parameter; empty for a single test.
+        """
+        found, below, n = [], self.problem.below, len(self.problem.observed)
+        tests = np.unique(self.problem.specimen)
+        for test in tests if len(tests) > 1 else []:
+            own = self.problem.specimen == test
+            point = self.least(self.point, ~own)
+            rest = replace(self, point=point, responses=self.at(point))
+            root = root_covariance(rest.sensitivity()[~own])
+            # The error of the estimate adds to that of each value.
+            from_estimate = self.weights.weigh(rest.effects(point)) @ root
+            residuals = self.weights.weigh(rest.responses[:n] - self.problem.observed)
+            values, limits = own & ~below, own & below
+            sigma = np.sqrt(1 + np.sum(from_estimate[limits] ** 2, axis=1))
+            likelihood = np.sum(log_ndtr(-residuals[limits] / sigma))
+            if np.any(values):
+                covariance = np.eye(np.sum(values))
+                covariance += from_estimate[values] @ from_estimate[values].T
+                likelihood += multivariate_normal.logpdf(residuals[values], cov=covariance)
+                likelihood += self.weights.log_determinant(values)
+            determined = np.max(np.sum(root**2, axis=1)) < _UNDETERMINED**2
+            found.append(likelihood if determined else np.nan)
+        return np.array(found)
+
+    def _estimated(self, point: Array) -> float:
+        """Return the repeatability by restricted maximum likelihood (REML) about a point."""
+        bounds = self.problem.lower, self.problem.upper
+        free = np.all([np.abs(point - bound) > _CONVERGED for bound in bounds], axis=0)
+
+        def criterion(repeatability: float) -> float:
+            here = self.weighed(point, repeatability)
+            left, sizes, _ = np.linalg.svd(here.jacobian(point)[:, free], full_matrices=False)
+            # By how much a Gauss-Newton step would lower χ².
+            fall = np.sum(np.sum(left * here.residuals(point)[:, None], axis=0) ** 2)
+            log_information = 2 * np.sum(np.log(sizes + _RIDGE))
+            return float(here.deviance(point) - fall + log_information)
+
+        found = minimize_scalar(
+            lambda log: criterion(np.exp(log)),
+            bounds=np.log(REPEATABILITY_RANGE),
+            method="bounded",
+            options={"xatol": 1e-4},
+        )
+        return float(np.exp(found.x)) if found.fun < criterion(0.0) else 0.0
+
+
+def normalised(jacobian: Array) -> tuple[Array, Array, Array]:
+    """Return the norms of columns; and the singular values and directions with these as units."""
+    size = np.sqrt(np.sum(jacobian**2, axis=0)) + _RIDGE
+    _, values, directions = np.linalg.svd(jacobian / size, full_matrices=False)
+    return size, values, directions
+
+
+def root_covariance(jacobian: Array) -> Array:
+    """Return a root B of the covariance (JᵀJ)⁻¹ = B Bᵀ, shape (p, p); finite for a singular J."""
+    size, values, directions = normalised(jacobian)
+    return np.asarray(directions.T / np.sqrt(values**2 + _RIDGE) / size[:, None])

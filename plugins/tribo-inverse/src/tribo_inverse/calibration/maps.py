@@ -1,0 +1,382 @@
+"""Local wear coefficients from depth maps: the most probable map, and its standard deviation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.fft import dctn, idctn
+from scipy.special import chdtrc, ndtri
+from tribo import Array, Case, CaseError, NumericalError, Simulation
+from tribo.kernel_api import Mask, Model, assemble, begin, march, varied
+
+from tribo_inverse.adjoint.backwards import swept_back
+from tribo_inverse.adjoint.gradient import FURTHEST, ValueAndGradient
+from tribo_inverse.adjoint.local import localised
+from tribo_inverse.adjoint.objective import Seeds, View
+from tribo_inverse.adjoint.tape import Tape, recorded
+from tribo_inverse.calibration.cells import cell_means, surface_shape
+from tribo_inverse.calibration.descent import descended
+from tribo_inverse.calibration.lanczos import eigenpairs
+from tribo_inverse.calibration.map_errors import MapErrors
+from tribo_inverse.calibration.notes import TOO_SMALL, UNLIKELY
+from tribo_inverse.calibration.prior import Prior
+
+STEP = 1e-2
+"""Largest change of a logarithm for the finite difference of all depths along a direction."""
+FIRST_ITERATIONS = 10
+"""Steps of L-BFGS before the information is computed."""
+ITERATIONS = 100
+"""Largest number of steps after it."""
+FINE = 0.125
+"""Cell size, in correlation lengths, below which the fit starts on a grid of half as many cells."""
+FEWEST = 16
+"""Cells along each axis of such a grid."""
+SILENT = 0.9
+"""Posterior standard deviation over the prior's from which on the data say nothing."""
+
+
+@dataclass(frozen=True, eq=False)
+class LocalMap:
+    """The factor on a body's wear coefficient at each cell of its surface, shape (rows, ny)."""
+
+    logs: Array
+    """Most probable ln(k/k₀)."""
+    deviation: Array
+    """Its standard deviation."""
+    prior: Array
+    """Standard deviation of the prior."""
+    spacing: tuple[float, float]
+    """Edge lengths of a cell, in m."""
+    measured: Array
+    """Measured depth, in m; NaN where missing."""
+    computed: Array
+    """Depth of the fit, in m."""
+    uncertainty: Array
+    """Standard deviation of their difference, in m."""
+    off: tuple[float, ...] = ()
+    """How much further the scar lies than the map has it, along each axis of the map, in m."""
+
+    @property
+    def factor(self) -> Array:
+        """Median of k/k₀."""
+        return np.exp(self.logs)
+
+    @property
+    def told(self) -> Mask:
+        """Where the data narrow the prior."""
+        return np.asarray(self.deviation < SILENT * self.prior)
+
+    def interval(self, level: float) -> tuple[Array, Array]:
+        """Return the ends of the interval of the factor at each cell."""
+        far = float(ndtri(0.5 + 0.5 * level)) * self.deviation
+        return np.exp(self.logs - far), np.exp(self.logs + far)
+
+
+@dataclass(frozen=True, eq=False)
+class FittedMaps:
+    """Local coefficients fitted to depth maps."""
+
+    maps: Mapping[str, LocalMap]
+    """By the name of the body."""
+    gradients: int
+    """Number of gradients."""
+    products: int
+    """Number of products with the Fisher information."""
+    chi_square: float
+    degrees_of_freedom: float
+    """Measured cells, less Σ λ/(1 + λ) over the eigenvalues λ of the information, and less the same
+    of where the maps lie."""
+    by_grid: float = 0.0
+    """Degrees of freedom that count for errors of the grid, which may be less than stated."""
+    remarks: tuple[str, ...] = ()
+    """Notes on the measured maps."""
+
+    @property
+    def p_value(self) -> float:
+        """Probability of a χ² at least as large by chance."""
+        return float(chdtrc(self.degrees_of_freedom, self.chi_square))
+
+    @property
+    def is_refuted(self) -> bool:
+        """Whether no map that varies so smoothly explains the depths."""
+        return self.degrees_of_freedom > 1 and self.p_value < UNLIKELY
+
+    @property
+    def notes(self) -> list[str]:
+        """Notes on the maps and the fit."""
+        notes = []
+        if self.is_refuted:
+            notes.append(
+                "no map that varies so smoothly explains the depths: χ² is "
+                f"{self.chi_square:.4g} where about {self.degrees_of_freedom:.4g} is expected; the "
+                "model leaves something out, or the uncertainty is larger, or the length shorter"
+            )
+        least = self.degrees_of_freedom - self.by_grid
+        if least > 1 and chdtrc(least, self.chi_square) > 1 - TOO_SMALL:
+            notes.append(
+                f"the depths differ from the fit by less than their uncertainty: χ² is "
+                f"{self.chi_square:.3g} where at least {least:.3g} is expected; is "
+                "it that of a cell, or of a line along a track, and not of a pixel?"
+            )
+        notes += self.remarks
+        notes += [
+            f"{name}: the data say nothing of {np.sum(~each.told)} cells, mostly where nothing was "
+            "worn or measured: there the coefficient is the case's, as uncertain as before"
+            for name, each in self.maps.items()
+            if not np.all(each.told)
+        ]
+        return notes
+
+
+def fit_maps(
+    case: Case | Mapping[str, Any] | str | Path | Model,
+    depths: Mapping[str, tuple[Array, Array | float]],
+    priors: Mapping[str, Prior],
+    *,
+    placed: Mapping[str, Sequence[float]] | None = None,
+    products: int = 60,
+    on_run: Callable[[int, float], None] = lambda count, misfit: None,
+) -> FittedMaps:
+    """Fit local factors on the wear coefficients of bodies to maps of their depth.
+
+    The maximum of the posterior is found by L-BFGS with exact gradients, in cosine modes of the
+    prior. The posterior's standard deviation is linearised: the Fisher information Jᵀ V⁻¹ J is
+    projected on a Krylov space (Bui-Thanh et al. 2013, SIAM J. Sci. Comput. 35, A2494-A2523) by at
+    most `products` products, each a run and an adjoint pass. Directions beyond keep the prior's
+    standard deviation, which is too large rather than too small. The information also
+    preconditions L-BFGS. Where cells are far smaller than the correlation lengths, the fit starts
+    on a coarser grid.
+
+    `depths` has, by the name of the body, the mean depth of each cell at the end, in m, of the
+    shape of `View.wear`, NaN where missing, and their standard deviations, to which `edge_sigma`
+    is added. `placed` has the standard deviations of where a map lies along and across the sliding
+    direction, in m, by body; 0 by default. `on_run` is called after each gradient or product with
+    their number and χ², NaN for a product.
+    """
+    misfits: list[float] = []
+
+    def tell(misfit: float) -> None:
+        misfits.append(misfit)
+        on_run(len(misfits), misfit)
+
+    posterior = _Posterior(Simulation(case).model, depths, priors, tell, placed or {})
+    z, basis, values = posterior.fitted(products)
+    logs = posterior.logs(z)
+    fit = posterior.run(logs)
+    residuals = posterior.residuals(fit)
+    reduction = sum(
+        value / (1 + value) * posterior.logs(vector) ** 2
+        for vector, value in zip(basis, values, strict=True)
+    )
+    maps = {}
+    for name, part in posterior.parts.items():
+        errors, off = posterior.errors[name], residuals[name]
+        shape, prior = posterior.shapes[name], np.full(posterior.shapes[name], priors[name].spread)
+        variance = prior**2 - reduction[part].reshape(shape)
+        maps[name] = LocalMap(
+            logs[part].reshape(shape),
+            np.sqrt(np.maximum(variance, 0.0)),
+            prior,
+            posterior.model.grid.spacing,
+            depths[name][0],
+            cell_means(fit.wear(name)) - errors.sigma * errors.moved(off),
+            errors.sigma,
+            errors.off(off),
+        )
+    read = sum(int(np.sum(~np.isnan(depth))) for depth, _ in depths.values())
+    of_places = sum(each.degrees_of_freedom for each in posterior.errors.values())
+    by_grid = sum(
+        float(np.sum((1 - (sigma / posterior.errors[name].sigma) ** 2)[~np.isnan(depth)]))
+        for name, (depth, sigma) in depths.items()
+    )
+    made = int(np.sum(np.isnan(misfits)))
+    return FittedMaps(
+        maps=maps,
+        gradients=len(misfits) - made,
+        products=made,
+        chi_square=2 * posterior.misfit(fit)[0],
+        degrees_of_freedom=read - float(np.sum(values / (1 + values))) - of_places,
+        by_grid=by_grid,
+    )
+
+
+class _Posterior:
+    """The posterior of maps, in cosine modes whose prior amplitudes are independent N(0, 1)."""
+
+    def __init__(
+        self,
+        model: Model,
+        depths: Mapping[str, tuple[Array, Array | float]],
+        priors: Mapping[str, Prior],
+        tell: Callable[[float], None],
+        placed: Mapping[str, Sequence[float]],
+    ) -> None:
+        self.model, self.depths, self.priors, self.tell = model, depths, priors, tell
+        self.placed = placed
+        self.shapes = {name: surface_shape(model, name) for name in depths}
+        self.amplitudes, self.scales, self.parts, self.size = {}, {}, {}, 0
+        for name, shape in self.shapes.items():
+            if depths[name][0].shape != shape:
+                raise CaseError(
+                    f"the depth map of {name} has the shape {depths[name][0].shape}, its surface "
+                    f"{shape}"
+                )
+            self.amplitudes[name] = priors[name].amplitudes(shape, model.grid.spacing)
+            self.scales[name] = priors[name].scale(self.amplitudes[name])
+            self.parts[name] = slice(self.size, self.size + shape[0] * shape[1])
+            self.size = self.parts[name].stop
+        self.errors: dict[str, MapErrors] = {}
+        self.gradient = ValueAndGradient(model, self.misfit, (), list(depths))
+
+    def halved(self) -> _Posterior | None:
+        """Return it on half as many cells along each axis; None if these are too large."""
+        case, grid = self.model.case, self.model.grid
+        cells = (grid.cells[0] // 2, grid.cells[1] // 2)
+        shortest = min(prior.length for prior in self.priors.values())
+        if max(grid.spacing) > FINE * shortest or min(cells) < FEWEST:
+            return None
+        if self.model.rough or case.begin is not None:
+            return None
+        model = assemble(varied(case, grid=grid.model_copy(update={"cells": cells})))
+        depths = {}
+        for name, (depth, sigma) in self.depths.items():
+            shape = surface_shape(model, name)
+            blocks = [n // m for n, m in zip(depth.shape, shape, strict=True)]
+            if depth.shape != (shape[0] * blocks[0], shape[1] * blocks[1]):
+                return None
+            both = np.array([depth, np.broadcast_to(sigma, depth.shape) ** 2])
+            split = both.reshape(2, shape[0], blocks[0], shape[1], blocks[1])
+            means, variances = split.mean(axis=(2, 4))
+            depths[name] = means, (variances / (blocks[0] * blocks[1])) ** 0.5
+        return _Posterior(model, depths, self.priors, self.tell, self.placed)
+
+    def raised(self, coarse: _Posterior, z: Array) -> Array:
+        """Return the amplitudes of a coarser grid on this one; 0 for shorter waves."""
+        found = np.zeros(self.size)
+        for name, part in self.parts.items():
+            rows, columns = coarse.shapes[name]
+            whole = found[part].reshape(self.shapes[name])
+            whole[:rows, :columns] = z[coarse.parts[name]].reshape(rows, columns)
+        return found
+
+    def fitted(self, products: int) -> tuple[Array, Array, Array]:
+        """Return the most probable amplitudes, and the eigenpairs of the information."""
+        coarse = self.halved()
+        if coarse is None:
+            near = np.zeros(self.size)
+            self.weigh(near)
+            near = self.least(near, FIRST_ITERATIONS)
+            self.weigh(near)
+            with closing(Tape()) as tape:
+                basis, values = eigenpairs(
+                    self.products(self.logs(near), tape), self.size, products
+                )
+        else:
+            near, basis, values = coarse.fitted(products)
+            near = self.raised(coarse, near)
+            self.weigh(near)
+            basis = np.array([self.raised(coarse, each) for each in basis])
+        return self.least(near, ITERATIONS, basis, (1 + values) ** -0.5 - 1), basis, values
+
+    def least(
+        self, near: Array, steps: int, basis: Array | None = None, less: Array | None = None
+    ) -> Array:
+        """Return the most probable amplitudes, or those after `steps`, by L-BFGS.
+
+        The posterior's standard deviation along the rows of `basis` is 1 + `less`, which
+        preconditions the steps.
+        """
+
+        def preconditioned(y: Array) -> Array:
+            if basis is None or less is None:
+                return y
+            along = less * np.sum(basis * y, axis=1)
+            return np.asarray(y + np.sum(along[:, None] * basis, axis=0))
+
+        def posterior(y: Array) -> tuple[float, Array]:
+            z = near + preconditioned(y)
+            logs = self.logs(z)
+            if (most := float(np.max(np.abs(logs)))) > FURTHEST:
+                raise NumericalError(f"a step went {most:.3g} away in the logarithm of a factor")
+            value, slope = self.gradient(logs)
+            self.tell(2 * value)
+            return value + 0.5 * float(np.sum(z * z)), preconditioned(self.adjoint(slope) + z)
+
+        return np.asarray(near + preconditioned(descended(posterior, 0 * near, steps)))
+
+    def logs(self, z: Array) -> Array:
+        """Return ln(k/k₀) of amplitudes."""
+        found = np.empty(self.size)
+        for name, part in self.parts.items():
+            waves = self.amplitudes[name] * z[part].reshape(self.shapes[name])
+            found[part] = (self.scales[name] * idctn(waves, norm="ortho")).ravel()
+        return found
+
+    def adjoint(self, slope: Array) -> Array:
+        """Return derivatives by the amplitudes from those by ln(k/k₀), the adjoint of `logs`."""
+        found = np.empty(self.size)
+        for name, part in self.parts.items():
+            scaled = self.scales[name] * slope[part].reshape(self.shapes[name])
+            waves = dctn(scaled, norm="ortho")
+            found[part] = (self.amplitudes[name] * waves).ravel()
+        return found
+
+    def weigh(self, z: Array) -> None:
+        """Set the errors of the maps, with edges and slopes of the scars of these amplitudes."""
+        view, spacing = self.run(self.logs(z)), self.model.grid.spacing
+        self.errors = {
+            name: MapErrors.of(view.wear(name), *given, self.placed.get(name, (0.0, 0.0)), spacing)
+            for name, given in self.depths.items()
+        }
+
+    def residuals(self, view: View) -> dict[str, Array]:
+        """Return computed less measured depths, in standard deviations; 0 where missing."""
+        return {
+            name: np.nan_to_num((cell_means(view.wear(name)) - depth) / self.errors[name].sigma)
+            for name, (depth, _) in self.depths.items()
+        }
+
+    def misfit(self, view: View) -> tuple[float, Seeds]:
+        """Return half of the weighed sum of the squared residuals, and its derivative."""
+        value, seeds = 0.0, {}
+        for name, off in self.residuals(view).items():
+            weighed = self.errors[name].weighed(off)
+            value += 0.5 * float(np.sum(off * weighed))
+            # `cell_means` is its own adjoint.
+            seeds[name] = cell_means(weighed / self.errors[name].sigma)
+        return value, Seeds(seeds)
+
+    def local(self, logs: Array) -> Model:
+        """Return the model with local factors, given as ln(k/k₀)."""
+        return localised(self.model, self.gradient.at(logs)[1])
+
+    def run(self, logs: Array) -> View:
+        """Return the end of a run with local factors, given as ln(k/k₀)."""
+        model = self.local(logs)
+        *_, last = march(model, begin(model))
+        return View(model, last.state)
+
+    def products(self, logs: Array, tape: Tape) -> Callable[[Array], Array]:
+        """Return the function that multiplies amplitudes by the information Jᵀ V⁻¹ J of a map."""
+        model, time = self.local(logs), self.model.end_time
+        end = View(model, recorded(model, [time], tape)[time])
+
+        def product(z: Array) -> Array:
+            move = self.logs(z)
+            step = STEP / np.max(np.abs(move))
+            moved, seeds = self.run(logs + step * move), {}
+            for name, (depth, _) in self.depths.items():
+                change, errors = cell_means(moved.wear(name) - end.wear(name)), self.errors[name]
+                off = np.where(np.isnan(depth), 0.0, change / (step * errors.sigma))
+                seeds[name] = cell_means(errors.weighed(off) / errors.sigma)
+            found = swept_back(model, tape, {time: Seeds(seeds)}, [])
+            self.tell(math.nan)
+            return self.adjoint(np.concatenate([found.wear_rate[name].ravel() for name in seeds]))
+
+        return product

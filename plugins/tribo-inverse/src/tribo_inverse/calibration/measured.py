@@ -1,0 +1,379 @@
+"""The file of measured values, their uncertainties, and the parameters to fit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+import numpy as np
+import pandas as pd
+from pydantic import (
+    AfterValidator,
+    ValidationError,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
+from tribo import Array, CaseError, Quantity, Table
+from tribo.kernel_api import Mask, by_path, case_error, read_toml
+
+from tribo_inverse.calibration.exactness import Part, data_error, part_of
+from tribo_inverse.calibration.quantities import DEPTH_MAP, PROFILES, QUANTITIES
+
+
+class Below(float):
+    """A limit that a value is below, as ``"< 0.1 mg"``."""
+
+
+def _beside(name: str, info: ValidationInfo) -> str:
+    """Return the name of a file from the folder of the file of measured values, if there is one."""
+    return str(Path(info.context or "", name))
+
+
+BesideFile = Annotated[str, AfterValidator(_beside)]
+"""Name of a file; a relative one starts at the folder of the file of measured values."""
+
+ENTRIES = "entries [[measured]]"
+LOCAL = "local coefficients are fitted to maps of one test: give [[map]] in a file of its own"
+UNSEEN = "what was too little to be seen is given as a limit, '< 0.1 mg' say"
+
+
+class MeasuredEntry(Table):
+    """One measured quantity of one body."""
+
+    body: str
+    """Name of the body in the case."""
+    quantity: Literal[
+        "mass",
+        "volume",
+        "scar_along",
+        "scar_across",
+        "depth",
+        "crown",
+        "section",
+        "profile_along",
+        "profile_across",
+        "depth_map",
+    ]
+    """Measured quantity."""
+    value: float | tuple[float, ...] | None = None
+    """The value with its unit, or a limit of detection, ``"< 0.1 mg"``; none in a planned test.
+
+    A list of depths for a profile, a list of values for repeated tests.
+    """
+    before: Annotated[float, Quantity("kg", above=0)] | None = None
+    """Instead of the value of a mass: the balance's reading before the test."""
+    after: Annotated[float, Quantity("kg", above=0)] | None = None
+    """The reading after it."""
+    position: tuple[Annotated[float, Quantity("m")], ...] | None = None
+    """Where a profile's depths were measured, from the centre of the contact."""
+    depth: BesideFile | None = None
+    """File of a depth map, instead of a value."""
+    pitch: Annotated[float, Quantity("m", above=0)] | None = None
+    """Pixel pitch of a depth map."""
+    uncertainty: float | None = None
+    """Standard deviation, or a `Part`; of a profile that of each depth, of a map of each cell."""
+    resolution: float | None = None
+    """Smallest step that the instrument shows."""
+    time: Annotated[float, Quantity("s", above=0)] | None = None
+    """When it was measured; at the end if left out."""
+
+    @field_validator("value", "uncertainty", "resolution", mode="plain")
+    @classmethod
+    def _in_si(cls, value: Any, info: ValidationInfo) -> Any:
+        if value is None or (name := info.data.get("quantity")) is None:
+            return None
+        is_value, is_profile = info.field_name == "value", name in PROFILES
+        if is_value and name == DEPTH_MAP:
+            raise ValueError("depth_map has its numbers in the file depth; give no value")
+        # The depths of a profile may be 0, or below it by noise.
+        above = None if is_value and is_profile else 0
+        mark = Quantity(QUANTITIES[name].unit, above=above, remedy=UNSEEN if is_value else None)
+
+        def read(part: object) -> float:
+            if is_value and isinstance(part, str) and part.lstrip().startswith(">"):
+                raise CaseError(f"{part!r}: only '<' marks a limit of detection, as '< 0.1 mg'")
+            if info.field_name == "uncertainty" and str(part).rstrip().endswith("%"):
+                return part_of(str(part).strip(), name)
+            is_limit = isinstance(part, str) and part.lstrip().startswith("<")
+            if is_limit and is_value and not is_profile:
+                return Below(mark.read(str(part).lstrip()[1:].strip()))
+            return part if isinstance(part, Below) else mark.read(part)
+
+        is_list = is_value and isinstance(value, list | tuple)
+        if is_list:
+            _check_gaps(value, "point" if is_profile else "test")
+        try:
+            return tuple(map(read, value)) if is_list else read(value)
+        except CaseError as error:
+            raise ValueError(str(error)) from None
+
+    @field_validator("position", mode="before")
+    @classmethod
+    def _without_gaps(cls, value: Any) -> Any:
+        _check_gaps(value, "point")
+        return value
+
+    @model_validator(mode="after")
+    def _has_its_file(self) -> Self:
+        if self.quantity != DEPTH_MAP:
+            if self.depth is not None or self.pitch is not None:
+                raise ValueError(f"{self.quantity} has no depth or pitch; those are of a depth_map")
+        elif {"before", "after", "position"} & self.model_fields_set:
+            raise ValueError("depth_map has its numbers in the file depth; give no others")
+        return self
+
+    @model_validator(mode="after")
+    def _has_its_lists(self) -> Self:
+        if self.quantity in PROFILES:
+            at = self.position or ()
+            depths = self.value if isinstance(self.value, tuple) else ()
+            if not at or len(depths) not in (len(at), 0 if self.value is None else len(at)):
+                raise ValueError(
+                    f"{self.quantity} needs value and position, two lists of the same length, not "
+                    f"{len(depths)} and {len(at)} long"
+                )
+        elif self.position is not None:
+            raise ValueError(
+                f"{self.quantity} has no position; {' and '.join(PROFILES)} are measured at some"
+            )
+        elif self.value == ():
+            raise ValueError("the list of values is empty; give one for each test")
+        return self
+
+    @model_validator(mode="after")
+    def _is_read_once(self) -> Self:
+        if self.before is None and self.after is None:
+            return self
+        if self.quantity != "mass":
+            raise ValueError("give value")
+        if self.before is None or self.after is None or self.value is not None:
+            raise ValueError("give value, or before and after")
+        if self.before <= self.after:
+            raise ValueError(
+                f"before, {1e3 * self.before:g} g, is not more than after, {1e3 * self.after:g} g: "
+                "no loss was weighed, so no coefficient can be fitted to it"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _says_how_exact(self) -> Self:
+        if self.uncertainty is None and self.resolution is None:
+            raise ValueError(
+                "say how well it was measured: uncertainty (a standard deviation), resolution, "
+                "or both"
+            )
+        if isinstance(self.uncertainty, Part) and np.isnan(self.values).any():
+            raise ValueError(
+                f"uncertainty: {100 * self.uncertainty:.3g} % of a value that is not given; to "
+                "plan tests, give it with a unit"
+            )
+        if error := data_error(self.quantity, self.sigma, self.values):
+            raise ValueError(error)
+        return self
+
+    @property
+    def values(self) -> Array:
+        """Depths of a profile, or one value per test, shape (n,); NaN for none."""
+        if self.before is not None and self.after is not None:
+            return np.array([self.before - self.after])
+        if self.value is None:
+            return np.full(len(self.position or (None,)), np.nan)
+        return np.atleast_1d(np.array(self.value, dtype=float))
+
+    @property
+    def below(self) -> Mask:
+        """Which of the values are limits of detection, shape (n,)."""
+        given = self.value if isinstance(self.value, tuple) else [self.value] * len(self.values)
+        return np.array([isinstance(each, Below) for each in given])
+
+    def rows(self) -> pd.DataFrame:
+        """Return one row of `Measurements.table` per value."""
+        step_sigma, step_most = self.from_resolution
+        values = pd.DataFrame({"measured": self.values, "below": self.below})
+        return values.assign(
+            specimen=0 if self.position else values.index,
+            body=self.body,
+            quantity=self.quantity,
+            time_s=math.nan if self.time is None else self.time,
+            position_m=self.position or math.nan,
+            entry=[self] * len(values),
+            unit=QUANTITIES[self.quantity].unit,
+            sigma=self.sigma,
+            step=self.resolution or 0.0,
+            step_sigma=step_sigma,
+            step_most=step_most,
+        )
+
+    @property
+    def from_resolution(self) -> tuple[float, float]:
+        """Standard deviation and largest error of a reading, or of the difference of two."""
+        step = self.resolution or 0.0
+        readings = 2 if self.quantity == "mass" else 1
+        return step * np.sqrt(readings / 12), step * readings / 2
+
+    @property
+    def sigma(self) -> Array | float:
+        """Standard deviation of each value, from uncertainty and resolution."""
+        own: Array | float = self.uncertainty or 0.0
+        if isinstance(self.uncertainty, Part):
+            own = self.uncertainty * self.values
+        return np.hypot(own, self.from_resolution[0])
+
+
+def _check_gaps(values: Any, what: str) -> None:
+    """Raise ValueError if an entry of a list is NaN; `what` is to be left out instead."""
+    for number, each in enumerate(values if isinstance(values, list | tuple) else (), 1):
+        if str(each).strip().lower().startswith("nan"):
+            raise ValueError(
+                f"entry {number} of {len(values)} is {each}; leave that {what} out of each list"
+            )
+
+
+def _list(value: Any, info: ValidationInfo) -> Any:
+    """Refuse a table where a list of tables is needed."""
+    if isinstance(value, Mapping):
+        raise ValueError(f"write [[{info.field_name}]] at the beginning of each, also of one")
+    return value
+
+
+class FitEntry(Table):
+    """One parameter to fit."""
+
+    path: str
+    """Where it stands in the case, as ``bodies.ball.wear.k``."""
+    start: float | str | None = None
+    """Where to begin; at the case's own value if left out."""
+    lower: float | str | None = None
+    """Smallest value allowed."""
+    upper: float | str | None = None
+    """Largest value allowed."""
+
+
+class TestEntry(Table):
+    """A test, or several repeated ones, on a changed case."""
+
+    name: str = ""
+    """What it is called in tables."""
+    set: Mapping[str, Any] = {}
+    """Settings in which it differs from the case, by path, as ``load.normal = "50 N"``."""
+    measured: tuple[MeasuredEntry, ...]
+    """Values measured in it. The nth values of all lists are of the nth test."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _has_numbers(cls, data: Any) -> Any:
+        if isinstance(data, Mapping) and "map" in data:
+            raise ValueError(LOCAL)
+        return data
+
+    _are_many = field_validator("measured", mode="before")(_list)
+
+    @field_validator("set", mode="before")
+    @classmethod
+    def _flat(cls, value: Any) -> Any:
+        try:
+            return by_path(value, "set")
+        except CaseError as error:
+            raise ValueError(str(error)) from None
+
+
+class MapEntry(Table):
+    """A depth map of a body, and the prior of its local wear coefficient."""
+
+    body: str
+    """Name of the body in the case."""
+    depth: BesideFile
+    """File of a height map: depths in m, positive where material is gone, NaN where missing."""
+    pitch: Annotated[float, Quantity("m", above=0)] | None = None
+    """Distance between its pixels; that of the file if left out."""
+    uncertainty: Annotated[float, Quantity("m", above=0)]
+    """Standard deviation of the depth of a cell of the grid; of a track that is averaged along its
+    length, of the mean of a line along it."""
+    spread: Annotated[float, Quantity("1", above=0, below=3)] = 0.5
+    """Prior standard deviation of the logarithm of the coefficient from place to place."""
+    length: Annotated[float, Quantity("m", above=0)]
+    """Correlation length of the coefficient."""
+    centred: bool = False
+    """Whether the middle of the contact is known to be that of the map; where the scar lies is
+    fitted otherwise."""
+
+
+class Measurements(Table):
+    """Measured values, and the parameters to fit."""
+
+    fit: tuple[FitEntry, ...] = ()
+    """The parameters; if left out, the k of each measured body."""
+    measured: tuple[MeasuredEntry, ...] = ()
+    """Values measured in a test of the case as it is."""
+    test: tuple[TestEntry, ...] = ()
+    """Tests that differ from it."""
+    map: tuple[MapEntry, ...] = ()
+    """Depth maps, instead, to which local coefficients are fitted."""
+    repeatability: Annotated[float, Quantity("1", at_least=0, below=3)] | None = None
+    """Relative standard deviation of the parameters from test to test; estimated if left out."""
+
+    _are_many = field_validator("fit", "measured", "test", "map", mode="before")(_list)
+
+    @property
+    def tests(self) -> dict[str, TestEntry]:
+        """All tests, by their place in the file."""
+        own = {"": TestEntry(measured=self.measured)} if self.measured else {}
+        return own | {
+            f"test.{i}.": each.model_copy(update={"name": each.name or f"test {i + 1}"})
+            for i, each in enumerate(self.test)
+        }
+
+    def table(self) -> pd.DataFrame:
+        """Return the measured numbers in SI, one row each; a depth map has one without a value.
+
+        `place` is the entry in the file, `test` the name of its test, `of` the index of that in
+        `tests`, `specimen` the number of the single test, `entry` the `MeasuredEntry`; `step_sigma`
+        and `step_most` are the standard deviation and the largest error due to the resolution,
+        `step`.
+        """
+        tables, specimens = [], 0
+        for of, (place, test) in enumerate(self.tests.items()):
+            named = [
+                entry.rows().assign(place=f"{place}measured.{i}")
+                for i, entry in enumerate(test.measured)
+            ]
+            one = pd.concat(named).assign(test=test.name, of=of)
+            one["specimen"] += specimens
+            specimens = int(one["specimen"].max()) + 1
+            tables.append(one)
+        return pd.concat(tables, ignore_index=True)
+
+    @model_validator(mode="after")
+    def _some(self) -> Self:
+        if self.map and (self.tests or self.fit or self.repeatability is not None):
+            raise ValueError(LOCAL)
+        if self.map:
+            return self
+        if not self.tests or not all(test.measured for test in self.tests.values()):
+            raise ValueError(
+                "nothing is measured; give each value as [[measured]], or as [[test.measured]] of "
+                "a [[test]]"
+            )
+        return self
+
+
+def read_measurements(source: Measurements | Mapping[str, Any] | str | Path) -> Measurements:
+    """Read measured values from a TOML file, or from its tables; CaseError if they are wrong."""
+    if isinstance(source, Measurements):
+        return source
+    data: Mapping[str, Any]
+    if isinstance(source, Mapping):
+        data, folder = source, None
+    else:
+        data = read_toml(source, "measured values", f"a file of measured values has {ENTRIES}")
+        folder = Path(source).parent
+    if "bodies" in data and not {"measured", "test"} & data.keys():
+        name = "this" if isinstance(source, Mapping) else f"{source}"
+        raise CaseError(f"{name} is a case, not measured values, which are {ENTRIES}")
+    try:
+        return Measurements.model_validate(data, context=folder)
+    except ValidationError as error:
+        raise case_error(error) from None

@@ -1,0 +1,217 @@
+"""Quantities measured on a worn body, and their values computed from a result."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+import pandas as pd
+from scipy.interpolate import Akima1DInterpolator
+from scipy.ndimage import binary_dilation, binary_erosion
+from tribo import Array, Result
+from tribo.kernel_api import (
+    TRACK,
+    BodyResult,
+    Model,
+    between_cells,
+    crown,
+    diameter,
+    mass_from_volume,
+    profile,
+    track_section,
+)
+
+DIAMETER_SIGMA = 0.2
+"""Standard deviation of a computed diameter, in cells."""
+DEPTH_SIGMA = 2e-3
+"""Standard deviation of a computed depth, relative to the largest."""
+EDGE_CELL_SIGMA = 0.1
+"""Standard deviation of the mean depth of a cell at the scar's edge, relative to the largest
+difference between neighbouring cells."""
+WORN = 1e-3
+"""Part of the largest depth from which on a cell counts as worn."""
+ROUNDING = 1e-9
+"""Relative number that is printed as 0 %."""
+
+
+class WornQuantity(NamedTuple):
+    """A quantity that is measured on a worn body."""
+
+    unit: str
+    """SI unit."""
+    shown: str
+    """Unit in which it is printed."""
+    per_unit: float
+    """Printed units in one SI unit."""
+    of: Literal["both", "stationary", "swept"] = "both"
+    """The bodies that have it: those that stay in the contact, or are swept through it."""
+
+
+_DEPTH = WornQuantity("m", "µm", 1e6)
+QUANTITIES = {
+    "mass": WornQuantity("kg", "mg", 1e6),
+    "volume": WornQuantity("m^3", "mm³", 1e9),
+    "scar_along": WornQuantity("m", "mm", 1e3, "stationary"),
+    "scar_across": WornQuantity("m", "mm", 1e3),
+    "depth": _DEPTH,
+    "crown": _DEPTH._replace(of="stationary"),
+    "section": WornQuantity("m^2", "mm²", 1e6, "swept"),
+    "profile_along": _DEPTH._replace(of="stationary"),
+    "profile_across": _DEPTH,
+    "depth_map": _DEPTH,
+}
+"""By the name in a file of measured values."""
+AXES = {"scar_along": 0, "scar_across": 1, "profile_along": 0, "profile_across": 1}
+"""Axis of a diameter or a profile."""
+PROFILES = ("profile_along", "profile_across")
+"""Depths at several positions along a line."""
+DEPTH_MAP = "depth_map"
+FIELDS = (*PROFILES, DEPTH_MAP)
+"""Depths at many places, which may be 0; all other quantities are one positive number."""
+
+
+class Reading(NamedTuple):
+    """One number to compute from a run; of a depth map the largest depth.
+
+    `time_s` is NaN for the end of the run, `position_m` for all but profiles.
+    """
+
+    body: str
+    quantity: str
+    time_s: float = math.nan
+    position_m: float = math.nan
+
+
+def plain(found: Any) -> dict[str, Any]:
+    """Return the fields of a dataclass as plain data: tables as lists of rows."""
+    data = {}
+    for name, value in vars(found).items():
+        if isinstance(value, pd.DataFrame):
+            value = value.to_dict("records")
+        data[name] = value.tolist() if isinstance(value, np.ndarray) else value
+    return data
+
+
+def in_words(name: str, value: float, digits: int = 3) -> str:
+    """Return a value of a quantity in its printed unit, as ``"2.05 mg"``."""
+    return f"{QUANTITIES[name].per_unit * value:.{digits}g} {QUANTITIES[name].shown}"
+
+
+def in_si(value: float, unit: str, digits: int = 3) -> str:
+    """Return a value in SI with its unit, as ``"7.08e-15 1/Pa"``."""
+    return f"{value:.{digits}g}" if unit == "1" else f"{value:.{digits}g} {unit}"
+
+
+def p_words(p_value: float) -> str:
+    """Return a p-value in words, as ``"p = 0.05"``."""
+    if p_value > 0.999:
+        return "p > 0.999"
+    return "p < 1e-6" if p_value < 1e-6 else f"p = {p_value:.2g}"
+
+
+def percent(part: float) -> str:
+    """Return a part in percent, rounded, without the sign."""
+    if ROUNDING < part < 0.00095:
+        return f"{100 * part:.2g}"
+    return f"{100 * part:.0f}" if part >= 0.095 else f"{100 * part:.1f}"
+
+
+def read_all(result: Result, asked: Sequence[Reading]) -> tuple[Array, Array, dict[int, Array]]:
+    """Return computed values, their standard deviations due to the grid, and depth maps."""
+    maps = {
+        i: surface_depth(result, each.body, _save(result, each))
+        for i, each in enumerate(asked)
+        if each.quantity == DEPTH_MAP
+    }
+    values, errors = np.array([read(result, each) for each in asked]).T
+    return values, errors, maps
+
+
+def read(result: Result, asked: Reading) -> tuple[float, float]:
+    """Return a computed value, and its standard deviation due to the grid."""
+    save, body = _save(result, asked), result.body(asked.body)
+    depth, spacing, name = body.wear_depth[save], result.grid.spacing, asked.quantity
+    if name in ("scar_along", "scar_across"):
+        axis = AXES[name]
+        return diameter(depth, axis, spacing[axis]), DIAMETER_SIGMA * spacing[axis]
+    if name == DEPTH_MAP:
+        value = float(np.max(surface_depth(result, asked.body, save)))
+        return value, DEPTH_SIGMA * value
+    if name == "depth":
+        value = float(np.max(depth)) + between_cells(depth)
+        return value, DEPTH_SIGMA * value
+    if name == "crown":
+        return _crown(result, body, save)
+    if name == "section":
+        return track_section(result, body, save) or 0.0, 0.0
+    if name in PROFILES:
+        return _on_line(depth, AXES[name], asked.position_m, result)
+    volume = float(result.table("saves")[f"bodies.{body.name}.wear_volume_m3"][save])
+    return mass_from_volume(volume, body.density or 0.0) if name == "mass" else volume, 0.0
+
+
+def edge_sigma(depth: Array, part: float) -> Array:
+    """Return the standard deviation of computed depths at a scar's edge; 0 elsewhere.
+
+    It is a part of the largest difference between neighbouring cells.
+    """
+    worn = depth > WORN * np.max(depth)
+    edge = binary_dilation(worn) & ~binary_erosion(worn, border_value=1)
+    axes = [axis for axis, n in enumerate(depth.shape) if n > 1]
+    steps = [np.max(np.abs(np.diff(depth, axis=axis))) for axis in axes]
+    return np.asarray(edge * part * max(steps))
+
+
+def _on_line(depth: Array, axis: int, position: float, result: Result) -> tuple[float, float]:
+    """Return the depth at a position on a middle line, by cubics, and its standard deviation."""
+    centres = result.grid.x, result.grid.y
+    known = centres[axis]
+    line = profile(depth, axis)
+    if depth.shape[1 - axis] > 1:
+        line = Akima1DInterpolator(centres[1 - axis], depth, axis=1 - axis)(0.0)
+    value = float(Akima1DInterpolator(known, line)(np.clip(position, known[0], known[-1])))
+    at_edge = float(np.interp(position, known, edge_sigma(line, DIAMETER_SIGMA)))
+    return value, math.hypot(DEPTH_SIGMA * float(np.max(depth)), at_edge)
+
+
+def _save(result: Result, asked: Reading) -> int:
+    return -1 if math.isnan(asked.time_s) else result.save_at(asked.time_s)
+
+
+def surface_depth(result: Result, body: str, save: int) -> Array:
+    """Return the depth on a body's own surface, shape (rows, ny).
+
+    Under a resolved stroke the surface of a track is longer than the window.
+    """
+    depth = result.field("wear_depth", save, body)
+    if TRACK in dir(result):
+        track = result.field(TRACK, save, body)
+        if np.any(known := np.isfinite(track[:, 0])):
+            depth = track[known]
+    return np.asarray(depth)
+
+
+def _crown(result: Result, body: BodyResult, save: int) -> tuple[float, float]:
+    """Return the crown; its standard deviation is the chord ends' times the slope there."""
+    height, depth = profile(body.surface(save), 1), profile(body.wear_depth[save], 1)
+    spacing = result.grid.spacing[1]
+    half = 0.5 * diameter(body.wear_depth[save], 1, spacing)
+    slopes = np.interp([-half, half], result.grid.y, np.gradient(height + depth, spacing))
+    error = 0.375 * DIAMETER_SIGMA * spacing * float(np.mean(np.abs(slopes)))
+    return crown(height, depth), error
+
+
+def unavailable(model: Model, body: str, name: str) -> str:
+    """Return why a model does not give a quantity of a body; empty if it does."""
+    found, swept, of = model.bodies[body], body in model.swept, QUANTITIES[name].of
+    if found.wear is None:
+        return f"body {body!r} does not wear in this case; give it a wear law, bodies.{body}.wear"
+    if name == "mass" and found.material.density is None:
+        return f"a mass needs a density; add bodies.{body}.material.density to the case"
+    if of == "stationary" and swept:
+        return f"body {body!r} is swept: its scar is a track, the same all along, and has no {name}"
+    if of == "swept" and not swept:
+        return f"body {body!r} stays in the contact: it has no track, and so no {name}"
+    return ""

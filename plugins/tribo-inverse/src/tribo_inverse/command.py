@@ -1,0 +1,290 @@
+"""`tribo calibrate`."""
+
+from __future__ import annotations
+
+import math
+import shlex
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+from tribo import CaseError, Interrupted, TriboError
+from tribo.kernel_api import (
+    JSON,
+    PATH,
+    SET,
+    apply_settings,
+    check_output,
+    echo_json,
+    file_names,
+    read_toml,
+    to_toml,
+    write_file,
+)
+
+from tribo_inverse.calibration.calibrate import Calibration
+from tribo_inverse.calibration.calibrate import calibrate as fit_numbers
+from tribo_inverse.calibration.choice import Choice, choose_case
+from tribo_inverse.calibration.measured import Measurements, read_measurements
+from tribo_inverse.calibration.plan import Plan, plan_tests
+from tribo_inverse.tables import print_choice, print_fit, print_plan
+
+Shown = TypeVar("Shown", Calibration, Choice, Plan)
+
+PAUSE = 1.0
+"""Shortest time between two lines of progress of sampling, in s."""
+
+
+@click.command()
+@click.argument("cases", metavar="CASE...", nargs=-1, required=True, type=PATH)
+@click.option(
+    "--measured",
+    required=True,
+    type=PATH,
+    help="What was measured, and what to fit: a TOML file.",
+)
+@SET
+@click.option(
+    "--level", type=float, default=0.95, show_default=True, help="Probability of the intervals."
+)
+@click.option(
+    "-o",
+    "--output",
+    type=PATH,
+    help="Write the fitted case to a file, one for each test, and a picture of the fit.",
+)
+@click.option("--force", is_flag=True, help="Replace existing files.")
+@click.option(
+    "--plan",
+    type=float,
+    metavar="PART",
+    help="Instead, print how many tests give intervals of ± this part, as 0.1.",
+)
+@click.option(
+    "--sample",
+    type=click.IntRange(min=1),
+    metavar="COUNT",
+    help="Check the intervals by this many further runs, sampled with emcee; as 2000.",
+)
+@JSON
+def calibrate(
+    cases: tuple[Path, ...],
+    measured: Path,
+    overrides: tuple[str, ...],
+    level: float,
+    output: Path | None,
+    force: bool,
+    plan: float | None,
+    sample: int | None,
+    as_json: bool,
+) -> None:
+    """Fit CASE's wear coefficients, or other numbers of it, to measured wear.
+
+    Takes one or more tests, which may differ from CASE or be repeated. Prints estimates with
+    intervals, residuals, notes on the data, and predictions of the fitted case. Compares several
+    cases, of different wear laws say, by Schwarz's criterion.
+
+    \b
+    Examples:
+      tribo calibrate my.toml --measured weighed.toml -o fitted.toml
+      tribo calibrate archard.toml power.toml --measured weighed.toml
+      tribo calibrate my.toml --measured planned.toml --plan 0.1
+    """
+    measurements = read_measurements(measured)
+    alternatives = {path.stem: apply_settings(read_toml(path), overrides) for path in cases}
+    tables = alternatives[cases[0].stem]
+    several = len(cases) > 1
+    if sample and (several or measurements.map or plan is not None):
+        raise CaseError("--sample is for one case fitted to [[measured]], without --plan")
+    if measurements.map and (several or plan is not None):
+        raise CaseError("local coefficients, [[map]], are fitted in one case, without --plan")
+    if several and (output or plan is not None or len(alternatives) < len(cases)):
+        raise CaseError(
+            "several cases are compared: give files of different names, and --plan or -o with "
+            "one case only"
+        )
+    if several:
+        choice = choose_case(alternatives, measurements, level=level, on_run=_print_run_of_case)
+        _show(choice, print_choice, as_json)
+    elif plan is not None:
+        tests = plan_tests(
+            tables, measurements, plan, level=level, on_run=partial(_print_run, "run")
+        )
+        _show(tests, print_plan, as_json)
+    elif measurements.map:
+        _fit_local(tables, measurements, level, output, force, as_json)
+    else:
+        files = None if output is None else _Files.beside(output, measurements, force)
+        settings = [word for each in overrides for word in ("--set", each)]
+        again = shlex.join(["tribo", "run", str(cases[0]), *settings])
+        _fit_parameters(
+            tables, measurements, level, sample or 0, partial(_output, files, as_json, again)
+        )
+
+
+def _fit_parameters(
+    tables: dict[str, Any],
+    measurements: Measurements,
+    level: float,
+    sample: int,
+    output: Callable[[Calibration], None],
+) -> None:
+    """Fit parameters and output the result, also if sampling is interrupted."""
+    unsampled: list[Calibration] = []
+    progress = _Progress(measurements, sample, unsampled)
+    try:
+        found = fit_numbers(
+            tables,
+            measurements,
+            level=level,
+            sample=sample,
+            on_fit=unsampled.append,
+            on_run=progress,
+        )
+    except (TriboError, KeyboardInterrupt) as error:
+        for fit in unsampled:
+            note = "sampling was interrupted: the intervals are not checked by it"
+            output(replace(fit, notes=(*fit.notes, note)))
+            if isinstance(error, KeyboardInterrupt):
+                raise Interrupted("stopped while sampling; the fit is as printed") from error
+        raise
+    output(found)
+
+
+def _fit_local(
+    tables: dict[str, Any],
+    measurements: Measurements,
+    level: float,
+    output: Path | None,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Fit local coefficients to depth maps."""
+    from tribo_inverse.calibration.mapped import calibrate_maps
+    from tribo_inverse.map_tables import check_free, maps_json, print_maps, write_maps
+
+    check_free(output, force)
+    mapped = {f"map.{i}": entry for i, entry in enumerate(measurements.map)}
+    found = calibrate_maps(tables, mapped, on_run=_print_pass)
+    if as_json:
+        echo_json(maps_json(found, level))
+    else:
+        print_maps(found, level)
+    if output is not None:
+        write_maps(found, level, output)
+
+
+@dataclass(frozen=True)
+class _Files:
+    """Output files: the fitted case of each test, by its name, and the picture of the fit."""
+
+    cases: Mapping[str, Path]
+    picture: Path
+
+    @classmethod
+    def beside(cls, output: Path, measurements: Measurements, force: bool) -> _Files:
+        """Return files named after `output`; CaseError if one exists."""
+        check_output(output)
+        names = list(dict.fromkeys(test.name for test in measurements.tests.values()))
+        cases = {
+            name: output.with_name(f"{output.stem}-{Path(file).stem}.toml") if name else output
+            for name, file in zip(names, file_names(names), strict=True)
+        }
+        found = cls(cases, output.with_name(f"{output.stem}-fit.png"))
+        for path in (*cases.values(), found.picture):
+            if path.exists() and not force:
+                raise CaseError(f"{path} exists; choose another name, or replace it with --force")
+        return found
+
+    def write(self, found: Calibration) -> None:
+        """Write the fitted cases and the picture."""
+        from tribo.kernel_api import fit_picture, write_figures
+
+        for name, tables in found.fitted.items():
+            write_file(self.cases[name], to_toml(tables))
+        write_figures(
+            {self.picture.stem: lambda: fit_picture(found.brief, found.data)}, self.picture.parent
+        )
+
+
+def _output(files: _Files | None, as_json: bool, again: str, found: Calibration) -> None:
+    """Write a fit to its files, if any, and print it; `again` is the command that runs the case."""
+    if files is not None:
+        files.write(found)
+    _show(found, print_fit, as_json)
+    if as_json:
+        return
+    if files is None:
+        settings = (f"{path}={value:.4g}" for path, value in found.settings.items())
+        click.echo(f"Run it: {again} {' '.join(f'--set {shlex.quote(each)}' for each in settings)}")
+        return
+    click.echo(f"Wrote {files.picture}")
+    for name in found.fitted:
+        click.echo(f"Run it: tribo run {shlex.quote(str(files.cases[name]))}")
+
+
+def _show(found: Shown, in_words: Callable[[Shown], None], as_json: bool) -> None:
+    """Print a result as JSON or in words."""
+    if as_json:
+        echo_json(found.as_json())
+    else:
+        in_words(found)
+
+
+def _print_run_of_case(name: str, run: int, misfit: float) -> None:
+    _print_run(f"{name}, run", run, misfit)
+
+
+def _print_run(what: str, run: int, misfit: float = math.nan, left: float = 0.0) -> None:
+    chi_square = "" if math.isnan(misfit) else f": misfit χ² {misfit:.3g}"
+    more = f", {left:.0f} s left at least" if left >= 1 else ""
+    click.echo(f"{what} {run}{chi_square}{more}", err=True)
+
+
+def _print_pass(count: int, misfit: float) -> None:
+    """Print the number of a run and pass back, which is for the map or for what is sure of it."""
+    if math.isnan(misfit):
+        click.echo(f"run and pass back {count}: for standard deviations", err=True)
+    else:
+        _print_run("run and pass back", count, misfit)
+
+
+class _Progress:
+    """Print the number of runs, and the least time that is left.
+
+    The time is estimated from the second round of runs on, as the first includes imports and
+    kernels. Sampling is included once it has begun, since it may be left out.
+    """
+
+    def __init__(
+        self,
+        measurements: Measurements,
+        sample: int,
+        unsampled: Sequence[Calibration],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        tests = measurements.tests.values()
+        measured = {entry.body for test in tests for entry in test.measured}
+        cases = len({repr(test.set) for test in tests})
+        self._fit, self._sample = (
+            cases * (2 + (len(measurements.fit) or len(measured))),
+            cases * sample,
+        )
+        self._unsampled, self._clock = unsampled, clock
+        self._last, self._first, self._sampling = -math.inf, (0, 0.0), False
+
+    def __call__(self, run: int, misfit: float) -> None:
+        now, sampling = self._clock(), bool(self._unsampled)
+        if self._last == -math.inf or sampling != self._sampling:
+            self._first, self._sampling = (run, now), sampling
+        if self._sample and now - self._last < PAUSE:
+            return
+        self._last = now
+        made, began = self._first
+        each = (now - began) / (run - made) if run > made else 0.0
+        fewest = self._unsampled[0].runs + self._sample if sampling else self._fit
+        _print_run("sampling, run" if sampling else "run", run, misfit, (fewest - run) * each)

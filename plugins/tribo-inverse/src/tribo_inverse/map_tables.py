@@ -1,0 +1,149 @@
+"""Tables, files and pictures of local coefficients for `tribo calibrate`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+import numpy as np
+from rich.table import Table
+from tribo import CaseError
+from tribo.kernel_api import Console, check_output, titled, write_file
+
+from tribo_inverse.calibration.maps import SILENT, FittedMaps, LocalMap
+from tribo_inverse.calibration.quantities import p_words
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def maps_json(found: FittedMaps, level: float) -> dict[str, Any]:
+    """Return fitted maps as plain data, in SI units."""
+    return {
+        "level": level,
+        "gradients": found.gradients,
+        "products": found.products,
+        "chi_square": found.chi_square,
+        "degrees_of_freedom": found.degrees_of_freedom,
+        "by_grid": found.by_grid,
+        "p_value": found.p_value,
+        "remarks": found.remarks,
+        "notes": found.notes,
+        "maps": {
+            name: {key: value.tolist() for key, value in _arrays(each, level).items()}
+            for name, each in found.maps.items()
+        },
+    }
+
+
+def _arrays(each: LocalMap, level: float) -> dict[str, Any]:
+    lower, upper = each.interval(level)
+    return {
+        "spacing_m": np.array(each.spacing),
+        "factor": each.factor,
+        "lower": lower,
+        "upper": upper,
+        "deviation": each.deviation,
+        "prior_deviation": each.prior,
+        "told": each.told,
+        "measured_m": each.measured,
+        "computed_m": each.computed,
+        "uncertainty_m": each.uncertainty,
+        "off_m": np.array(each.off),
+    }
+
+
+def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
+    """Return fitted maps and the level of their intervals from the data of `maps_json`."""
+    maps = {}
+    for name, each in found["maps"].items():
+        keys = ("deviation", "prior_deviation", "measured_m", "computed_m", "uncertainty_m")
+        logs, (dx, dy) = np.log(np.array(each["factor"], dtype=float)), each["spacing_m"]
+        own, prior, measured, computed, sigma = (np.array(each[k], dtype=float) for k in keys)
+        off = tuple(each.get("off_m", ()))
+        maps[name] = LocalMap(logs, own, prior, (dx, dy), measured, computed, sigma, off)
+    numbers = {key: found[key] for key in ("gradients", "products")}
+    fit = {key: found[key] for key in ("chi_square", "degrees_of_freedom")}
+    fit["by_grid"] = found.get("by_grid", 0.0)
+    remarks = tuple(found.get("remarks", ()))
+    return FittedMaps(maps=maps, **numbers, **fit, remarks=remarks), found["level"]
+
+
+def maps_table(found: FittedMaps, level: float) -> Table:
+    """Return the range of the factors, and the number of cells where it differs from 1."""
+    table = titled(f"Local coefficients, {found.gradients + found.products} runs and passes back")
+    table.add_column("")
+    for column in ("told", "factor there", f"below 1 at {100 * level:g} %", "above 1"):
+        table.add_column(column, justify="right")
+    for name, each in found.maps.items():
+        told, (lower, upper) = each.told, each.interval(level)
+        ends = each.factor[told] if np.any(told) else np.ones(1)
+        counts = told, told & (upper < 1), told & (lower > 1)
+        cells, *differ = (f"{np.sum(count)} cells" for count in counts)
+        there = f"{ends.min():.2f} to {ends.max():.2f}"
+        table.add_row(name, f"{cells} of {told.size}", there, *differ)
+    return table
+
+
+def fit_words(found: FittedMaps) -> str:
+    """Return the goodness of fit in a sentence."""
+    return (
+        f"χ² {found.chi_square:.4g} with {found.degrees_of_freedom:.4g} degrees of freedom, "
+        f"{p_words(found.p_value)}. A cell is told where less than {SILENT:g} of the prior's "
+        "standard deviation is left."
+    )
+
+
+def print_maps(found: FittedMaps, level: float) -> None:
+    """Print fitted maps."""
+    console = Console()
+    console.print(maps_table(found, level))
+    console.print(fit_words(found), markup=False)
+    for note in found.notes:
+        console.print(f"Note: {note}", markup=False)
+
+
+def map_pictures(found: FittedMaps, level: float) -> dict[str, Callable[[], Figure]]:
+    """Return functions that draw the map of each body, and its fit to the measured depths."""
+    from tribo_inverse.pictures import coefficient_map, depth_fit
+
+    pictures: dict[str, Callable[[], Figure]] = {}
+    for name, each in found.maps.items():
+        part = each.deviation / each.prior
+        drawn = each.factor, each.interval(level), part, each.told, each.spacing, name
+        pictures[name] = partial(coefficient_map, *drawn)
+        pictures[f"{name}-fit"] = partial(
+            depth_fit, each.measured, each.computed, each.uncertainty, each.spacing, name
+        )
+    return pictures
+
+
+def check_free(output: Path | None, force: bool) -> None:
+    """Check that an output is a new NumPy archive; CaseError if it is not."""
+    if output is None:
+        return
+    if output.suffix != ".npz":
+        raise CaseError(f"{output}: maps are written as a NumPy archive; name it {output.stem}.npz")
+    if output.exists() and not force:
+        raise CaseError(f"{output} exists; choose another name, or replace it with --force")
+    check_output(output)
+
+
+def write_maps(found: FittedMaps, level: float, output: Path) -> None:
+    """Write the maps as a NumPy archive, and pictures of each beside it."""
+    from tribo.kernel_api import write_figures
+
+    arrays: dict[str, Any] = {}
+    for name, each in found.maps.items():
+        arrays |= {f"{name}_{key}": value for key, value in _arrays(each, level).items()}
+    pictures = {f"{output.stem}-{name}": draw for name, draw in map_pictures(found, level).items()}
+    image = BytesIO()
+    np.savez_compressed(image, **arrays)
+    write_file(output, image.getbuffer())
+    click.echo(f"Wrote {output}")
+    for path in write_figures(pictures, output.parent):
+        click.echo(f"Wrote {path}")

@@ -1,0 +1,130 @@
+"""Pictures of local wear coefficients."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.figure import Figure
+from tribo import Array
+from tribo.kernel_api import DIFFERENCES, SIGNIFICANT, Look, Mask, house_style, new_figure
+
+DOUBLE = 140.0
+"""Width of a picture with two panels, in mm."""
+SURE = 0.5
+"""Standard deviation, relative to the prior's, up to which intervals along y are shown whole."""
+Range = tuple[float | None, float | None]
+
+
+def coefficient_map(
+    factor: Array,
+    interval: tuple[Array, Array],
+    part: Array,
+    told: Mask,
+    spacing: tuple[float, float],
+    title: str = "",
+) -> Figure:
+    """Draw the factor on a wear coefficient, and its standard deviation relative to the prior's.
+
+    Parameters
+    ----------
+    factor : ndarray, shape (rows, ny)
+        The factor at each cell; with one row, along y only.
+    interval : tuple of ndarray, shape (rows, ny)
+        The ends of its interval, drawn as a band along y.
+    part : ndarray, shape (rows, ny)
+        Standard deviation over the prior's: at 1 the data say nothing.
+    told : ndarray of bool, shape (rows, ny)
+        Where the data narrow the prior; the factor is left blank elsewhere.
+    spacing : tuple of float
+        Edge lengths of a cell, in m.
+    title : str, optional
+        Of the picture.
+    """
+    panels: dict[str, tuple[Array, Range]] = {
+        "factor on k, where told": (np.where(told, factor, np.nan), (None, None)),
+        "standard deviation / prior's": (part, (0.0, 1.0)),
+    }
+    figure = _drawn(panels, spacing, title, "viridis")
+    if len(factor) == 1:
+        low, high = (np.where(told, each, np.nan)[0] for each in interval)
+        figure.axes[0].fill_between(_places(factor, spacing), low, high, color="#d0d0d0", lw=0)
+        # Ends where hardly anything is told would leave the rest flat.
+        if np.any(sure := part[0] < SURE):
+            figure.axes[0].set_ylim(0.95 * np.min(low[sure]), 1.05 * np.max(high[sure]))
+    return figure
+
+
+def depth_fit(
+    measured: Array,
+    computed: Array,
+    uncertainty: Array,
+    spacing: tuple[float, float],
+    title: str = "",
+) -> Figure:
+    """Draw a measured depth, and the residual of the fit.
+
+    On a map a solid line surrounds residuals above three standard deviations, a dashed one those
+    below minus three.
+
+    Parameters
+    ----------
+    measured, computed : ndarray, shape (rows, ny)
+        Depth worn off, in m; NaN where it was not measured.
+    uncertainty : ndarray, shape (rows, ny)
+        Standard deviation of their difference, in m.
+    spacing : tuple of float
+        Edge lengths of a cell, in m.
+    title : str, optional
+        Of the picture.
+    """
+    off = (computed - measured) / uncertainty
+    largest = float(np.max(np.abs(off), initial=SIGNIFICANT, where=np.isfinite(off)))
+    panels: dict[str, tuple[Array, Range]] = {
+        "measured depth (µm)": (1e6 * measured, (None, None)),
+        "fit − measured (deviations)": (off, (-largest, largest)),
+    }
+    figure = _drawn(panels, spacing, title, "Blues", DIFFERENCES)
+    lines = [at for at in (-SIGNIFICANT, SIGNIFICANT) if np.nanmin(off) < at < np.nanmax(off)]
+    if len(off) > 1 and lines:
+        (image,) = figure.axes[1].images
+        look: Look = {"extent": image.get_extent(), "colors": "#202020", "linewidths": 0.7}
+        figure.axes[1].contour(off.T, lines, **look)
+    return figure
+
+
+def _places(values: Array, spacing: tuple[float, float]) -> Array:
+    """Return where the cells of a row lie along y, in µm."""
+    cells = np.arange(values.size) - 0.5 * (values.size - 1)
+    return np.asarray(1e6 * spacing[1] * cells)
+
+
+def _drawn(
+    panels: Mapping[str, tuple[Array, Range]],
+    spacing: tuple[float, float],
+    title: str,
+    *colours: object,
+) -> Figure:
+    """Draw values side by side: curves along y of one row, else maps."""
+    with house_style():
+        figure = new_figure(75.0, DOUBLE)
+        figure.suptitle(title)
+        for i, (axes, (label, (values, (low, high)))) in enumerate(
+            zip(figure.subplots(1, 2), panels.items(), strict=True)
+        ):
+            if len(values) == 1:
+                axes.plot(_places(values, spacing), values[0], color="#202020")
+                axes.set(xlabel="y (µm)", ylabel=label, ylim=(low, high))
+                continue
+            half = [0.5e6 * n * h for n, h in zip(values.shape, spacing, strict=True)]
+            image = axes.imshow(
+                values.T,
+                origin="lower",
+                extent=(-half[0], half[0], -half[1], half[1]),
+                cmap=colours[min(i, len(colours) - 1)],
+                vmin=low,
+                vmax=high,
+            )
+            axes.set(xlabel="x (µm)", ylabel="y (µm)")
+            figure.colorbar(image, ax=axes, label=label, orientation="horizontal")
+    return figure

@@ -1,0 +1,45 @@
+"""The paper's test on springs and a small grid, in long steps: to calibrate in little time."""
+
+import tomllib
+from contextlib import contextmanager
+from copy import deepcopy
+
+import pytest
+from tribo.config.overrides import apply_settings
+from tribo.templates import template
+
+from tribo_inverse.calibration.setups import make_run
+
+SPRINGS = {
+    "contact": {"type": "winkler"},
+    "stepping": {"type": "implicit", "depth_tolerance": 1e-2, "pressure_tolerance": 0.3},
+    "output": {},
+}
+
+
+def on_springs(name, settings):
+    """Return the case of a template on springs, with more settings."""
+    return apply_settings(tomllib.loads(template(name)), deepcopy(SPRINGS) | settings)
+
+
+def cheap(duration):
+    """Return the paper's test as it is cheap to run, for a time in s."""
+    grid = {"size": "1 mm", "cells": 16}
+    return on_springs("ball_on_disk", {"grid": grid, "kinematics.duration": duration})
+
+
+@contextmanager
+def kept_runs():
+    """Make no run of a calibration twice."""
+    kept = {}
+
+    def remembered(tables, parameters, values, wanted, *rest):
+        paths = [each.path for each in parameters]
+        key = repr((tables, paths, values.tobytes(), wanted))
+        if key not in kept:
+            kept[key] = make_run(tables, parameters, values, wanted, *rest)
+        return kept[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("tribo_inverse.calibration.experiment.make_run", remembered)
+        yield

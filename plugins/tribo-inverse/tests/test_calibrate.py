@@ -1,0 +1,182 @@
+"""`tribo calibrate`, as a user meets it."""
+
+import json
+import re
+import tomllib
+from pathlib import Path
+from types import SimpleNamespace
+
+import pandas as pd
+import pytest
+from calibrations import kept_runs
+from click.testing import CliRunner
+from command_line import tribo
+from rich.console import Console
+from tribo.cli.main import tribo as main
+from tribo.config.load import load_case
+from tribo.core.errors import CaseError
+
+from tribo_inverse.calibration.measured import read_measurements
+from tribo_inverse.calibration.quantities import p_words
+from tribo_inverse.command import _Progress
+from tribo_inverse.tables import estimates_table
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+QUICK = ["--set", "grid.cells=24", "--set", "contact.type=winkler"]
+COARSE = ["--set", "stepping.depth_tolerance=1e-2", "--set", "stepping.pressure_tolerance=0.3"]
+WEIGHED = ["calibrate", "weighed_split.toml", "--measured", "weighed.toml", *QUICK, *COARSE]
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def asked():
+    """Return how the command ends with more options, in one process that makes no run twice."""
+    with kept_runs(), pytest.MonkeyPatch.context() as patch:
+        patch.chdir(EXAMPLES)
+        yield lambda *options: CliRunner().invoke(main, [*WEIGHED, *options])
+
+
+@pytest.fixture(scope="module")
+def done(asked):
+    ended = asked()
+    assert ended.exit_code == 0, ended.output
+    return ended
+
+
+def test_it_prints_estimates_with_intervals_and_what_to_run(done):
+    lines = done.stdout.splitlines()
+    # Its tables break neither names nor numbers.
+    (row,) = (line.split() for line in lines if line.startswith(" bodies.disk.wear.k"))
+    assert " ".join(row) == "bodies.disk.wear.k 7.08e-16 1/Pa 4.25e-16 to 9.91e-16 ±40 %"
+    assert max(len(line) for line in lines if line.startswith(" ")) <= 80
+    for words in ("95 % interval", "relative", "ball, crown", "leaves ±50 % open"):
+        assert words in done.stdout
+    assert lines[-1].startswith("Run it: tribo run weighed_split.toml --set grid.cells=24")
+    assert lines[-1].endswith(
+        "--set bodies.ball.wear.k=7.077e-15 --set bodies.disk.wear.k=7.077e-16"
+    )
+
+
+def test_it_tells_of_each_run_on_stderr_and_of_a_misfit_that_falls(done):
+    lines = done.stderr.splitlines()
+    assert [line.split(":")[0] for line in lines[:2]] == ["run 1", "run 2"]
+    misfits = [float(line.split("χ² ")[1].split(",")[0]) for line in lines if "χ²" in line]
+    assert misfits == sorted(misfits, reverse=True)
+    assert len(misfits) < len(lines)
+
+
+def test_narrow_intervals_stay_on_a_line_at_80_columns(capsys):
+    estimate = {"path": "bodies.ball.wear.k", "unit": "1/Pa", "value": 1.8171e-16}
+    estimate |= {"lower": 1.8092e-16, "upper": 1.8251e-16, "held": False, "limited": False}
+    found = SimpleNamespace(level=0.95, runs=5, parameters=pd.DataFrame([estimate]))
+    Console(width=80).print(estimates_table(found))
+    *_, row = (line for line in capsys.readouterr().out.splitlines() if line.strip())
+    assert row.split(maxsplit=3)[3].split() == ["1.8092e-16", "to", "1.8251e-16", "±0.4", "%"]
+
+
+@pytest.mark.parametrize(
+    ("p_value", "words"), [(0.0, "p < 1e-6"), (0.0123, "p = 0.012"), (1.0, "p > 0.999")]
+)
+def test_an_extreme_p_value_is_a_bound(p_value, words):
+    assert p_words(p_value) == words
+
+
+def test_wide_tables_break_no_value_at_80_columns(capsys):
+    """Intervals are broken around "to"."""
+    estimate = {"path": "bodies.second_ball.wear.factor", "unit": "1/Pa", "value": 1.234e-15}
+    estimate |= {"lower": 1.111e-16, "upper": 1.357e-14, "held": False, "limited": False}
+    found = SimpleNamespace(level=0.95, runs=5, parameters=pd.DataFrame([estimate]))
+    Console(width=80).print(estimates_table(found))
+    text = capsys.readouterr().out
+    assert max(map(len, text.splitlines())) <= 80
+    for whole in (estimate["path"], "1.23e-15 1/Pa", "1.36e-14", "relative"):
+        assert whole in text
+
+
+def test_json_is_finite_and_in_si_units(asked):
+    data = json.loads(asked("--json").stdout, parse_constant=pytest.fail)
+    keys = "level runs parameters data predictions chi_square degrees_of_freedom p_value notes bic "
+    keys += "repeatability repeatability_estimated correlation singular_values left_out fitted"
+    assert sorted(data) == sorted(keys.split())
+    ball, _ = data["parameters"]
+    assert tomllib.loads(data["fitted"][""])["bodies"]["ball"]["wear"]["k"] == pytest.approx(
+        ball["value"], rel=1e-6, abs=0
+    )
+    estimate = "path unit value lower upper resolution_share resolution_limit held limited"
+    assert list(ball) == estimate.split()
+    assert (ball["path"], ball["unit"]) == ("bodies.ball.wear.k", "1/Pa")
+    assert ball["value"] == pytest.approx(7.08e-15, rel=1e-3, abs=0)
+    datum = "test body quantity time_s position_m place unit"
+    datum += " measured below sigma computed residual"
+    assert list(data["data"][0]) == datum.split()
+    predicted = "test body quantity unit value lower upper"
+    assert list(data["predictions"][0]) == predicted.split()
+
+
+def test_the_fitted_case_is_written_to_run(asked, tmp_path):
+    ran = asked("-o", str(tmp_path / "fitted.toml"))
+    assert (tmp_path / "fitted-fit.png").stat().st_size > 5000
+    assert ran.stdout.splitlines()[-1] == f"Run it: tribo run {tmp_path / 'fitted.toml'}"
+    case = load_case(tmp_path / "fitted.toml")
+    assert case.bodies["disk"].wear.k == pytest.approx(7.077e-16, rel=1e-3, abs=0)
+    assert case.grid.cells == (24, 24)
+    again = asked("-o", str(tmp_path / "fitted.toml"))
+    assert isinstance(again.exception, CaseError)
+    assert "fitted.toml exists; choose another name" in str(again.exception)
+    assert "run 1" not in again.stderr
+
+
+def test_bad_input_is_one_message(tmp_path):
+    file = tmp_path / "wrong.toml"
+    file.write_text('[[measured]]\nbody = "ball"\nquantity = "mass"\nvalue = "2 mm"\n')
+    ran = tribo("calibrate", "weighed_split.toml", "--measured", file, cwd=EXAMPLES)
+    assert ran.returncode == 2
+    assert ran.stderr.startswith("error: measured.0.value: '2 mm' is a length [m]")
+    assert len(ran.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize("more", [["--plan", "0.1"], ["twin.toml"]])
+def test_local_coefficients_are_one_case_and_no_plan(tmp_path, monkeypatch, more):
+    monkeypatch.chdir(tmp_path)
+    entry = {"body": '"disk"', "depth": '"d.npy"', "uncertainty": "1e-9", "length": "1e-4"}
+    table = "\n".join(f"{key} = {value}" for key, value in entry.items())
+    Path("mapped.toml").write_text(f"[[map]]\n{table}\n")
+    for name in ("case.toml", "twin.toml"):
+        Path(name).write_text((EXAMPLES / "weighed_split.toml").read_text())
+    ended = CliRunner().invoke(main, ["calibrate", "case.toml", "--measured", "mapped.toml", *more])
+    assert str(ended.exception) == (
+        "local coefficients, [[map]], are fitted in one case, without --plan"
+    )
+
+
+def left(told):
+    """Return the seconds that a line says are left, 0 where it says nothing."""
+    found = re.search(r", (\d+) s left at least", told)
+    return int(found[1]) if found else 0
+
+
+def told(capsys, runs, sample=0, fitted_at=None):
+    """Return what is told after rounds of runs: their number, and the time then in s."""
+    asked, unsampled, now = read_measurements(EXAMPLES / "weighed.toml"), [], [0.0]
+    tell, lines = _Progress(asked, sample, unsampled, lambda: now[0]), []
+    for made, now[0] in runs:
+        if fitted_at is not None and now[0] > fitted_at and not unsampled:
+            unsampled.append(SimpleNamespace(runs=made - 1))
+        tell(made, 1.0)
+        lines += capsys.readouterr().err.splitlines()
+    return lines
+
+
+def test_the_time_left_is_that_of_runs_after_the_first(capsys):
+    # 60 s go before the first ends, as imports do; four are needed at least.
+    lines = told(capsys, [(1, 60.0), (2, 65.0), (3, 70.0), (4, 75.0), (5, 80.0)])
+    assert [left(line) for line in lines] == [0, 10, 5, 0, 0]
+
+
+def test_sampling_counts_once_it_has_begun_and_at_its_own_speed(capsys):
+    fit = [(1, 60.0), (2, 65.0), (4, 75.0)]
+    sampling = [(5, 100.0), (6, 101.0), (55, 150.0)]
+    lines = told(capsys, fit + sampling, sample=100, fitted_at=90.0)
+    assert [left(line) for line in lines] == [0, 10, 0, 0, 98, 49]
+    assert [line.split(",")[0] == "sampling" for line in lines] == 3 * [False] + 3 * [True]

@@ -1,0 +1,107 @@
+"""Data of one law speak for it where they can, and are said not to where they cannot."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from calibrations import cheap, kept_runs
+from click.testing import CliRunner
+from scipy.stats import multivariate_normal
+from tribo.cli.main import tribo
+from tribo.config.overrides import apply_settings
+from tribo.core.errors import CaseError
+
+from tribo_inverse.calibration.choice import choose_case
+from tribo_inverse.calibration.fit import fit
+from tribo_inverse.calibration.linearised import Problem
+
+ARCHARD = cheap(100)
+POWER = {"type": "power", "k": 3.11e-16, "p_exponent": 2.0, "reference_pressure": "1 GPa"}
+CASES = {"archard": ARCHARD, "power": apply_settings(ARCHARD, {"bodies.ball.wear": POWER})}
+PER_LOAD = 3.11e-16 * 10.0 * 7850.0
+"""What Archard's law takes off per newton, in kg."""
+
+
+def weighed(load, part):
+    mass = PER_LOAD * load
+    entry = {"body": "ball", "quantity": "mass", "value": mass, "uncertainty": part * mass}
+    return {"name": f"{load} N", "set": {"load.normal": load}, "measured": [entry]}
+
+
+@pytest.mark.slow
+@kept_runs()
+def test_the_law_that_made_the_data_is_chosen_where_they_are_exact():
+    """A pressure falls as the scar grows, so that losses of other laws are not as the load."""
+    exact = {"test": [weighed(load, 0.02) for load in (40, 100)]}
+    found = choose_case(CASES, exact)
+    assert list(found.cases["case"]) == ["archard", "power"]
+    assert found.verdict.startswith("the data speak for archard: Schwarz's criterion is lower by ")
+    assert found.cases["weight"][0] > 0.95
+    assert found.cases["left_out"][0] > found.cases["left_out"][1]
+    rough = {"test": [weighed(load, 0.5) for load in (40, 100)]}
+    told = choose_case(CASES, rough).verdict
+    assert told.startswith("these data cannot tell archard and power apart")
+    assert "of what was not measured they differ most in the " in told
+    # Of the ball, whose mass was measured, its volume says nothing more.
+    assert "the volume of 'ball'" not in told
+    assert json.dumps(found.as_json())
+
+
+def test_what_is_wrong_with_one_case_is_told_before_another_is_run():
+    fit = [{"path": "bodies.ball.wear.k"}, {"path": "bodies.ball.wear.p_exponent", "lower": 0.5}]
+    runs = []
+    with pytest.raises(CaseError, match=r"power: .*must be at least 1"):
+        choose_case(
+            CASES,
+            {"test": [weighed(40, 0.02), weighed(100, 0.02)], "fit": fit},
+            on_run=lambda *run: runs.append(run),
+        )
+    assert not runs
+
+
+def test_a_test_left_out_is_foretold_by_the_others():
+    """A mean of n values with a known scatter foretells the next with σ √(1 + 1/n)."""
+    values = np.array([0.9, 1.05, 1.1])
+    problem = Problem(
+        names=("k",),
+        observed=values,
+        sigma=np.full(3, 0.01),
+        below=np.zeros(3, dtype=bool),
+        specimen=np.arange(3),
+        repeatability=0.0,
+        small=np.zeros(4),
+        lower=np.full(1, -np.inf),
+        upper=np.full(1, np.inf),
+        common=np.zeros((3, 0)),
+    )
+    found = fit(lambda k: np.repeat(k, 4), problem, np.ones(1))
+    own = []
+    for i in range(3):
+        mean = np.mean(np.delete(values, i))
+        own.append(multivariate_normal.logpdf(values[i], mean, 0.01**2 * 1.5))
+    assert found.left_out() == pytest.approx(own, rel=1e-2)
+    whole = multivariate_normal.logpdf(values, np.full(3, np.mean(values)), 0.01**2)
+    assert found.deviance(found.point) == pytest.approx(-2 * whole, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("cases", "fit", "words"),
+    [
+        (["archard"], [], "give two cases or more"),
+        (["archard", "power"], ["bodies.ball.wear.b"], r"fit\.0\.path: bodies.ball.wear.b is a "),
+        (["archard", "power"], ["bodies.ball.wear.p_exponent"], "archard has none of the numbers"),
+    ],
+)
+def test_what_cannot_be_compared_is_told(cases, fit, words):
+    measured = {"test": [weighed(50, 0.1)], "fit": [{"path": path} for path in fit]}
+    with pytest.raises(CaseError, match=words):
+        choose_case({name: CASES[name] for name in cases}, measured)
+
+
+def test_a_plan_is_of_one_case():
+    example = str(Path(__file__).parents[2] / "examples" / "weighed_split.toml")
+    data = str(Path(__file__).parents[2] / "examples" / "weighed.toml")
+    ended = CliRunner().invoke(tribo, ["calibrate", example, example, "--measured", data])
+    assert isinstance(ended.exception, CaseError)
+    assert "give files of different names" in str(ended.exception)

@@ -1,0 +1,383 @@
+"""Numbers of a case are fitted to depth maps, beside and in the way of other measured values."""
+
+import copy
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from calibrations import cheap, kept_runs
+from rich.console import Console
+from scipy.stats import binom
+from tribo.config.load import validate_case
+from tribo.config.overrides import apply_settings
+from tribo.config.write import to_toml
+from tribo.core.errors import CaseError, NumericalError, TriboWarning
+from tribo.plotting.curves import fit_picture
+from tribo.simulation.run import Simulation
+
+from tribo_inverse.calibration.calibrate import calibrate
+from tribo_inverse.calibration.cells import block_means, cell_means
+from tribo_inverse.calibration.choice import choose_case
+from tribo_inverse.calibration.experiment import Experiment
+from tribo_inverse.calibration.fit import differenced, fit, interval
+from tribo_inverse.calibration.measured import read_measurements
+from tribo_inverse.calibration.plan import plan_tests
+from tribo_inverse.tables import data_table
+
+K, N = "bodies.ball.wear.k", "bodies.ball.wear.p_exponent"
+DISK_K = "bodies.disk.wear.k"
+ARCHARD = apply_settings(cheap(60), {"grid.cells": 16, K: 3e-16, DISK_K: 3e-16})
+FINER = apply_settings(ARCHARD, {"grid.cells": 32})
+POWER = apply_settings(
+    FINER,
+    {"bodies.ball.wear": {"type": "power", "k": 3e-16, "reference_pressure": "1 GPa"}, N: 1.3},
+)
+TRUE = {K: 3e-16, N: 1.3}
+NOISE = 10e-9
+
+
+@pytest.fixture(scope="module", autouse=True)
+def runs_made_once():
+    with kept_runs():
+        yield
+
+
+def run(case, **changes):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TriboWarning)
+        return Simulation(validate_case(apply_settings(case, changes))).run()
+
+
+@pytest.fixture(scope="module")
+def noisy(tmp_path_factory):
+    """Return an entry of a body's map, with noise, in a file; missing in a corner."""
+    folder, random = tmp_path_factory.mktemp("maps"), np.random.default_rng(3)
+
+    def entry(case, body="ball", field=None, **changes):
+        with run(case, **changes) as result:
+            depth = result.body(body).wear_depth[-1]
+            if field is not None:
+                depth = result.field(field, len(result.times) - 1, body)
+            pitch = result.grid.spacing[0]
+        depth = cell_means(depth) + NOISE * random.standard_normal(depth.shape)
+        depth[:3, :5] = np.nan
+        file = folder / f"{len(list(folder.iterdir()))}.npy"
+        np.save(file, depth)
+        map_of = {"body": body, "quantity": "depth_map", "depth": str(file), "pitch": pitch}
+        return map_of | {"uncertainty": NOISE}
+
+    return entry
+
+
+@pytest.fixture(scope="module")
+def two_loads(noisy):
+    """Maps of the ball, worn by the power law, of the case as it is and of half the load."""
+    light = {"load.normal": 50.0}
+    tests = [
+        {"name": "heavy", "measured": [noisy(POWER)]},
+        {"name": "light", "set": light, "measured": [noisy(POWER, **light)]},
+    ]
+    return {"test": tests, "fit": [{"path": K, "start": 5e-16}, {"path": N, "start": 1.1}]}
+
+
+@pytest.fixture(scope="module")
+def found(two_loads):
+    return calibrate(POWER, two_loads)
+
+
+@pytest.mark.slow
+def test_a_coefficient_and_an_exponent_are_found_from_maps_at_two_loads(found):
+    for each in found.parameters.itertuples():
+        assert each.lower < TRUE[each.path] < each.upper
+        assert each.value == pytest.approx(TRUE[each.path], rel=0.02, abs=0)
+    # Blocks of four cells, two of which were not measured.
+    assert len(found.data) == 2 * (16 * 16 - 2)
+    assert found.p_value > 0.01
+    assert list(found.brief["test"]) == ["heavy", "light"]
+
+
+@pytest.mark.slow
+def test_a_map_is_one_row_of_the_table_and_of_the_picture(found, capsys):
+    Console(width=80).print(data_table(found))
+    text = capsys.readouterr().out
+    (row,) = (line.split() for line in text.splitlines() if "heavy" in line)
+    assert " ".join(row).startswith("heavy: ball, depth_map, mean 0.")
+    assert row[-2] == "rms"
+    # The noise of a block is no larger than what the grid may put it off by, of which is none here.
+    assert 0.4 < float(row[-1]) < 0.8
+    axes, *panels = fit_picture(found.brief, found.data).axes
+    assert len(axes.get_yticks()) == 2
+    # Of each map the residuals at all blocks, and their colours.
+    maps = [each for panel in panels if panel.get_title() for each in panel.collections]
+    drawn = np.concatenate([each.get_array() for each in maps])
+    assert sorted(drawn) == sorted(found.data["residual"])
+
+
+@pytest.mark.slow
+def test_another_law_is_noticed_and_not_chosen(two_loads, found):
+    """Archard's coefficient would be 20 % less at half the load, where pressures are less."""
+    choice = choose_case({"power": POWER, "archard": FINER}, two_loads)
+    assert list(choice.cases["case"]) == ["power", "archard"]
+    wrong = choice.calibrations["archard"]
+    assert wrong.p_value < 1e-3
+    assert any("data and model disagree" in note for note in wrong.notes)
+    assert any("the depth_map of 'ball' in light follow a pattern" in note for note in wrong.notes)
+    assert not any("follow a pattern" in note for note in found.notes)
+
+
+@pytest.mark.slow
+def test_a_weighed_mass_goes_with_a_map(noisy):
+    """The map tells of the disk, the balance of the ball; together of the load between them."""
+    lost = 3e-16 * 100 * 6 * 7850
+    mass = {"body": "ball", "quantity": "mass", "value": lost, "uncertainty": 0.05 * lost}
+    fitted = [{"path": K, "start": 4e-16}, {"path": DISK_K, "start": 2e-16}]
+    found = calibrate(ARCHARD, {"measured": [mass, noisy(ARCHARD, "disk")], "fit": fitted})
+    ball, disk = found.parameters.itertuples()
+    assert ball.value == pytest.approx(3e-16, rel=0.05, abs=0)
+    assert disk.value == pytest.approx(3e-16, rel=0.05, abs=0)
+    assert (ball.upper - ball.lower) / ball.value == pytest.approx(2 * 1.96 * 0.05, rel=0.3)
+    # Every point of the track is the same, so that each line across it is a number.
+    assert len(found.data) == 1 + 16
+    assert list(found.brief["quantity"]) == ["mass", "depth_map"]
+
+
+@pytest.mark.slow
+def test_a_map_that_a_wrong_weight_makes_too_shallow_has_no_other_shape(noisy):
+    wrong = 1.5 * 3e-16 * 100 * 6 * 7850
+    mass = {"body": "ball", "quantity": "mass", "value": wrong, "uncertainty": 0.005 * wrong}
+    found = calibrate(ARCHARD, {"measured": [mass, noisy(ARCHARD)], "fit": [{"path": K}]})
+    assert found.p_value < 1e-6
+    assert found.data["residual"].abs().max() > 5
+    assert not any("pattern" in note for note in found.notes)
+
+
+@pytest.mark.slow
+def test_maps_of_tests_that_scatter_are_off_together(noisy):
+    entries = [noisy(ARCHARD, **{K: factor * 3e-16}) for factor in (0.85, 1.2, 0.95)]
+    tests = [{"measured": [entry]} for entry in entries]
+    found = calibrate(ARCHARD, {"test": tests, "fit": [{"path": K, "start": 4e-16}]})
+    assert found.repeatability == pytest.approx(np.std([0.85, 1.2, 0.95], ddof=1), rel=0.1)
+    (each,) = found.parameters.itertuples()
+    assert each.value == pytest.approx(3e-16, rel=0.02, abs=0)
+    assert each.upper / each.value > 1.3
+    # A map that is 15 % deeper all over is of another test, not of another shape.
+    assert found.data["residual"].abs().max() > 1.5
+    assert not any("pattern" in note for note in found.notes)
+
+
+@pytest.mark.slow
+def test_tests_as_far_apart_as_is_stated_are_no_disagreement(noisy):
+    """By two standard deviations each, in every depth of the scar alike."""
+    tests = [
+        {"name": "alike", "measured": [noisy(ARCHARD, **{K: f * 3e-16})]} for f in (0.95, 1.05)
+    ]
+    stated = {"test": tests, "fit": [{"path": K}], "repeatability": 0.025}
+    found = calibrate(ARCHARD, stated)
+    assert found.p_value > 0.01
+    assert not any("disagree" in note or "pattern" in note for note in found.notes)
+    # Tests of one name keep a row each.
+    assert list(found.brief["test"]) == ["alike", "alike"]
+    less, more = found.brief["measured"]
+    assert more / less == pytest.approx(1.05 / 0.95, rel=0.02)
+
+
+@pytest.mark.slow
+def test_where_tests_hardly_tell_their_scatter_it_is_asked_for(noisy):
+    """A map of one ball, known to parts of a percent, and two weighings to 10 %."""
+    lost = 3e-16 * 100 * 6 * 7850
+    mass = {"body": "ball", "quantity": "mass", "value": [lost, 1.05 * lost]}
+    mass["uncertainty"] = 0.1 * lost
+    found = calibrate(ARCHARD, {"measured": [noisy(ARCHARD), mass], "fit": [{"path": K}]})
+    assert any("do not bound it from below or above; too few tests" in n for n in found.notes)
+
+
+@pytest.mark.slow
+def test_maps_without_a_depth_in_common_tell_how_tests_scatter(noisy):
+    tests = []
+    for odd, factor in enumerate((0.85, 1.15)):
+        entry = noisy(ARCHARD, **{K: factor * 3e-16})
+        depth = np.load(entry["depth"])
+        depth[np.indices(depth.shape).sum(axis=0) % 2 == odd] = np.nan
+        np.save(entry["depth"], depth)
+        tests.append({"measured": [entry]})
+    found = calibrate(ARCHARD, {"test": tests, "fit": [{"path": K}]})
+    assert found.repeatability_estimated
+    assert found.repeatability == pytest.approx(0.3 / 2**0.5, rel=0.2)
+
+
+@pytest.mark.slow
+def test_a_map_of_the_whole_track_is_met_where_the_stroke_is_resolved(noisy):
+    """The disk's own surface, three windows long, to its ends; a map of the ball in mid-test."""
+    changes = {"kinematics.positions": 33, "kinematics.duration": 20}
+    resolved = apply_settings(ARCHARD, changes)
+    track = noisy(resolved, "disk", field="track_depth")
+    early = noisy(resolved, **{"kinematics.duration": 10}) | {"time": 10.0}
+    experiment = Experiment.of(resolved, {"measured": [track, early]})
+    computed = experiment.run(experiment.start).responses
+    off = (computed[: len(experiment.data)] - experiment.data["measured"]) / experiment.problem(
+        experiment.start
+    ).sigma
+    for body, count in (("disk", 48 * 16 // 4), ("ball", 16 * 16 - 15)):
+        own = off[experiment.data["body"] == body]
+        assert len(own) == count - (body == "disk") * 2
+        assert np.std(own) == pytest.approx(1, abs=0.15)
+    assert experiment.data["x_m"].max() == pytest.approx(1.5e-3, abs=0.1e-3)
+
+
+@pytest.mark.slow
+def test_intervals_cover_the_coefficient_as_often_as_they_say(tmp_path):
+    """Linear about the truth, with noise on each cell, of which numbers are means of four."""
+    case = apply_settings(ARCHARD, {"grid.cells": 32, "stepping.depth_tolerance": 0.1})
+    with run(case) as result:
+        clean, spacing = cell_means(result.body("ball").wear_depth[-1]), result.grid.spacing
+    clean[:, 20:23] = np.nan
+    noise = 100e-9
+    np.save(tmp_path / "clean.npy", clean)
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "clean.npy")}
+    entry |= {"pitch": spacing[0], "uncertainty": noise}
+    experiment = Experiment.of(case, {"measured": [entry], "fit": [{"path": K}, {"path": DISK_K}]})
+    truth = np.log(experiment.start)
+    problem = experiment.problem(experiment.start)
+    assert problem.sigma.min() == pytest.approx(noise / 2, rel=0.02)
+    made = lambda values: experiment.run(values).responses  # noqa: E731
+    here = differenced(made, problem, truth, made(experiment.start))
+    random, draws, covered, squares = np.random.default_rng(5), 60, np.zeros(2, int), []
+    for _ in range(draws):
+        noisy_map = clean + noise * random.standard_normal(clean.shape)
+        observed = block_means(noisy_map, np.ones(clean.shape), spacing)["measured"].to_numpy()
+        drawn = problem.__class__(**{**vars(problem), "observed": observed})
+        found = fit(lambda values: here.at(np.log(values)), drawn, experiment.start)
+        for i in range(2):
+            low, high = interval(found, np.eye(2)[i], 0.95)
+            covered[i] += low <= truth[i] - found.point[i] <= high
+        squares.append(np.mean(found.residuals(found.point) ** 2))
+    low, high = binom.ppf([0.002, 0.998], draws, 0.95)
+    assert np.all((covered >= low) & (covered <= high)), covered
+    # Of what a datum may be off the grid's part was not drawn.
+    drawn_part = np.mean((experiment.data["sigma"] / problem.sigma) ** 2)
+    assert np.mean(squares) == pytest.approx(drawn_part, abs=0.05)
+
+
+@pytest.mark.slow
+def test_estimate_and_interval_do_not_depend_on_the_start(noisy):
+    """Depths grow with the coefficient, and their slopes, which are differences, with them."""
+    entry = noisy(ARCHARD) | {"uncertainty": "50 nm"}
+    found = [
+        calibrate(ARCHARD, {"measured": [entry], "fit": [{"path": K, "start": factor * 3e-16}]})
+        for factor in (0.7, 1.0, 1.4)
+    ]
+    values, lower, upper = np.array(
+        [fit.parameters[["value", "lower", "upper"]].iloc[0] for fit in found], dtype=float
+    ).T
+    half = 0.5 * (upper - lower)
+    assert np.ptp(values) < 0.1 * half[1]
+    assert half == pytest.approx(half[1], rel=0.1, abs=0)
+
+
+def test_a_map_on_which_nothing_is_worn_is_doubted(tmp_path):
+    np.save(tmp_path / "new.npy", np.zeros((16, 16)))
+    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "new.npy")}
+    entry |= {"pitch": 1e-3 / 16, "uncertainty": NOISE}
+    with pytest.raises(NumericalError, match=r"or is a measured value off\? .* was read as 0 m"):
+        calibrate(ARCHARD, {"measured": [entry], "fit": [{"path": K}]})
+
+
+def test_blocks_leave_out_what_was_not_measured():
+    depth = np.arange(50.0 * 50).reshape(50, 50)
+    depth[:3, :2] = np.nan
+    depth[0, 4] = np.nan
+    noise = np.ones(depth.shape)
+    blocks = block_means(depth, noise, (2e-6, 1e-6))
+    # Three by three, the last ones two wide.
+    assert len(blocks) == 17 * 17
+    assert blocks["cells"][0] == (2, 52, 102)
+    assert blocks["measured"][0] == pytest.approx(np.mean([2, 52, 102]))
+    assert len(blocks["cells"][1]) == 8
+    assert blocks["noise"][1] == pytest.approx(8**-0.5)
+    assert blocks[["x_m", "y_m"]].iloc[-1].to_list() == pytest.approx([48e-6, 24e-6])
+    assert sum(map(len, blocks["cells"])) == np.isfinite(depth).sum()
+    assert len(block_means(depth[:1], noise[:1], (2e-6, 1e-6))) == 47
+
+
+@pytest.mark.slow
+def test_a_map_can_be_planned_with_before_it_is_measured(two_loads):
+    """As with one that was, whose missing depths tell little more."""
+    entry = {"body": "ball", "quantity": "depth_map", "uncertainty": NOISE}
+    ahead = copy.deepcopy(two_loads)
+    for test in ahead["test"]:
+        test["measured"] = [entry]
+    plans = [plan_tests(POWER, {**each, "repeatability": 0.1}, 0.1) for each in (two_loads, ahead)]
+    had, planned = (plan.tests["count"].to_list() for plan in plans)
+    assert had == planned
+    assert sum(planned) >= 2
+
+
+@pytest.mark.parametrize(
+    ("changes", "place", "words"),
+    [
+        ({"depth": "no.npy"}, ".0.depth", "no.npy"),
+        ({"depth": None}, ".0", "give depth, the file of a height map"),
+        ({"pitch": None}, ".0.depth", "give the distance between pixels"),
+        ({"depth": "text.npy"}, ".0.depth", "of numbers: it is no NumPy array of numbers"),
+        (
+            {"pitch": "0.1 mm"},
+            ".0.depth",
+            "larger than cells, 62.5 × 62.5 µm; check pitch, or lower",
+        ),
+        ({"pitch": "1 um"}, ".0.depth", "does not lie on the window: its middle is taken as the "),
+        ({"depth": "beside.npy"}, ".0.depth", "contact's; check pitch, 50 × 50 µm"),
+        (
+            {"depth": "filled.npy"},
+            ".0.depth",
+            "filled.npy: 1 of its 256 heights lie further from their median than the map",
+        ),
+        ({"depth": "in_um.npy"}, ".0.depth", "0.8 mm; the first is 1 m. Heights and depths"),
+        ({"depth": "infinite.npy"}, ".0.depth", "1 of its 256 heights"),
+        ({"depth": "upwards.npy"}, ".0.depth", "turn the sign round"),
+        ({"depth": "missing.npy"}, ".0.depth", "every height of the map is missing"),
+        ({"value": "1 um"}, ".0.value", "has its numbers in the file"),
+        ({"uncertainty": None}, ".0", "say how well it was measured"),
+        ({"uncertainty": "1e-13 m"}, ".0.depth", "less than a millionth of 1 µm"),
+        ({"uncertainty": "1 mg"}, ".0.uncertainty", "a length [m] is needed"),
+        ({"quantity": "crown", "value": "1 um"}, ".0", "crown has no depth or pitch"),
+        ({"body": "bal"}, ".0.body", "did you mean 'ball'?"),
+        ({"body": "disk"}, ".0.quantity", "does not wear in this case"),
+        ({"time": "2 h"}, ".0.time", "is not reached"),
+    ],
+)
+def test_a_wrong_map_is_told(changes, place, words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    worn = np.full((16, 16), 1e-6)
+    beside = np.full((80, 80), np.nan)
+    beside[0, 0] = 1e-6
+    filled = worn.copy()
+    filled[3, 4] = -9999
+    files = {"good": worn, "beside": beside, "upwards": -worn, "missing": np.nan * worn}
+    files |= {"filled": filled, "in_um": np.tril(1e6 * worn, -1)}
+    files["infinite"] = np.where(filled < 0, np.inf, worn)
+    for name, depth in files.items():
+        np.save(f"{name}.npy", depth)
+    Path("text.npy").write_text("1.0, 2.0")
+    entry = {"body": "ball", "quantity": "depth_map", "depth": "good.npy", "pitch": "50 um"}
+    entry = {**entry, "uncertainty": "10 nm", **changes}
+    entry = {key: value for key, value in entry.items() if value is not None}
+    case = copy.deepcopy(ARCHARD)
+    del case["bodies"]["disk"]["wear"]
+    with pytest.raises(CaseError) as caught:
+        calibrate(case, {"measured": [entry], "fit": [{"path": K}]})
+    assert str(caught.value).startswith(f"measured{place}: ")
+    assert words in str(caught.value)
+    assert len(str(caught.value).splitlines()) == 1
+
+
+@pytest.mark.parametrize("kind", ["measured", "map"])
+def test_a_map_is_looked_for_beside_the_file_that_names_it(kind, tmp_path):
+    entry = {"body": "ball", "depth": "worn.npy", "uncertainty": "10 nm"}
+    entry |= {"quantity": "depth_map"} if kind == "measured" else {"length": "0.1 mm"}
+    file = tmp_path / "lab.toml"
+    file.write_text(to_toml({kind: [entry]}))
+    (read,) = getattr(read_measurements(file), kind)
+    assert Path(read.depth) == tmp_path / "worn.npy"
+    (given,) = getattr(read_measurements({kind: [entry]}), kind)
+    assert given.depth == "worn.npy"

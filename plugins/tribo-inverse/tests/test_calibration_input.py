@@ -1,0 +1,299 @@
+"""Wrong measured values are refused by their place, before anything runs."""
+
+import tomllib
+from typing import get_args
+
+import pytest
+from tribo.config.overrides import apply_settings
+from tribo.core.errors import CaseError, NumericalError
+from tribo.templates import template
+
+from tribo_inverse.calibration.calibrate import calibrate
+from tribo_inverse.calibration.measured import MeasuredEntry, read_measurements
+from tribo_inverse.calibration.quantities import QUANTITIES
+
+CASE = apply_settings(
+    tomllib.loads(template("ball_on_disk")), {"grid.cells": 16, "grid.size": "2 mm"}
+)
+GOOD = {"body": "ball", "quantity": "mass", "value": "2 mg", "uncertainty": "0.1 mg"}
+PROFILE = {"quantity": "profile_along", "uncertainty": "1 um"}
+K = "bodies.ball.wear.k"
+
+
+def refused(*measured, fit=(), case=CASE):
+    with pytest.raises(CaseError) as caught:
+        calibrate(case, {"measured": list(measured), "fit": list(fit)}, on_run=unreached)
+    assert len(str(caught.value).splitlines()) == 1
+    return str(caught.value)
+
+
+def unreached(run, misfit):
+    raise AssertionError("a run was made")
+
+
+def changed(**changes):
+    """The good value with changes; None leaves a key out."""
+    return {key: value for key, value in {**GOOD, **changes}.items() if value is not None}
+
+
+def test_an_uncertainty_may_be_a_part_of_each_value():
+    entry = changed(value=["2 mg", "3 mg"], uncertainty="5 % ", resolution="0.1 mg")
+    table = read_measurements({"measured": [entry]}).table()
+    step = 1e-7 / 6**0.5
+    assert table["sigma"].to_list() == pytest.approx(
+        [(1e-14 + step**2) ** 0.5, (2.25e-14 + step**2) ** 0.5], rel=1e-9, abs=0
+    )
+    weighed = changed(value=None, before="2.5 g", after="2.498 g", uncertainty="5 %")
+    (sigma,) = read_measurements({"measured": [weighed]}).table()["sigma"]
+    assert sigma == pytest.approx(1e-7, rel=1e-6, abs=0)
+
+
+def test_every_quantity_can_be_asked_for():
+    assert set(get_args(MeasuredEntry.model_fields["quantity"].annotation)) == set(QUANTITIES)
+
+
+@pytest.mark.parametrize(
+    ("changes", "place", "words"),
+    [
+        ({"value": "2 mm"}, ".0.value", "a mass [kg] is needed, as in '2 g'"),
+        ({"quantity": "scar_along", "uncertainty": "1 um"}, ".0.value", "a length [m] is needed"),
+        (
+            {"quantity": "section", "value": "1 mm", "uncertainty": "1 mm^2"},
+            ".0.value",
+            "an area [m^2] is needed",
+        ),
+        ({"uncertainty": "0.1 mm"}, ".0.uncertainty", "is a length [m]"),
+        ({"uncertainty": "-0.1 mg"}, ".0.uncertainty", "must be greater than 0"),
+        ({"uncertainty": "0 %"}, ".0.uncertainty", "is above 0 % and below 100 %"),
+        ({"uncertainty": "few %"}, ".0.uncertainty", "is no number of per cent; write '5 %'"),
+        ({"uncertainty": "5 %", "value": None}, ".0", "5 % of a value that is not given; to plan"),
+        (
+            PROFILE | {"position": [0], "value": ["1 um"], "uncertainty": "5 %"},
+            ".0.uncertainty",
+            "of depths at many places give it with a unit",
+        ),
+        (
+            {"value": "-2 mg"},
+            ".0.value",
+            "must be greater than 0; what was too little to be seen is",
+        ),
+        # Exacter than any run, as with a unit forgotten.
+        ({"uncertainty": 1e-13}, ".0", "less than a millionth"),
+        ({"uncertainty": 1e2}, ".0", "over 10000 times"),
+        ({"quantity": "mas"}, ".0.quantity", "did you mean 'mass'?"),
+        ({"boddy": "ball"}, ".0.boddy", "did you mean 'body'?"),
+        ({"body": "bal"}, ".0.body", "did you mean 'ball'?"),
+        ({"uncertainty": None}, ".0", "uncertainty"),
+        ({"value": "> 0.02 mg"}, ".0.value", "only '<' marks a limit of detection"),
+        (
+            {"value": ["1 mg", "nan mg"]},
+            ".0.value",
+            "entry 2 of 2 is nan mg; leave that test out of each list",
+        ),
+        (
+            {**PROFILE, "value": ["1 um", "2 um"], "position": ["nan um", "2 mm"]},
+            ".0.position",
+            "entry 1 of 2 is nan um; leave that point out",
+        ),
+        ({"value": None}, ".0", "give value, or before and after"),
+        ({"value": None, "before": "27 g"}, ".0", "give value, or before and after"),
+        ({"value": None, "before": "27.1 g", "after": "27.2 g"}, ".0", "no loss was weighed"),
+        ({"position": ["1 mm"]}, ".0", "mass has no position; profile_along"),
+        ({"time": "2 h"}, ".0.time", "the run ends at 3600 s"),
+        ({"time": "2 m"}, ".0.time", "a time [s] is needed"),
+        (
+            {"body": "disk", "quantity": "scar_along", "value": "1 mm", "uncertainty": "1 um"},
+            ".0.quantity",
+            "'disk' is swept",
+        ),
+        (
+            {"quantity": "section", "value": "1 mm^2", "uncertainty": "1 mm^2"},
+            ".0.quantity",
+            "'ball' stays in the contact",
+        ),
+        (
+            {**PROFILE, "value": ["1 um"], "position": ["1 mm", "2 mm"]},
+            ".0",
+            "two lists of the same length, not 1 and 2 long",
+        ),
+        (
+            {"quantity": "scar_across", "value": "3 mm", "uncertainty": "1 um"},
+            ".0.value",
+            "3 mm is wider than the window, 2 mm: check its unit, or make grid.size larger",
+        ),
+        (
+            {"quantity": "depth_map", "value": "3 um", "uncertainty": "1 um"},
+            ".0.value",
+            "has its numbers in the file depth",
+        ),
+        (
+            {**PROFILE, "value": ["1 um"], "position": ["1.1 mm"]},
+            ".0.position",
+            "1.1 mm lies outside the window, which reaches 1 mm",
+        ),
+        (
+            {**PROFILE, "value": ["-80 um", "-104 um"], "position": ["-0.3 mm", "0 mm"]},
+            ".0",
+            "turn the sign round",
+        ),
+    ],
+)
+def test_a_wrong_value_is_told(changes, place, words):
+    text = refused(changed(**changes))
+    assert text.startswith(f"measured{place}: ")
+    assert words in text
+
+
+@pytest.mark.parametrize(
+    ("fit", "place", "words"),
+    [
+        ({"path": "bodies.bal.wear.k"}, ".0.path", f"did you mean '{K}'?"),
+        ({"path": "load.normal.x"}, ".0.path", "not given in this case"),
+        ({"path": "grid.cells.0"}, ".0.path", "is 16 in this case"),
+        ({"path": "grid.cells"}, ".0.path", "grid.cells is no physical number in this case"),
+        ({"path": "load"}, ".0.path", "load is no physical number in this case"),
+        ({"path": "a..b"}, ".0.path", "'a..b' is not a path"),
+        ({"path": K, "start": "1 Pa"}, ".0.start", "an inverse pressure [1/Pa] is needed"),
+        ({"path": K, "start": -1}, ".0.start", "must be greater than 0"),
+        ({"path": K, "lower": 1e-15}, ".0", "3.11e-16, must lie between lower, 1e-15, and upper"),
+        ({"path": "bodies.ball.material.poisson", "upper": 0.6}, ".0.upper", "less than 0.5"),
+        ({"path": K, "begin": 1}, ".0.begin", "Allowed: path, start, lower, upper"),
+    ],
+)
+def test_a_wrong_parameter_is_told(fit, place, words):
+    text = refused(GOOD, fit=[fit])
+    assert text.startswith(f"fit{place}: ")
+    assert words in text
+
+
+def test_a_bound_beyond_that_of_the_number_itself_is_told():
+    law = {"type": "power", "k": 3e-16, "p_exponent": 1.5, "reference_pressure": "1 GPa"}
+    fit = {"path": "bodies.ball.wear.p_exponent", "lower": 0.8}
+    text = refused(GOOD, fit=[fit], case=apply_settings(CASE, {"bodies.ball.wear": law}))
+    assert text == "fit.0.lower: 0.8: must be at least 1"
+
+
+@pytest.mark.parametrize(
+    ("measured", "fit", "start"),
+    [
+        ([GOOD, GOOD], ["load.normal", 'load."normal"'], "fit.1.path: "),
+        ([GOOD], [K, "bodies.disk.wear.k"], "2 parameters cannot be fitted to 1 measured value:"),
+        ([], [K], "nothing is measured; give each value as [[measured]]"),
+    ],
+)
+def test_parameters_that_data_do_not_fit_are_told(measured, fit, start):
+    assert refused(*measured, fit=[{"path": path} for path in fit]).startswith(start)
+
+
+def test_a_case_in_the_place_of_measured_values_is_told():
+    with pytest.raises(CaseError, match="this is a case, not measured values"):
+        calibrate(CASE, CASE)
+
+
+def test_measured_values_in_the_place_of_a_case_are_told():
+    with pytest.raises(CaseError) as caught:
+        calibrate({"measured": [GOOD], "fit": [{"path": K}]}, {"measured": [GOOD]})
+    assert str(caught.value) == (
+        "these are measured values, not a case; fit one to them with: "
+        "tribo calibrate CASE --measured FILE"
+    )
+
+
+@pytest.mark.parametrize(
+    ("changes", "remedy"),
+    [
+        ({"bodies.ball.wear": None}, "give it a wear law, bodies.ball.wear"),
+        ({"bodies.ball.material.density": None}, "add bodies.ball.material.density"),
+        ({K: 0}, "fit.start: "),
+        ({"bodies.ball.wear": {"type": "archard", "K": 1e-6}}, "fit: "),
+    ],
+)
+def test_a_case_that_lacks_what_is_needed_is_told(changes, remedy):
+    case = apply_settings(CASE, changes)
+    ball = case["bodies"]["ball"]
+    for table, key in ((ball, "wear"), (ball["material"], "density")):
+        if table[key] is None:
+            del table[key]
+    text = refused(GOOD, case=case)
+    assert remedy in text if remedy.endswith(("wear", "density")) else text.startswith(remedy)
+
+
+@pytest.mark.parametrize(
+    ("given", "place"),
+    [
+        ({"measured": GOOD}, "measured"),
+        ({"test": {"measured": [GOOD]}}, "test"),
+        ({"test": [{"measured": GOOD}]}, "test.0.measured"),
+    ],
+)
+def test_one_entry_is_a_list_too(given, place):
+    name = place.rpartition(".")[2]
+    with pytest.raises(
+        CaseError, match=rf"^{place}: write \[\[{name}\]\] at the beginning of each"
+    ):
+        calibrate(CASE, given)
+
+
+def test_a_level_is_a_probability():
+    with pytest.raises(CaseError, match="the level, 95, must lie between 0 and 1"):
+        calibrate(CASE, {"measured": [GOOD]}, level=95)
+
+
+@pytest.mark.parametrize(
+    ("test", "words"),
+    [
+        ({"set": {"load.normal": "-5 N"}}, "test.0.set: load.normal: "),
+        ({"set": {"bodies": {"bal": {"wear": {"k": 1}}}}}, "test.0.set: bodies.bal.wear.k: "),
+        ({"set": {K: 1e-15}}, f"test.0.set: {K} is given, and {K} is fitted"),
+        ({"set": {"bodies.ball.wear": {"type": "archard", "k": 1}}}, "test.0.set: bodies.ball."),
+        ({"measured": []}, "nothing is measured"),
+        ({"measured": [changed(time="2 h")]}, "test.0.measured.0.time: 7200 s is not reached"),
+        ({"measured": [changed(value="< 2 mm")]}, "test.0.measured.0.value: '2 mm' is a length"),
+        ({"measured": [changed(value=[])]}, "test.0.measured.0: the list of values is empty"),
+        ({"sett": {}}, "test.0.sett: unknown"),
+        ({"map": []}, "test.0: local coefficients are fitted to maps of one test: give [[map]]"),
+    ],
+)
+def test_a_wrong_test_is_told(test, words):
+    measured = {"test": [{"measured": [GOOD], **test}], "fit": [{"path": K}]}
+    with pytest.raises(CaseError) as caught:
+        calibrate(CASE, measured, on_run=unreached)
+    assert str(caught.value).startswith(words)
+
+
+def test_tests_that_differ_have_names_of_their_own():
+    tests = [{"name": "a", "set": {"load.normal": load}, "measured": [GOOD]} for load in (50, 70)]
+    with pytest.raises(CaseError, match="two tests that differ are called 'a'"):
+        calibrate(CASE, {"test": tests}, on_run=unreached)
+
+
+def test_a_profile_that_noise_makes_negative_is_taken():
+    entry = changed(**PROFILE, value=["-2 um", "1 um"], position=["0 mm", "0.5 mm"])
+    (read,) = read_measurements({"measured": [entry]}).measured
+    assert read.values == pytest.approx([-2e-6, 1e-6], abs=0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sigma"),
+    [
+        ({"uncertainty": "1 mg"}, 1e-6),
+        # Two readings of a balance.
+        ({"uncertainty": None, "resolution": "0.1 mg"}, 1e-7 / 6**0.5),
+        ({"uncertainty": "3 mg", "resolution": "4 mg"}, 1e-6 * (9 + 16 / 6) ** 0.5),
+        # One reading of a depth.
+        (
+            {"quantity": "depth", "value": 1e-6, "uncertainty": None, "resolution": "0.1 um"},
+            1e-7 / 12**0.5,
+        ),
+    ],
+)
+def test_the_standard_deviation_of_a_value(changes, sigma):
+    (entry,) = read_measurements({"measured": [changed(**changes)]}).measured
+    assert entry.sigma == pytest.approx(sigma, rel=1e-6, abs=0)
+
+
+def test_a_start_at_which_the_scar_outgrows_the_window_is_told():
+    far = {"measured": [GOOD], "fit": [{"path": K, "start": 1e-11}]}
+    words = rf"^give a start of {K} in fit that is nearer; run 1, .* reached the edge"
+    with pytest.raises(NumericalError, match=words):
+        calibrate(CASE, far)

@@ -1,0 +1,326 @@
+"""A local coefficient is found where the depth tells it, and left to the prior elsewhere."""
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from calibrations import cheap
+from click.testing import CliRunner
+from scipy.ndimage import gaussian_filter1d, shift
+from scipy.optimize import minimize
+from scipy.special import kv
+from tribo.cli.main import tribo
+from tribo.config.load import validate_case
+from tribo.config.overrides import apply_settings
+from tribo.config.write import to_toml
+from tribo.core.errors import CaseError
+from tribo.lab.heights import Heights
+from tribo.simulation.march import begin, march
+from tribo.simulation.run import Simulation
+
+from tribo_inverse.adjoint.local import localised
+from tribo_inverse.adjoint.objective import View
+from tribo_inverse.calibration.cells import on_cells
+from tribo_inverse.calibration.mapped import calibrate_maps
+from tribo_inverse.calibration.maps import _Posterior, fit_maps
+from tribo_inverse.calibration.measured import MapEntry, read_measurements
+from tribo_inverse.calibration.prior import Prior
+
+CASE = apply_settings(
+    cheap(20),
+    {"grid.cells": 16, "stepping.depth_tolerance": 0.1, "bodies.disk.wear.k": 9e-15},
+)
+NOISE, PIXEL = 10e-9, 1e-3 / 640
+DATA = Path(__file__).parents[2] / "docs" / "_data"
+
+
+def worn(factor):
+    """The depth of the groove, with a factor on the disk's coefficient across it."""
+    model = Simulation(validate_case(CASE)).model
+    *_, last = march(made := localised(model, {"disk": factor}), begin(made))
+    return View(made, last.state).wear("disk")
+
+
+@pytest.fixture(scope="module")
+def truth():
+    y = Simulation(validate_case(CASE)).model.grid.y
+    return np.exp(-0.5 * np.exp(-(((y - 60e-6) / 150e-6) ** 2)))[None]
+
+
+@pytest.fixture(scope="module")
+def depth(truth):
+    clean = worn(truth)
+    return clean + NOISE * np.random.default_rng(4).standard_normal(clean.shape)
+
+
+@pytest.fixture(scope="module")
+def done(depth, tmp_path_factory):
+    """What the command prints and writes of pixels, two by twenty a cell."""
+    folder = tmp_path_factory.mktemp("map")
+    (folder / "case.toml").write_text(to_toml(CASE))
+    np.save(folder / "depth.npy", np.repeat(np.repeat(depth, 20, axis=0), 2, axis=1))
+    table = {"body": "disk", "depth": str(folder / "depth.npy"), "pitch": 1e-3 / 32}
+    table |= {"uncertainty": "10 nm", "spread": 0.4, "length": "0.1 mm"}
+    (folder / "mapped.toml").write_text(to_toml({"map": [table]}))
+    command = ["calibrate", folder / "case.toml", "--measured", folder / "mapped.toml", "--json"]
+    ended = CliRunner().invoke(tribo, [*map(str, command), "-o", str(folder / "found.npz")])
+    assert ended.exit_code == 0, ended.output
+    return json.loads(ended.stdout[: ended.stdout.rindex("}") + 1]), folder
+
+
+def test_the_prior_is_the_field_that_it_says():
+    """Whittle's covariance, s² r K₁(r) with r in lengths, in the plane and along a line."""
+    n, h = 64, 5e-6
+    for shape in ((n, n), (1, n)):
+        prior = Prior(0.4, 4 * h)
+        variance = prior.amplitudes(shape, (h, h)) ** 2
+        # Away from the ends a wave's covariance is its cosine, and the mean counts half.
+        counted = np.where(np.arange(n) == 0, 0.5, 1.0)
+        across = counted if shape[0] > 1 else np.ones(1)
+        far = np.arange(16)
+        waves = np.cos(np.pi * far[:, None] * np.arange(n) / n)
+        spectrum = counted * np.sum(across[:, None] * variance, axis=0)
+        along = np.sum(spectrum * waves, axis=1)
+        part = far[1:] / 4
+        assert along[1:] / along[0] == pytest.approx(part * kv(1, part), abs=0.025)
+
+
+@pytest.mark.parametrize("length", [0.1e-3, 0.4e-3])
+def test_the_prior_is_as_wide_at_the_ends_as_it_says(depth, length):
+    """A sum of waves with reflecting ends alone would be 1.4 times as wide there."""
+    waves = _Posterior(
+        Simulation(validate_case(CASE)).model,
+        {"disk": (depth, NOISE)},
+        {"disk": Prior(0.5, length)},
+        print,
+        {},
+    )
+    each = np.array([waves.logs(z) for z in np.eye(16)])
+    assert np.sqrt(np.sum(each**2, axis=0)) == pytest.approx(0.5)
+    assert each == pytest.approx(np.array([waves.adjoint(slope) for slope in np.eye(16)]).T)
+
+
+def test_waves_on_half_the_cells_are_the_long_ones_of_the_whole():
+    """And depths are means of four, known twice as well."""
+    model = Simulation(validate_case(apply_settings(CASE, {"grid.cells": 32}))).model
+    depth = np.random.default_rng(2).standard_normal((32, 32))
+    fine = _Posterior(model, {"ball": (depth, 1e-8)}, {"ball": Prior(0.4, 0.3e-3)}, print, {})
+    coarse = fine.halved()
+    z = np.zeros((16, 16))
+    z[:3, :3] = np.random.default_rng(3).standard_normal((3, 3))
+    logs = fine.logs(fine.raised(coarse, z.ravel())).reshape(16, 2, 16, 2).mean(axis=(1, 3))
+    assert coarse.logs(z.ravel()) == pytest.approx(logs.ravel(), abs=0.02 * np.ptp(logs))
+    means, sigma = coarse.depths["ball"]
+    assert means[3, 5] == pytest.approx(depth[6:8, 10:12].mean())
+    assert sigma == pytest.approx(0.5e-8, abs=0)
+    # Cells are now larger than an eighth of the length, or as few as there may be.
+    assert coarse.halved() is None
+    wide = _Posterior(coarse.model, coarse.depths, {"ball": Prior(0.4, 3e-3)}, print, {})
+    assert wide.halved() is None
+
+
+@pytest.mark.slow
+def test_a_groove_off_the_middle_of_its_map_has_no_other_coefficient(tmp_path):
+    clean = worn(np.ones((1, 16)))
+    pixels = np.repeat(np.repeat(clean, 40, axis=1), 40, axis=0)
+    pixels = shift(gaussian_filter1d(pixels, 20, axis=1), (0, 19.2e-6 / PIXEL), order=1)
+    pixels += NOISE * 40**0.5 * np.random.default_rng(1).standard_normal(pixels.shape)
+    np.save(tmp_path / "depth.npy", pixels)
+    entry = {"body": "disk", "depth": str(tmp_path / "depth.npy"), "pitch": PIXEL}
+    entry = MapEntry(**entry, uncertainty=NOISE, length=0.1e-3)
+    found = calibrate_maps(CASE, {"map.0": entry})
+    (place, *_) = found.notes
+    assert float(re.search(r"lies \+([\d.]+)", place)[1]) == pytest.approx(19.2, abs=3)
+    lower, upper = found.maps["disk"].interval(0.95)
+    assert np.all((lower < 1) & (upper > 1))
+    assert found.maps["disk"].factor == pytest.approx(1, abs=0.15)
+    assert found.p_value > 0.01
+    firm = calibrate_maps(CASE, {"map.0": entry.model_copy(update={"centred": True})})
+    lower, upper = firm.maps["disk"].interval(0.95)
+    assert np.mean((lower < 1) & (upper > 1)) < 0.8
+    assert np.all(firm.maps["disk"].deviation <= found.maps["disk"].deviation + 1e-6)
+
+
+def test_a_length_without_its_unit_is_refused():
+    entry = MapEntry(body="disk", depth="d.npy", pitch=1e-6, uncertainty=1e-8, length=0.1)
+    with pytest.raises(CaseError, match=r"map\.0\.length: 0\.1 m is over 20 times the window"):
+        calibrate_maps(CASE, {"map.0": entry})
+
+
+def test_a_length_below_a_cell_is_refused():
+    entry = MapEntry(body="disk", depth="map.npy", uncertainty=NOISE, length="1 um")
+    with pytest.raises(CaseError, match=r"map\.0\.length: 1 µm is less than a cell, 62\.5 µm"):
+        calibrate_maps(CASE, {"map.0": entry})
+
+
+@pytest.mark.slow
+def test_a_dip_of_a_coefficient_is_found_where_the_depth_tells_it(done, truth, depth):
+    told, folder = done
+    names = ("factor", "lower", "upper", "deviation", "told")
+    factor, lower, upper, deviation, known = (np.array(told["maps"]["disk"][n]) for n in names)
+    deep = depth > 0.3 * depth.max()
+    assert factor[deep] == pytest.approx(truth[deep], abs=0.1)
+    assert np.mean(((lower < truth) & (truth < upper))[deep]) > 0.8
+    assert told["p_value"] > 0.01
+    # Where nothing was worn it is as uncertain as before.
+    assert np.all(known[deep])
+    assert not np.any(known[:, [0, -1]])
+    assert deviation[0, 0] > 0.9 * 0.4
+    assert any("say nothing of" in note for note in told["notes"])
+    with np.load(folder / "found.npz") as arrays:
+        assert arrays["disk_factor"] == pytest.approx(factor)
+    assert (folder / "found-disk.png").stat().st_size > 5000
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("placed", [{}, {"disk": (0.0, 0.25e-3)}])
+def test_a_standard_deviation_is_that_of_the_profile_likelihood(depth, placed):
+    """Held that far off at a cell, the most probable map is less so by a factor of exp(-1/2)."""
+    given = {"disk": (depth, NOISE)}, {"disk": Prior(0.4, 0.1e-3)}
+    found = fit_maps(CASE, *given, placed=placed).maps["disk"]
+    waves = _Posterior(Simulation(validate_case(CASE)).model, *given, lambda misfit: None, placed)
+    each = np.array([waves.logs(z) for z in np.eye(16)])
+    waves.weigh(np.linalg.solve(each.T, found.logs[0]))
+    waves.errors["disk"] = replace(waves.errors["disk"], sigma=found.uncertainty)
+
+    def surprise(z):
+        value, slope = waves.gradient(waves.logs(z))
+        return value + 0.5 * z @ z, waves.adjoint(slope) + z
+
+    best = minimize(surprise, np.zeros(16), jac=True, method="BFGS", options={"gtol": 1e-4})
+    # In the groove, and at its edge.
+    for cell, sign in ((6, -1), (11, 1)):
+        held = found.logs[0, cell] + sign * found.deviation[0, cell]
+        along = waves.adjoint(np.eye(16)[cell])
+        off = {"type": "eq", "fun": lambda z: along @ z - held, "jac": lambda z: along}  # noqa: B023
+        beside = minimize(surprise, best.x, jac=True, method="SLSQP", constraints=[off])
+        assert beside.fun - best.fun == pytest.approx(0.5, abs=0.03 if placed else 0.01)
+
+
+@pytest.mark.slow
+def test_depths_that_no_smooth_map_explains_are_noticed(depth):
+    stripes = depth + 15 * NOISE * (-1.0) ** np.arange(depth.size)
+    found = fit_maps(CASE, {"disk": (stripes, NOISE)}, {"disk": Prior(0.1, 300e-6)})
+    assert found.p_value < 1e-6
+    assert any("no map that varies so smoothly" in note for note in found.notes)
+
+
+def test_an_even_coefficient_is_found_even_from_a_map_that_no_coarse_run_gives():
+    """Made on four times as many cells, whose means and whose edge are others."""
+    ball = apply_settings(cheap(60), {"grid.cells": 24})
+    with Simulation(apply_settings(ball, {"grid.cells": 96})).run() as result:
+        fine = result.body("ball").wear_depth[-1]
+    depth = fine.reshape(24, 4, 24, 4).mean(axis=(1, 3))
+    depth += NOISE * np.random.default_rng(6).standard_normal(depth.shape)
+    found = fit_maps(ball, {"ball": (depth, NOISE)}, {"ball": Prior(0.3, 0.2e-3)})
+    assert found.p_value > 0.01
+    logs, deviation = found.maps["ball"].logs, found.maps["ball"].deviation
+    assert np.all(np.abs(logs) < 3 * deviation)
+    assert np.mean(np.abs(logs) < 1.96 * deviation) > 0.95
+
+
+def test_pixels_are_averaged_over_cells_and_missing_ones_left_out():
+    pixels = 1e-9 * np.arange(32.0 * 32).reshape(32, 32)
+    pixels[:2, :2] = np.nan
+    found, _ = on_cells(Heights(pixels, (1e-6, 1e-6)), (16, 16), (2e-6, 2e-6))
+    assert np.isnan(found[0, 0])
+    assert found[3, 5] == pytest.approx(pixels[6:8, 10:12].mean(), rel=1e-12, abs=0)
+    wider, _ = on_cells(Heights(pixels, (1e-6, 1e-6)), (18, 18), (2e-6, 2e-6))
+    assert np.all(np.isnan(wider[0]))
+    assert wider[4, 6] == pytest.approx(found[3, 5], rel=1e-12, abs=0)
+
+
+@pytest.mark.parametrize("count", [17, 20, 24, 40, 81])
+def test_cells_have_their_part_of_the_pixels_that_they_cut(count):
+    """Of a scar on 16 cells, 0.6 of the window wide: all of its volume, each depth to 1 %."""
+
+    def means(n):
+        x = (np.arange(20 * n) + 0.5) / (20 * n) - 0.5
+        scar = np.maximum(1 - (x[:, None] ** 2 + x**2) / 0.3**2, 0)
+        return scar.reshape(n, 20, n, 20).mean(axis=(1, 3))
+
+    found, _ = on_cells(Heights(means(count), (1 / count, 1 / count)), (16, 16), (1 / 16, 1 / 16))
+    assert np.mean(found) == pytest.approx(np.mean(means(16)), rel=1e-4, abs=0)
+    assert np.sqrt(np.mean((found - means(16)) ** 2)) < 0.005
+
+
+@pytest.mark.parametrize("count", [2, 4])
+def test_missing_pixels_leave_the_mean_of_a_cell_as_it_is(count):
+    """On a slope of 1 per cell, with one pixel in five and a band missing."""
+    n = 16 * count
+    i, j = np.indices((n, n)) / count
+    pixels = 0.3 * i + j
+    whole = pixels.reshape(16, count, 16, count).mean(axis=(1, 3))
+    pixels[np.random.default_rng(0).random((n, n)) < 0.2] = np.nan
+    pixels[:, n // 2 + count // 2 : n // 2 + 2 * count] = np.nan
+    found, noise = on_cells(Heights(pixels, (1 / count,) * 2), (16, 16), (1.0, 1.0))
+    known = np.isfinite(found)
+    inner = known & np.pad(np.ones((14, 14), bool), 1)
+    assert np.sum(known) > 200
+    assert found[inner] == pytest.approx(whole[inner], abs=0.05)
+    part = np.isfinite(pixels).reshape(16, count, 16, count).mean(axis=(1, 3))
+    assert noise[known] == pytest.approx(part[known] ** -0.5)
+
+
+@pytest.mark.parametrize("pixels", [(16, 16), (200, 20), (20, 200)])
+@pytest.mark.parametrize("noise", [0.0, 0.3, 2.0])
+def test_a_track_that_lies_across_the_sliding_is_refused(pixels, noise):
+    """But none that is tilted, ends within the map, or is hardly seen."""
+    x, y = (np.linspace(-1, 1, n) for n in pixels)
+    groove = np.where(np.abs(x[:, None]) < 0.7, np.maximum(1 - (y / 0.3) ** 2, 0), 0.0)
+    shaken = noise * np.random.default_rng(0).standard_normal(pixels)
+    depth = 0.01 * (groove + 2 * x[:, None] + y + shaken)
+    sizes = 1 / pixels[0], 1 / pixels[1]
+    on_cells(Heights(depth, sizes), (1, 16), (1 / 16, 1 / 16))
+    whole = depth + 0.01 * (groove[pixels[0] // 2] - groove)
+    if noise < 1:
+        with pytest.raises(CaseError, match="its axes are swapped"):
+            on_cells(Heights(whole.T, sizes[::-1]), (1, 16), (1 / 16, 1 / 16))
+
+
+def test_a_cell_of_which_less_than_half_was_measured_is_left_out():
+    pixels = np.ones((32, 32))
+    pixels[4:6, 4], pixels[8:10, 8], pixels[9, 9] = np.nan, np.nan, np.nan
+    found, _ = on_cells(Heights(pixels, (1e-6, 1e-6)), (16, 16), (2e-6, 2e-6))
+    assert found[2, 2] == 1
+    assert np.argwhere(np.isnan(found)).tolist() == [[4, 4]]
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        ({"map": [{"body": "disk", "depth": "no.npy"}]}, "map.0.uncertainty: "),
+        (
+            {"map": [{"body": "disk", "depth": "a", "uncertainty": 1e-9, "length": 1e-4}]}
+            | {"fit": [{"path": "load.normal"}]},
+            "local coefficients are fitted to maps of one test",
+        ),
+    ],
+)
+def test_wrong_maps_are_told(data, words):
+    with pytest.raises(CaseError) as caught:
+        read_measurements(data)
+    assert str(caught.value).startswith(words)
+
+
+def test_maps_coarser_than_the_grid_are_refused():
+    with pytest.raises(
+        CaseError, match=r"larger than cells, 1 × 1 µm; check pitch, or lower grid\.cells"
+    ):
+        on_cells(Heights(np.zeros((16, 16)), (3e-6, 3e-6)), (16, 16), (1e-6, 1e-6))
+
+
+def test_the_hidden_spot_is_found_and_intervals_cover():
+    """As `benchmarks/hidden_spot.py` wrote it, in the time of fewer than 200 runs."""
+    spot, shares = (
+        json.loads((DATA / name).read_text()) for name in ("hidden_spot.json", "map_coverage.json")
+    )
+    assert spot["cells"] == 256
+    assert spot["time_in_runs"] < 200
+    assert [spot["in_spot"][0], spot["rest"][0]] == pytest.approx([1, 1], abs=0.05)
+    assert spot["both"] == spot["spot_cells"][0]
+    for share in (spot["covered"], shares["deep"]):
+        assert 0.93 <= share <= 0.97

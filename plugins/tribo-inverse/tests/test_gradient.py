@@ -1,0 +1,592 @@
+"""The gradient of a run is that of the same steps taken with other inputs."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from gradients import (
+    BASE,
+    CLOSE,
+    FRESH,
+    HARD,
+    LONG,
+    MIDDLE,
+    ODD,
+    OF_FRESH,
+    OF_SMOOTH,
+    RAMP,
+    SHAPE,
+    SMOOTH,
+    STAGES,
+    Kind,
+    few,
+    forgotten,
+    layered,
+    nothing,
+    resolved,
+    run,
+    unfelt,
+    without,
+    zero,
+)
+from paper_models import Faster, K, archard, flat, motion, named, pair, power, steel
+from tribo.case import Layer, Stop
+from tribo.contact.periodic import Periodic
+from tribo.contact.winkler import Winkler
+from tribo.core.errors import NumericalError
+from tribo.core.grid import Grid
+from tribo.motion.rotating import Rotating
+from tribo.motion.unidirectional import Unidirectional
+from tribo.stepping.explicit import Explicit
+from tribo.stepping.layers import over_increment
+from tribo.surfaces.cylinder import Cylinder
+from tribo.surfaces.surface import Surface
+from tribo.surfaces.waves import Waves
+from tribo.wear.archard import Archard
+from tribo.wear.modified import times
+from tribo.wear.running_in import RunningIn
+
+from tribo_inverse.adjoint import (
+    backwards,
+    course,
+    linear,
+    local,
+    parameters,
+    passing,
+    remembering,
+    slopes,
+)
+from tribo_inverse.adjoint.gradient import gradient
+from tribo_inverse.adjoint.objective import Deepest, Depth, EndDistance, EndTime, Pressure, Volume
+
+
+def flats():
+    waves = Waves(wavelength="32 um", amplitude="0.2 um")
+    slides = Unidirectional(speed=0.1, distance=5.0, track_length=1.0, positions=5)
+    return run(
+        grid=Grid(("64 um", "64 um"), (16, 16)),
+        load=1.0,
+        contact=Periodic(tolerance=1e-12),
+        kinematics=slides,
+        bodies=[
+            named("ball", waves, steel(), archard()),
+            named("disk", flat(), steel(), archard()),
+        ],
+    )
+
+
+LINE = [named("ball", Cylinder(radius="5 mm"), steel(), archard()), named("disk", flat(), steel())]
+OF_SPEED = RunningIn(law=Faster(), factor=4.0, over="1 GPa m")
+FAST = RunningIn(law=archard(2 * K), factor=4.0, over="0.5 GPa m")
+SLOW = SMOOTH.model_copy(update={"law": archard(K / 2), "depth": 1e-7})
+FLEETING = SMOOTH.model_copy(update={"law": archard(4 * K), "depth": 5e-9})
+"""Of which a cell, in a step of many parts, would lose many times the roughness there is."""
+OF_LAYER = ["bodies.disk.layers.0.thickness", "bodies.disk.layers.0.wear.over"]
+YIELDING = pair(archard(), archard(), ("1.2 GPa", "1.1 GPa"))
+SOFT = pair(archard(), archard(), ("1.1 GPa", "1 GPa"))
+
+
+def coated(hardness=(None, None)):
+    """The disk in a stiffer layer."""
+    ball, (name, disk) = pair(archard(), archard(), hardness)
+    layer = Layer(
+        thickness="30 um", wear=archard(2 * K), young="400 GPa", poisson=0.25, hardness=hardness[1]
+    )
+    return [ball, (name, disk.model_copy(update={"layers": (layer,)}))]
+
+
+OF_COATING = [f"bodies.disk.layers.0.{key}" for key in ("thickness", "young", "poisson")]
+OF_COATING += ["bodies.disk.material.young", "bodies.ball.material.poisson"]
+
+
+def unworn(method):
+    """What the shares of the layers make of the depth before, left out."""
+
+    def mutant(*given):
+        worn, *others = method(*given)
+        return 0 * worn, *others
+
+    return mutant
+
+
+def steady(method):
+    """What the shares of the layers make of the rates in each, left out."""
+
+    def mutant(*given):
+        worn, rates, bottoms = method(*given)
+        return worn, [0 * rate for rate in rates], bottoms
+
+    return mutant
+
+
+def unpressed(method):
+    def mutant(self, *given):
+        self.pressure = None
+        method(self, *given)
+
+    return mutant
+
+
+class Brisk(Archard):
+    type = "brisk"
+
+    def rate(self, local):
+        return times(np.sqrt(1e9 * local.speed / local.material.hardness), super().rate(local))
+
+
+KINDS = {
+    "comes to rest": Kind(
+        run(bodies=pair(SMOOTH.model_copy(update={"depth": 1e-8}), None), stepping=LONG),
+        Depth("ball"),
+        ["bodies.ball.wear.settled"],
+        1e-5,
+    ),
+    "remembers": Kind(
+        run(bodies=pair(FRESH, SMOOTH), stepping=LONG),
+        Depth("disk"),
+        ["load.normal", *SHAPE, *OF_FRESH, *OF_SMOOTH, "kinematics.frequency", "kinematics.stroke"],
+        1e-5,
+    ),
+    "remembers, follows the speed": Kind(
+        run(load=RAMP[:2], kinematics=motion(duration=10), bodies=pair(OF_SPEED), stepping=LONG),
+        Depth("ball"),
+        [*STAGES[:2], *SHAPE, *OF_FRESH[:2], "kinematics.frequency", "kinematics.stroke"],
+        1e-5,
+    ),
+    "layers": Kind(
+        run(bodies=layered(("0.3 um", archard(K / 2)), ("0.05 um", archard(2 * K))), stepping=LONG),
+        Depth("disk"),
+        [
+            *("load.normal", *SHAPE, "bodies.ball.wear.k", "bodies.ball.layers.0.wear.k"),
+            *("bodies.ball.layers.0.thickness", "bodies.disk.layers.0.thickness"),
+        ],
+        1e-6,
+    ),
+    "layers, remembers": Kind(
+        run(bodies=layered(None, ("0.05 um", FAST), archard(), FRESH), stepping=LONG),
+        Depth("disk"),
+        ["load.normal", *SHAPE, *OF_LAYER, "bodies.disk.wear.over"],
+        1e-6,
+    ),
+    "positions, remembers, stroke": Kind(
+        run(
+            bodies=pair(FRESH, SMOOTH),
+            kinematics=resolved(stroke="0.13 mm", waveform="sinusoidal", duration=0.5),
+            stepping=LONG,
+        ),
+        Depth("disk", 5e-5),
+        ["load.normal", "kinematics.stroke"],
+        1e-6,
+    ),
+    "load on a plateau, remembers": Kind(
+        run(
+            load=[
+                {"at": 0, "normal": 10.0},
+                {"at": 10, "normal": 20.0},
+                {"at": 20, "normal": 20.0},
+            ],
+            bodies=pair(FRESH, archard()),
+            stepping=LONG,
+        ),
+        Depth("disk"),
+        ["load.normal.1.normal", "load.normal.2.normal"],
+        1e-5,
+    ),
+    "load on a plateau, smooths": Kind(
+        run(
+            load=[{"at": 0, "normal": 20.0}, {"at": 20, "normal": 20.0}],
+            bodies=pair(FRESH, SMOOTH),
+            stepping=LONG,
+        ),
+        Depth("disk"),
+        ["load.normal.0.normal"],
+        1e-5,
+    ),
+    "layers, remembers for a small part of a step": Kind(
+        run(
+            grid=ODD,
+            bodies=layered(None, ("0.01 um", SLOW), None, FLEETING),
+            kinematics=motion(duration=5),
+            stepping=LONG,
+        ),
+        Depth("disk"),
+        ["load.normal", "bodies.disk.layers.0.thickness"],
+        1e-6,
+    ),
+    "layers, passed late in a step, remembers": Kind(
+        run(
+            bodies=layered(("0.05 um", archard()), of_ball=FRESH),
+            kinematics=motion(duration=1.75537),
+            stepping=LONG,
+            save_times=(0.63749,),
+        ),
+        Depth("ball"),
+        ["load.normal", "bodies.ball.layers.0.thickness", "bodies.ball.wear.over"],
+        1e-5,
+    ),
+    "layers on one body, both remember": Kind(
+        run(
+            bodies=layered(("0.05 um", archard()), None, FRESH, FRESH),
+            kinematics=motion(duration=1.75537),
+            stepping=LONG,
+        ),
+        Depth("ball"),
+        ["load.normal", "bodies.ball.layers.0.thickness", "bodies.ball.wear.over"],
+        1e-5,
+    ),
+    "layers, parts cut off": Kind(
+        run(
+            contact=Winkler(plasticity=False),
+            bodies=layered(None, ("0.05 um", archard(2 * K)), SMOOTH, SMOOTH),
+            stepping=LONG,
+        ),
+        Depth("ball"),
+        ["load.normal", "bodies.disk.layers.0.thickness", "bodies.disk.wear.depth"],
+        1e-5,
+    ),
+    "positions, layers, remembers": Kind(
+        run(
+            bodies=layered(("0.02 um", FAST), ("0.004 um", archard(2 * K)), FRESH, archard()),
+            kinematics=resolved(duration=0.25),
+            stepping=LONG,
+        ),
+        Depth("disk", 5e-5),
+        ["load.normal", *SHAPE, "bodies.ball.layers.0.thickness", "bodies.ball.wear.over"],
+        1e-6,
+    ),
+    "average": Kind(run(), Deepest("disk"), [*BASE, *SHAPE, "kinematics.stroke"], 1e-4),
+    "pressure": Kind(run(), Pressure(2e-5, 0), [*BASE, *SHAPE], 1e-4),
+    "springs": Kind(
+        run(
+            contact=Winkler(plasticity=False),
+            bodies=pair(archard(), Brisk(k=K), ("2 GPa", "1 GPa")),
+        ),
+        Depth("ball"),
+        [*BASE, *SHAPE, HARD],
+        1e-5,
+    ),
+    "nonlinear": Kind(
+        run(bodies=pair(power(1.5), power(2.0)), stepping=few(nonlinear_tolerance=1e-13)),
+        Depth("disk"),
+        [*BASE, *SHAPE, "bodies.ball.wear.p_exponent"],
+        1e-6,
+    ),
+    "yields": Kind(run(grid=ODD, bodies=YIELDING), Depth("disk"), [*BASE, *SHAPE, HARD], 1e-6),
+    "elastic layer": Kind(run(bodies=coated()), Depth("disk"), ["load.normal", *OF_COATING], 1e-5),
+    "positions, yields, elastic layer": Kind(
+        run(
+            grid=ODD,
+            kinematics=resolved(),
+            bodies=coated(("1.1 GPa", "1 GPa")),
+            stepping=few(cycle_tolerance=1e-12),
+        ),
+        Depth("disk", 5e-5),
+        ["load.normal", *OF_COATING],
+        1e-6,
+    ),
+    "load over time": Kind(
+        run(load=RAMP, bodies=pair(FRESH, power(1.5)), stepping=LONG),
+        {20.0: Depth("disk")},
+        [*STAGES, *OF_FRESH, BASE[2], "load.normal.1.at", "load.normal.2.until"],
+        1e-5,
+    ),
+    "positions": Kind(
+        run(kinematics=resolved(), stepping=few(cycle_tolerance=1e-12)),
+        Depth("disk", 5e-5),
+        [*BASE, *SHAPE],
+        1e-5,
+    ),
+    "positions, yields": Kind(
+        run(grid=ODD, kinematics=resolved(), bodies=SOFT, stepping=few(cycle_tolerance=1e-12)),
+        Depth("disk", 5e-5),
+        [*BASE, HARD],
+        1e-6,
+    ),
+    "positions, remembers": Kind(
+        run(
+            kinematics=motion(
+                stroke="0.125 mm", positions=5, frequency=100, duration=1, waveform="sinusoidal"
+            ),
+            bodies=pair(FRESH, SMOOTH),
+            stepping=LONG,
+        ),
+        Depth("disk", 5e-5),
+        ["load.normal", *SHAPE, *OF_FRESH, *OF_SMOOTH],
+        1e-5,
+    ),
+    "explicit": Kind(
+        run(bodies=pair(FRESH, power(1.5)), stepping=Explicit(time_step=3, allow_unstable=True)),
+        Depth("disk"),
+        [*BASE[:1], *BASE[2:], *SHAPE, *OF_FRESH],
+        1e-5,
+    ),
+    "repeating": Kind(
+        flats(), Depth("ball"), ["load.normal", "bodies.ball.surface.amplitude"], 1e-5
+    ),
+    "rows of their own speed": Kind(
+        run(
+            kinematics=Rotating(track_radius="1.5 mm", speed=0.1, duration=20.0),
+            bodies=pair(power(1.5), archard()),
+            stepping=few(nonlinear_tolerance=1e-13),
+        ),
+        Depth("disk"),
+        ["load.normal", "kinematics.speed", "kinematics.track_radius"],
+        1e-5,
+    ),
+    "line": Kind(
+        run(bodies=LINE, ends_at_window=True, load=10.0),
+        Volume("ball"),
+        ["bodies.ball.wear.k"],
+        1e-5,
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_it_is_that_of_the_same_steps(kind):
+    assert KINDS[kind].off() < CLOSE
+
+
+@pytest.mark.parametrize("below", [FRESH, archard(8 * K)], ids=["remembers", "steady"])
+def test_a_point_just_above_the_bottom_of_a_layer_passes_it(below):
+    def layer(thickness):
+        return run(
+            grid=MIDDLE,
+            contact=Winkler(plasticity=False),
+            bodies=layered((thickness, archard()), of_ball=below),
+            stepping=LONG,
+            save_times=(5.0,),
+        )
+
+    depth = gradient(layer("1 um"), {5.0: Depth("ball")}, []).value
+    paths = ["bodies.ball.layers.0.thickness", "load.normal"]
+    assert Kind(layer(depth * (1 + 5e-6)), Depth("ball"), paths, 1e-6).off() < CLOSE
+
+
+def test_shares_of_layers_have_the_derivatives_of_their_differences():
+    rates = [np.array([1.0, 2.0, 0.5, 0.0]), np.full(4, 3.0), np.full(4, 2.0)]
+    bottoms, worn, seeds = [1.0, 1.6], np.array([0.3, 0.9, 1.2, 0.5]), [0.4, -0.7, 1.1]
+
+    def total(bottoms, worn, rates):
+        shares = over_increment(bottoms, worn, rates, 1.2)
+        return sum(seed * shares[f"rate {layer}"] for layer, seed in enumerate(seeds))
+
+    by, *of_others = passing.Layered(bottoms, worn, rates, 1.2).back(seeds)
+    for own, found in zip((rates, bottoms), of_others, strict=True):
+        for at, each in enumerate(found):
+            ends = []
+            for nudge in (1e-6, -1e-6):
+                moved = [*own[:at], own[at] + nudge * (np.asarray(own[at]) > 0), *own[at + 1 :]]
+                parts = (bottoms, worn, moved) if own is rates else (moved, worn, rates)
+                ends.append(total(*parts))
+            assert each == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=1e-8)
+    change = total(bottoms, worn + 1e-6, rates) - total(bottoms, worn - 1e-6, rates)
+    assert by == pytest.approx(change / 2e-6, abs=1e-8)
+
+
+def unasked(method):
+    """What an increment follows of numbers, without the rates along it."""
+
+    def mutant(*given):
+        found = method(*given)
+        rates = [(each, [0 * seed for seed in seeds]) for each, seeds in found.along.rates]
+        return replace(found, along=replace(found.along, rates=rates))
+
+    return mutant
+
+
+KINDS["ends at a depth"] = Kind(
+    run(grid=MIDDLE, stop=Stop(depth="0.2 um")), Volume("ball"), [*BASE, *SHAPE], 1e-5
+)
+KINDS["ends at a depth, load over time"] = Kind(
+    run(
+        grid=MIDDLE,
+        stop=Stop(depth="0.6 um"),
+        load=RAMP,
+        bodies=pair(FRESH, power(1.5)),
+        stepping=LONG,
+    ),
+    EndTime(),
+    [*STAGES[:2], *OF_FRESH, "load.normal.1.at", "kinematics.frequency", "stop.depth"],
+    1e-5,
+)
+KINDS["ends at a depth of one body"] = Kind(
+    run(
+        grid=MIDDLE,
+        stop=Stop(depth="0.03 um", body="disk"),
+        bodies=pair(FRESH, SMOOTH),
+        stepping=LONG,
+        save_times=(2.0,),
+    ),
+    {2.0: Deepest("disk"), 20.0: EndTime()},
+    ["load.normal", *OF_SMOOTH, "kinematics.stroke"],
+    1e-5,
+)
+KINDS["ends at a depth, positions, yields"] = Kind(
+    run(
+        grid=MIDDLE,
+        stop=Stop(depth="0.1 um"),
+        kinematics=resolved(),
+        bodies=SOFT,
+        stepping=few(cycle_tolerance=1e-12),
+    ),
+    EndDistance(),
+    [*BASE, HARD],
+    1e-6,
+)
+KINDS["ends at a depth, within a stroke"] = Kind(
+    run(
+        grid=MIDDLE,
+        stop=Stop(depth="0.2 um"),
+        kinematics=resolved(frequency=1, waveform="sinusoidal"),
+        bodies=pair(archard(300 * K), archard()),
+        stepping=few(cycle_tolerance=1e-12),
+    ),
+    EndDistance(),
+    ["load.normal", "kinematics.frequency"],
+    1e-5,
+)
+KINDS["ends at a depth, explicit"] = Kind(
+    run(
+        grid=MIDDLE,
+        stop=Stop(depth="0.2 um"),
+        bodies=pair(FRESH, power(1.5)),
+        stepping=Explicit(time_step=0.5, allow_unstable=True),
+    ),
+    Pressure(2e-5, 0),
+    ["load.normal", *SHAPE, *OF_FRESH],
+    1e-5,
+)
+
+
+MUTANTS = [
+    ("ends at a depth", backwards.Derivatives, "plus", lambda _: lambda of, *other: of),
+    ("ends at a depth, within a stroke", parameters.Chain, "until", lambda _: lambda of, end: of),
+    ("ends at a depth, load over time", parameters.Chain, "by_save", zero),
+    ("ends at a depth, load over time", parameters.Chain, "by_stop", zero),
+    ("average", parameters.Chain, "by_load", zero),
+    ("average", parameters.Chain, "by_wear", lambda _: lambda *given: ()),
+    ("average", parameters.Chain, "by_rest", without("gap")),
+    ("average", parameters.Chain, "by_rest", without("stiffness")),
+    ("average", linear.Carrier, "gathered", zero),
+    ("average", linear.Carrier, "seen", zero),
+    ("average", linear.StepSystem, "solve", without("given")),
+    ("pressure", backwards.Backwards, "look", nothing),
+    ("springs", local.WatchedLaw, "rate", lambda _: lambda of, *told: of._law.rate(*told)),
+    ("yields", parameters.Chain, "by_rest", without("cap")),
+    ("yields", linear.StepSystem, "solve", without("fixed")),
+    ("yields", backwards.Backwards, "spread_out", nothing),
+    ("yields", backwards.Backwards, "_gave", zero),
+    ("elastic layer", parameters.Chain, "by_spread", zero),
+    ("positions", linear.Carrier, "gathered", zero),
+    ("explicit", backwards.Backwards, "_wear", nothing),
+    ("explicit", backwards.Backwards, "_wear", unpressed),
+    ("remembers", slopes.Sloping, "_by_pressure", unfelt("own")),
+    ("remembers", remembering.Remembering, "_back", forgotten),
+    ("remembers", remembering.Remembering, "_back", unasked),
+    ("remembers", remembering._Along, "by_length", lambda _: 0.0),
+    ("remembers", parameters, "moved", nothing),
+    ("load over time", slopes.Sloping, "_by_pressure", unfelt("load")),
+    ("layers", course, "_layers", lambda of: lambda *given: (of(*given)[0], 1.0)),
+    ("layers", course, "by_bottoms", lambda _: lambda shares: ()),
+    ("layers, remembers", remembering, "lowered", lambda _: lambda *given: [0.0]),
+    ("layers, remembers", passing.Layered, "back", unworn),
+    ("layers, remembers", passing.Layered, "back", steady),
+    ("layers, remembers", slopes.Sloping, "_passing", nothing),
+    ("positions, layers, remembers", passing.Layered, "back", unworn),
+    ("positions, layers, remembers", passing.Layered, "back", steady),
+]
+
+
+@pytest.mark.parametrize(
+    ("kind", "owner", "method", "change"), MUTANTS, ids=lambda each: getattr(each, "__name__", each)
+)
+def test_each_term_counts(monkeypatch, kind, owner, method, change):
+    monkeypatch.setattr(owner, method, change(getattr(owner, method)))
+    try:
+        missed = KINDS[kind].off()
+    except NumericalError:
+        return
+    assert missed > 10 * CLOSE
+
+
+def test_the_objective_may_follow_an_input_itself():
+    # The volume of a track is its cross-section times the stroke.
+    found = gradient(run(), Volume("disk"), ["kinematics.stroke", "load.normal"])
+    assert found.relative["kinematics.stroke"] == pytest.approx(1, rel=1e-8)
+    assert found.relative["load.normal"] == pytest.approx(1, rel=1e-8)
+
+
+@pytest.mark.parametrize("bound", [1.0, 10.0])
+def test_a_number_at_its_bound_has_the_derivative_of_one_side(bound):
+    # Of a flat pin V = k s F (p/p0)^(m - 1), where m is 1 to 10.
+    bodies = [named("ball", flat(), steel(), power(bound)), named("disk", flat(), steel())]
+    flats = run(bodies=bodies, contact=Winkler(modulus=1e15), ends_at_window=True)
+    exponent = "bodies.ball.wear.p_exponent"
+    found = gradient(flats, Volume("ball"), [exponent]).relative[exponent]
+    pressure = 20.0 / (0.5e-3) ** 2
+    assert found == pytest.approx(bound * np.log(pressure / 1e9), rel=1e-5)
+
+
+class Step(Surface):
+    """A flat of which one half stands 1 µm higher."""
+
+    type = "step"
+
+    def height(self, grid):
+        return np.where(np.arange(grid.cells[0])[:, None] < 8, 1e-6, np.zeros(grid.cells))
+
+
+@pytest.mark.parametrize(
+    ("hardness", "load", "x", "lower", "higher"),
+    [
+        # The lower half just touches: counted as open.
+        (None, 0.5, -1e-4, 1.0, 0.5),
+        # The higher half just yields, at 8 and 4 MPa: counted as yielding.
+        ("8 MPa", 1.5, 1e-4, 1.5, 3.0),
+    ],
+)
+@pytest.mark.parametrize("rounding", [-1e-13, 0, 1e-13])
+def test_at_a_change_of_state_the_side_is_the_one_that_is_named(
+    hardness, load, x, lower, higher, rounding
+):
+    bodies = [named("ball", Step(), steel(hardness), archard()), named("disk", flat(), steel())]
+    area, springs = 0.5e-3**2, 4e12
+
+    def asked(part):
+        return run(
+            load=load * springs * 1e-6 * area * (1 + rounding + part),
+            bodies=bodies,
+            contact=Winkler(modulus=springs),
+            ends_at_window=True,
+        )
+
+    def relative(part):
+        found = gradient(asked(part), {0.0: Pressure(x, 0)}, ["load.normal"])
+        return found.relative["load.normal"]
+
+    assert relative(-1e-6) == pytest.approx(lower, rel=1e-5)
+    assert relative(1e-6) == pytest.approx(higher, rel=1e-5)
+    assert relative(0) == pytest.approx(higher if hardness else lower, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("slides", "path", "expected"),
+    [
+        # V = k ∫ F ds, of which the run has 20 N for 10 s, then 50 N.
+        (motion(duration=20), "kinematics.duration", 20 * 50 / (10 * 20 + 10 * 50)),
+        (
+            Unidirectional(speed=0.1, track_length=1.0, distance=2.0),
+            "kinematics.speed",
+            10 * (20 - 50) / (10 * 20 + 10 * 50),
+        ),
+    ],
+)
+def test_stages_of_the_load_may_end_with_the_run(slides, path, expected):
+    case = run(
+        load=[{"until": 10, "normal": 20.0}, {"until": 20, "normal": 50.0}],
+        kinematics=slides,
+        contact=Winkler(),
+    )
+    found = gradient(case, Volume("ball"), [path]).relative[path]
+    assert found == pytest.approx(expected, rel=1e-7)

@@ -1,0 +1,135 @@
+"""Values of a case in words and in an engineer's units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel
+from tribo import CaseError, Quantity, WearLaw
+from tribo.kernel_api import default_registry, in_mm3_per_newton_metre, parts, scale, time_labels
+
+_UNITS = {
+    "m": ("m", "mm", "µm", "nm"),
+    "Pa": ("GPa", "MPa", "kPa", "Pa"),
+    "s": ("h", "min", "s", "ms"),
+    "N": ("kN", "N", "mN"),
+    "m^2": ("mm^2",),
+    "m^3": ("mm^3",),
+}
+_LONG = 6
+"""Most items of a list that are written out."""
+
+
+def amount(value: float, unit: str) -> str:
+    """Return a value, in SI, with the largest unit in which it is 1 or more."""
+    if unit == "1":
+        return f"{value:.4g}"
+    if unit == "K":
+        # A temperature in °C has two decimals in K.
+        return f"{value:.6g} K"
+    known = _UNITS.get(unit, (unit,))
+    fitting = next((u for u in known if abs(value) >= float(scale(u)[0])), known[-1])
+    factor = float(scale(fitting)[0]) if unit in _UNITS else 1.0
+    if value == 0:
+        return "0"
+    return f"{value / factor:.4g} {fitting}".replace("^2", "²").replace("^3", "³")
+
+
+def component_words(config: Mapping[str, Any]) -> str:
+    """Return the type of a component and its values, those left out of the case too."""
+    name, table = str(config.get("type", "")), None
+    with suppress(CaseError):
+        table = default_registry().find(name)
+    return f"{name}, {value_words(config, table)}".removesuffix(", ")
+
+
+def value_words(config: Mapping[str, Any], table: type[BaseModel] | None) -> str:
+    """Return the values of a table of the case, in the units that its model says."""
+    return ", ".join(_values(config, table))
+
+
+def range_words(table: Mapping[str, Any], key: str, unit: str) -> str:
+    """Return a number of a table of the case, or its range over stages; "" if it is neither."""
+    value: Any = table.get(key)
+    numbers = [float(stage[key]) for stage in value] if in_stages(value, key) else []
+    if isinstance(value, int | float):
+        numbers = [float(value)]
+    if not numbers:
+        return ""
+    low, high = min(filter(None, numbers), default=0.0), max(numbers)
+    words = amount(low, unit)
+    if high > low:
+        words += f" to {amount(high, unit)}"
+    return words + (" with pauses" if min(numbers) < low else "")
+
+
+def in_stages(value: Any, key: str) -> bool:
+    """Return whether a value is given in stages, as tables with its own key."""
+    listed = isinstance(value, list | tuple) and len(value) > 0
+    return listed and all(isinstance(stage, Mapping) and key in stage for stage in value)
+
+
+def _stage_words(stages: Sequence[Mapping[str, Any]], key: str, unit: str) -> str:
+    """Return until when each stage goes, or of many stages the first, the last and the range."""
+    told, times = [], time_labels(np.array([stage.get("until") or stage["at"] for stage in stages]))
+    for stage, time in zip(stages, times, strict=True):
+        level = amount(float(stage[key]), unit) if stage[key] else "pause"
+        # A load is held to a time, or reached at a time in a straight line.
+        told.append(f"{level} {'to' if stage.get('until') else 'at'} {time}")
+    if len(told) > _LONG:
+        over = range_words({key: stages}, key, unit)
+        return f"{told[0]}, …, {told[-1]} ({len(told)} stages, {over})"
+    return ", ".join(told)
+
+
+def _values(config: Mapping[str, Any], table: type[BaseModel] | None) -> Iterator[str]:
+    for key, value in config.items():
+        if key == "type" or value is None or value is False or value == []:
+            continue
+        name = key.replace("_", " ")
+        if isinstance(value, bool):
+            yield name
+            continue
+        marks = _marks(table, key)
+        staged = in_stages(value, key)
+        words = _stage_words(value, key, _unit(marks)) if staged else _value(value, marks)
+        of_law = table is not None and issubclass(table, WearLaw)
+        if of_law and _unit(marks) == "1/Pa" and isinstance(value, int | float):
+            words += f" = {in_mm3_per_newton_metre(value):.4g} mm³/(N·m)"
+        yield f"{name} {words}"
+
+
+def _value(value: Any, marks: Sequence[Any]) -> str:
+    """Return a value in the unit, or by the table, that its annotation names."""
+    if isinstance(value, Mapping):
+        if "type" in value:
+            return component_words(value)
+        table = next((m for m in marks if isinstance(m, type) and issubclass(m, BaseModel)), None)
+        if table is not None and value.keys() <= table.model_fields.keys():
+            return f"({value_words(value, table)})"
+        # By the names of bodies, say.
+        return ", ".join(f"{key} {_value(each, marks)}" for key, each in value.items())
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return _listed(value, _unit(marks))
+    if isinstance(value, int | float):
+        return amount(float(value), _unit(marks))
+    return str(value).replace("_", " ")
+
+
+def _listed(values: Sequence[Any], unit: str) -> str:
+    if len(values) > _LONG or not all(isinstance(value, int | float) for value in values):
+        return f"({len(values)} values)"
+    return ", ".join(amount(float(value), unit) for value in values)
+
+
+def _marks(table: type[BaseModel] | None, key: str) -> list[Any]:
+    """Return all types and marks of the annotation of a table's key."""
+    field = None if table is None else table.model_fields.get(key)
+    return [] if field is None else [*parts(field)]
+
+
+def _unit(marks: Sequence[Any]) -> str:
+    return next((mark.unit for mark in marks if isinstance(mark, Quantity)), "1")

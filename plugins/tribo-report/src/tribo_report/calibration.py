@@ -1,0 +1,139 @@
+"""The report of a calibration."""
+
+from __future__ import annotations
+
+import json
+import math
+import tomllib
+from collections.abc import Iterator
+from contextlib import suppress
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from tribo import CaseError
+from tribo.kernel_api import (
+    case_tables,
+    digits_of,
+    environment,
+    fit_picture,
+    to_toml,
+    validate_case,
+)
+from tribo_inverse.calibration.calibrate import DATA, Calibration
+from tribo_inverse.calibration.notes import UNLIKELY, bound
+from tribo_inverse.calibration.quantities import in_si, p_words
+from tribo_inverse.map_tables import read_maps
+from tribo_inverse.tables import data_table, estimates_table, fit_sentences, predictions_table
+
+from tribo_report.maps import maps_page
+from tribo_report.page import check_installed, render, stills
+from tribo_report.printed import printed_by
+from tribo_report.result import CITATION, facts
+from tribo_report.tables import for_page
+
+
+def calibration_file_page(path: Path) -> str:
+    """Return the report of what ``tribo calibrate --json`` printed.
+
+    Raises
+    ------
+    CaseError
+        If there is no such file, or it is not one.
+    """
+    with printed_by("tribo calibrate --json", path):
+        found = json.loads(path.read_text(encoding="utf-8"))
+        read = read_maps(found) if "maps" in found else _read(found)
+    if isinstance(read, Calibration):
+        return calibration_page(read, path.stem)
+    return maps_page(*read, path.stem)
+
+
+def _read(found: dict[str, Any]) -> Calibration:
+    found["parameters"] = [{"limited": False, **row} for row in found["parameters"]]
+    tables: dict[str, Any] = {
+        name: pd.DataFrame(found.pop(name)) for name in ("parameters", "data", "predictions")
+    }
+    for name in ("parameters", "predictions"):
+        if "upper" in tables[name]:
+            # JSON has no infinity.
+            tables[name]["upper"] = tables[name]["upper"].fillna(math.inf)
+    missing = {*DATA} - {*tables["data"]}
+    if missing:
+        raise ValueError(f"it has no {', '.join(sorted(missing))}")
+    del found["p_value"]
+    for name in ("correlation", "singular_values", "left_out"):
+        found[name] = np.array(found[name], dtype=float)
+    found["fitted"] = {name: tomllib.loads(text) for name, text in found.get("fitted", {}).items()}
+    found["notes"] = tuple(found["notes"])
+    return Calibration(**tables, **found)
+
+
+def calibration_page(found: Calibration, title: str) -> str:
+    """Return the report of a calibration as HTML; see `tribo.write_report`."""
+    check_installed()
+    tables = [estimates_table(found), data_table(found)]
+    if len(found.predictions):
+        tables.append(predictions_table(found))
+    packages: Any = environment()["packages"]
+    return render(
+        "study.html.j2",
+        kind="Calibration",
+        title=title,
+        answers=list(_answers(found)),
+        tables_title="What was fitted",
+        tables=[for_page(table) for table in tables],
+        remarks=list(fit_sentences(found)),
+        notes=found.notes,
+        has_moments=False,
+        curves_title="",
+        stills=stills(
+            {"fit, relative to the measured values": partial(fit_picture, found.brief, found.data)}
+        ),
+        always=True,
+        provenance=[("report made with", ", ".join(f"{k} {v}" for k, v in packages.items()))],
+        citation=CITATION.format(version=packages.get("tribo", "")),
+        case="\n".join(_cases(found)),
+        whose=" as fitted",
+        facts=_facts(found),
+        data=None,
+    )
+
+
+def _answers(found: Calibration) -> Iterator[str]:
+    """Return each estimate and its interval in a sentence, after a doubt of all of them."""
+    if found.p_value is not None and found.p_value < UNLIKELY:
+        yield (
+            f"Data and model disagree, {p_words(found.p_value)}: the values below are not to be "
+            "trusted before the reason is known; see the notes."
+        )
+    for each in found.parameters.itertuples():
+        words = f"{each.path} is {in_si(each.value, each.unit)}"
+        if each.held:
+            yield f"{words}, held by its {bound(each)} bound."
+        elif each.limited:
+            yield f"{each.path} is below {in_si(each.upper, each.unit)}, as nothing was detected."
+        elif math.isinf(each.upper):
+            yield f"{words}; the data do not bound it."
+        else:
+            digits = digits_of(each.lower, each.upper)
+            yield (
+                f"{each.path} is {in_si(each.value, each.unit, digits)}, between "
+                f"{each.lower:.{digits}g} and {each.upper:.{digits}g} with a probability of "
+                f"{100 * found.level:g} %."
+            )
+
+
+def _facts(found: Calibration) -> list[tuple[str, str]]:
+    """Return the facts of the first case that loads; none if plugins or files are missing."""
+    for tables in found.fitted.values():
+        with suppress(CaseError):
+            return facts(case_tables(validate_case(tables)))
+    return []
+
+
+def _cases(found: Calibration) -> Iterator[str]:
+    for name, tables in found.fitted.items():
+        yield (f"# {name}\n" if name else "") + to_toml(tables)

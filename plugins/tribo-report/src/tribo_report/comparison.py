@@ -1,0 +1,130 @@
+"""The report of a comparison."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+from tribo import Comparison
+from tribo.kernel_api import (
+    comparison_picture,
+    comparison_table,
+    how_compared,
+    short_labels,
+    signed,
+    time_labels,
+    to_toml,
+)
+
+from tribo_report.curves import history, moments, sections, thinned
+from tribo_report.fields import pressure_maps
+from tribo_report.page import check_installed, render, stills
+from tribo_report.result import cited, facts
+from tribo_report.sentence import DEPTHS, VOLUMES, quoted
+from tribo_report.tables import for_page
+
+
+def readable(comparison: Comparison) -> Comparison:
+    """Return a comparison of the files of ``tribo compare`` by what varied, not by file names."""
+    stems = [label.split(",_") for label in comparison.results]
+    points = [dict(part.partition("=")[::2] for part in parts) for parts in stems]
+    if comparison.settings or not all("=" in part for parts in stems for part in parts):
+        return comparison
+    points = [{path: value.replace("_", " ") for path, value in p.items()} for p in points]
+    names = dict(zip(comparison.results, short_labels(points), strict=True))
+    return Comparison(
+        {names[label]: result for label, result in comparison.results.items()},
+        {names[label]: point for label, point in zip(names, points, strict=True)},
+        {names[label]: own for label, own in comparison.own_names.items()},
+    )
+
+
+def comparison_page(comparison: Comparison) -> str:
+    """Return the report of results side by side as HTML; see `tribo.write_report`."""
+    check_installed()
+    results, first = comparison.results, comparison.results[comparison.reference]
+    times = [comparison.times[i] for i in thinned(len(comparison.times))]
+    ends = comparison.chosen_times()
+    saves = [first.save_at(time) for time in times]
+    data = {
+        "saves": moments(first, saves),
+        "left_out": len(comparison.times) - len(times),
+        "maps": pressure_maps(results, times),
+        "surfaces": [],
+        "sections": sections(results, times),
+        "history": history(results),
+    }
+    table = for_page(comparison_table(comparison, list(results), ends))
+    varied = _varied(comparison)
+    title = " and ".join(results) if len(results) == 2 else f"{len(results)} results"
+    return render(
+        "study.html.j2",
+        kind="Comparison",
+        # A value alone does not say of what it is.
+        title=f"{varied[0]}: {title}" if len(varied) == 1 else title,
+        answers=_answers(comparison),
+        tables_title="Side by side",
+        tables=[replace(table, title="At the first and the last common save")],
+        remarks=[*([f"Varied: {', '.join(varied)}."] if varied else []), how_compared(comparison)],
+        notes=comparison.notes,
+        has_moments=True,
+        curves_title="History",
+        stills=stills(
+            {
+                f"comparison at {time:g} s": partial(comparison_picture, results, time)
+                for time in ends
+            }
+        ),
+        always=False,
+        provenance=_provenance(comparison),
+        citation=cited(first),
+        case=to_toml(first.case),
+        whose=f" of {comparison.reference}",
+        facts=facts(first.case),
+        data=data,
+    )
+
+
+def _answers(comparison: Comparison) -> list[str]:
+    """Return what the bodies have lost in the first result, and how far the others are off."""
+    first, last = comparison.reference, comparison.times[-1]
+    saves = {label: comparison.save(label, last) for label in comparison.results}
+    time = time_labels(comparison.results[first].times)[comparison.results[first].save_at(last)]
+    # Values stand for a variant, file names for a place.
+    varied = _varied(comparison)
+    of = f"{varied[0]} " if len(varied) == 1 else ""
+    where = f"{'with' if comparison.settings else 'in'} {of}{first}"
+    answers = []
+    for body in comparison.bodies:
+        worn = {label: save["bodies"][body] for label, save in saves.items()}
+        if not worn[first]["wear_volume_m3"]:
+            continue
+        lost, deep = (
+            f"{quoted(worn[first][key], units)} ({_others(worn, key, first)})"
+            for key, units in (("wear_volume_m3", VOLUMES), ("max_wear_depth_m", DEPTHS))
+        )
+        answers.append(f"After {time} the {body} has lost {lost} {where} and is worn {deep} deep.")
+    return answers
+
+
+def _varied(comparison: Comparison) -> list[str]:
+    return list(dict.fromkeys(path for point in comparison.settings.values() for path in point))
+
+
+def _others(worn: dict[str, dict[str, float]], key: str, first: str) -> str:
+    """Return how far the others are off the first, in percent."""
+    parts = {label: 100 * (body[key] / worn[first][key] - 1) for label, body in worn.items()}
+    del parts[first]
+    return ", ".join(f"{label}: {signed(part, 1)} %" for label, part in parts.items())
+
+
+def _provenance(comparison: Comparison) -> list[tuple[str, str]]:
+    rows: list[tuple[str, str]] = []
+    for label, result in comparison.results.items():
+        settings: dict[str, Any] = dict(comparison.settings.get(label, {}))
+        words = [result.name, *(f"{path} = {value}" for path, value in settings.items())]
+        packages = result.provenance["packages"].items()
+        words += [f"{name} {version}" for name, version in packages if name == "tribo"]
+        rows.append((label, ", ".join(words)))
+    return rows

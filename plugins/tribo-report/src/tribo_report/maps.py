@@ -1,0 +1,71 @@
+"""The report of local coefficients."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from tribo.kernel_api import environment
+from tribo_inverse.calibration.maps import FittedMaps
+from tribo_inverse.calibration.quantities import p_words
+from tribo_inverse.map_tables import fit_words, map_pictures, maps_table
+
+from tribo_report.page import check_installed, render, stills
+from tribo_report.result import CITATION
+from tribo_report.tables import for_page
+
+
+def maps_page(found: FittedMaps, level: float, title: str) -> str:
+    """Return the report of local coefficients as HTML; see `tribo.write_report`."""
+    check_installed()
+    packages: Any = environment()["packages"]
+    pictures = map_pictures(found, level)
+    return render(
+        "study.html.j2",
+        kind="Calibration",
+        title=title,
+        answers=list(_answers(found, level)),
+        tables_title="Where coefficients differ",
+        tables=[for_page(maps_table(found, level))],
+        remarks=[fit_words(found)],
+        notes=found.notes,
+        has_moments=False,
+        curves_title="",
+        stills=stills({_called(name): draw for name, draw in pictures.items()}),
+        always=True,
+        provenance=[("report made with", ", ".join(f"{k} {v}" for k, v in packages.items()))],
+        citation=CITATION.format(version=packages.get("tribo", "")),
+        case="",
+        whose="",
+        facts=[],
+        data=None,
+    )
+
+
+def _called(name: str) -> str:
+    body, _, fit = name.partition("-fit")
+    if fit or name.endswith("-fit"):
+        return f"measured depth of the {body}, and the fit's distance from it"
+    return f"factor on the coefficient of the {body}, and what is left of its uncertainty"
+
+
+def _answers(found: FittedMaps, level: float) -> Iterator[str]:
+    """Say by which factors each coefficient differs, and where that is sure, after a doubt."""
+    if found.is_refuted:
+        yield (
+            f"No map that varies so smoothly explains the depths, {p_words(found.p_value)}; see "
+            "the notes."
+        )
+    for name, each in found.maps.items():
+        told, (lower, upper) = each.told, each.interval(level)
+        if not np.any(told):
+            yield f"The data say nothing of where the coefficient of the {name} differs."
+            continue
+        ends = each.factor[told]
+        parts = [np.sum(told & sure) / np.sum(told) for sure in (upper < 1, lower > 1)]
+        yield (
+            f"The coefficient of the {name} is {ends.min():.2f} to {ends.max():.2f} times that of "
+            f"the case where the data tell it; at {100 * level:g} % it is lower in "
+            f"{100 * parts[0]:.0f} % of these cells and higher in {100 * parts[1]:.0f} %."
+        )

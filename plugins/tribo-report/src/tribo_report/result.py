@@ -1,0 +1,185 @@
+"""The report of a result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from tribo import CaseError, Friction, Layer, Load, Material, NumericalError, Result, Simulation
+from tribo.kernel_api import (
+    LabReport,
+    fields_table,
+    friction_words,
+    inferred_table,
+    lab_report,
+    result_pictures,
+    rough_bodies,
+    roughness_table,
+    saves_table,
+    to_toml,
+    wear_table,
+)
+from tribo_inverse.adjoint.sensitivity import sensitivity
+
+from tribo_report.amounts import amount, component_words, value_words
+from tribo_report.drawing import drawing
+from tribo_report.fields import charts
+from tribo_report.page import check_installed, render, stills
+from tribo_report.sentence import Estimate, read_verified, sentence, trust
+from tribo_report.tables import PageTable, for_page
+
+LONGEST_CASE = 200_000
+"""Characters of a case that a report holds; one with a measured surface has millions."""
+MOST_NUMBERS = 8
+OF_A_BODY: Mapping[str, Callable[[Any], str]] = {
+    "surface": component_words,
+    "material": lambda table: value_words(table, Material),
+    "wear": component_words,
+}
+OF_A_CASE: Mapping[str, Callable[[Any], str]] = {
+    "load": lambda table: value_words(table, Load),
+    "friction": lambda table: value_words(table, Friction),
+    **dict.fromkeys(("kinematics", "contact", "stepping"), component_words),
+}
+"""What puts a part of a body, or of a case, in words."""
+CITATION = (
+    "tribo {version}, MIT licence. Its model: J. Andersson, A. Almqvist and R. Larsson, "
+    "Simulation of a wear experiment, 29 April 2010."
+)
+
+
+def result_page(result: Result, verified: Path | None = None) -> str:
+    """Return the report of a result as HTML; see `tribo.write_report`."""
+    check_installed()
+    lab, case = lab_report(result), result.case
+    estimates = [] if verified is None else read_verified(verified, result)
+    swept = next((name for name in result.body_names if result.body(name).swept), None)
+    return render(
+        "result.html.j2",
+        title=Path(result.name).stem,
+        answer=sentence(result, lab, estimates),
+        trust=trust(estimates),
+        tables=list(_tables(result, lab, estimates)),
+        remarks=[lab.first_contact_words, *friction_words(result), *map(str, lab.rows)],
+        notes=result.notices,
+        drawing=drawing(case, swept) if _is_whole(case) else "",
+        facts=facts(case),
+        data=charts(result),
+        stills=stills(result_pictures(result)),
+        ruled=_ruled(result),
+        held=_held(result),
+        provenance=_provenance(result),
+        citation=cited(result),
+        case=case_text(case),
+    )
+
+
+def cited(result: Result) -> str:
+    """Return how to cite what made a result."""
+    return CITATION.format(version=result.provenance["packages"].get("tribo", ""))
+
+
+def _tables(result: Result, lab: LabReport, estimates: Sequence[Estimate]) -> list[PageTable]:
+    tables = [for_page(wear_table(result, lab.bodies))]
+    if estimates:
+        rows = [
+            [row["name"], amount(row["value"], row["unit"]), _uncertainty(row)] for row in estimates
+        ]
+        head = ["", "value", "±"]
+        tables.append(PageTable("Numerical uncertainty at the end", head, rows, True))
+    tables.append(for_page(saves_table(result)))
+    if rough := rough_bodies(result):
+        tables.append(for_page(roughness_table(result, rough)))
+    if lab.inferred:
+        tables.append(for_page(inferred_table(lab.inferred)))
+    if (fields := fields_table(result)) is not None:
+        tables.append(for_page(fields))
+    return tables
+
+
+def _ruled(result: Result) -> dict[str, Any]:
+    """Return which numbers of the case rule the largest depth, or why that is not known."""
+    try:
+        model = Simulation(result.case).model
+        found = sensitivity(model, result.saves()[0]["contact_half_width_x_m"])
+    except (CaseError, NumericalError) as error:
+        return {"why": str(error), "rows": []}
+    longest = max(map(abs, found.percent.values()), default=1.0)
+    rows = [
+        {"path": path, "percent": found.shown(path).replace("-", "−"), "size": size}
+        for path, percent in [*found.percent.items()][:MOST_NUMBERS]
+        for size in [round(100 * abs(percent) / longest)]
+    ]
+    return {"body": found.body, "of": found.of, "whence": found.whence, "rows": rows}
+
+
+def _uncertainty(row: Estimate) -> str:
+    found, value = row["uncertainty"], row["value"]
+    if found is None:
+        return "diverges"
+    percent = f" ({100 * found / abs(value):.2g} %)" if value else ""
+    return f"{amount(found, row['unit'])}{percent}"
+
+
+def _held(result: Result) -> str:
+    totals, worst = result.totals(), result.worst()
+    took = "" if result.wall_time is None else f" in {result.wall_time:.1f} s"
+    return (
+        f"{totals['steps']} steps and {totals['contact_solves']} contact solves{took}. At worst "
+        f"the load is off by {worst['force_error']:.1g}, the worn volume by "
+        f"{worst['volume_error']:.1g}, the gap under pressure is "
+        f"{worst['complementarity_error']:.1g}, the overlap {worst['penetration_error']:.1g}, all "
+        "relative. A step that exceeds the limits of these stops a run."
+    )
+
+
+def _is_whole(case: Mapping[str, Any]) -> bool:
+    return len(case["bodies"]) == 2 and {"load", "kinematics"} <= case.keys()
+
+
+def facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Return the numbers of a case in words, by what they are of."""
+    found = []
+    for name, body in case["bodies"].items():
+        own = [(part, words) for part, words in OF_A_BODY.items() if body.get(part)]
+        found += [(f"{name}, {part}", words(body[part])) for part, words in own]
+        for i, layer in enumerate(body.get("layers") or (), start=1):
+            found.append((f"{name}, layer {i} from the top", value_words(layer, Layer)))
+    found += [(part, words(case[part])) for part, words in OF_A_CASE.items() if case.get(part)]
+    grid = case.get("grid", {})
+    if "size" in grid and "cells" in grid:
+        size = " × ".join(f"{1e3 * edge:.4g}" for edge in grid["size"])
+        cells = " × ".join(map(str, grid["cells"]))
+        found.append(("window", f"{size} mm, {cells} cells"))
+    found += [("effect", component_words(effect)) for effect in case.get("effects") or ()]
+    return found
+
+
+def _provenance(result: Result) -> list[tuple[str, str]]:
+    made = result.provenance
+    packages = ", ".join(f"{name} {version}" for name, version in made["packages"].items())
+    rows = [("made with", f"Python {made['python']}, {packages}")]
+    for again in made.get("resumed_with", ()):
+        later = ", ".join(f"{name} {version}" for name, version in again["packages"].items())
+        rows.append(("gone on with", f"Python {again['python']}, {later}"))
+    if begun := made.get("begun_with"):
+        rows.append(("begun with", f"{begun['result']}, SHA-256 {begun['sha256']}"))
+    for place, origin in made["components"].items():
+        code = f", source code {origin['code'][:10]}" if origin["code"] else ""
+        whose = f"{origin['distribution']} {origin['version']}".strip()
+        of = f"{origin['class']} of {whose}" if whose else origin["class"]
+        facts = "".join(f"; {name}: {text}" for name, text in origin["facts"].items())
+        rows.append((place, f"{origin['type']}, {of}{code}{facts}"))
+    return rows
+
+
+def case_text(case: Mapping[str, Any]) -> str:
+    """Return a case as TOML, or a word on one that is too long for a report."""
+    text = to_toml(case)
+    if len(text) <= LONGEST_CASE:
+        return text
+    return (
+        f"# This case has {len(text):,} characters, with the heights of a surface in it; the "
+        "result file holds it whole.\n"
+    )

@@ -1,0 +1,142 @@
+"""The answer of a result in a sentence, with its uncertainty where that is known."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from tribo import CaseError, Result
+from tribo.kernel_api import LabReport
+
+from tribo_report.amounts import amount
+from tribo_report.printed import printed_by
+
+AGREES = 0.02
+"""Relative difference up to which a value is that of a study of the same case."""
+
+EXACT = 1e-6
+"""Relative uncertainty up to which none is quoted: Archard's law fixes the volume."""
+LEAST = 0.1
+"""Part of a unit from which a value is given in it, as in the tables."""
+VOLUMES = {"mm³": 1e-9}
+MASSES = {"mg": 1e-6}
+DEPTHS = {"µm": 1e-6, "nm": 1e-9}
+"""Sizes of the units in SI, largest first."""
+RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+
+Estimate = Mapping[str, Any]
+"""A row of ``tribo verify CASE --json``: name, unit, value and uncertainty."""
+
+
+def read_verified(path: Path, result: Result) -> Sequence[Estimate]:
+    """Return the estimates of a study that ``tribo verify CASE --json`` printed.
+
+    Raises
+    ------
+    CaseError
+        If there is no such file, it is not such a study, or one of another case than that
+        of `result`.
+    """
+    with printed_by("tribo verify CASE --json", path, "--verified"):
+        estimates = json.loads(path.read_text(encoding="utf-8"))["estimates"]
+        read = [
+            {key: row[key] for key in ("name", "unit", "value", "uncertainty")} for row in estimates
+        ]
+    for name, body in result.saves()[-1]["bodies"].items():
+        volume, found = body["wear_volume_m3"], _of(read, f"{name}: volume")
+        if found is None and volume == 0:
+            continue
+        if found is None or not math.isclose(volume, found["value"], rel_tol=AGREES):
+            other = "has none" if found is None else f"gives {found['value']:.4g} m³"
+            raise CaseError(
+                f"{path} is of another case: {name} of {result.name} lost {volume:.4g} m³, the "
+                f"study {other}",
+                "--verified",
+            )
+    return read
+
+
+def sentence(result: Result, lab: LabReport, verified: Sequence[Estimate]) -> str:
+    """Return what each body has lost, how deep, over which distance and under which load."""
+    last = result.saves()[-1]
+    losses = []
+    for name, report in lab.bodies.items():
+        volume, depth = (
+            last["bodies"][name][key] for key in ("wear_volume_m3", "max_wear_depth_m")
+        )
+        if volume == 0:
+            losses.append(f"the {name} lost nothing")
+            continue
+        words = f"the {name} lost {quoted(volume, VOLUMES, _of(verified, f'{name}: volume'))}"
+        if report.mass_kg is not None:
+            words += f" ({quoted(report.mass_kg, MASSES)})"
+        deepest = quoted(depth, DEPTHS, _of(verified, f"{name}: largest depth"))
+        losses.append(f"{words} and is worn {deepest} deep")
+    text = f"Over {last['distance_m']:.4g} m of sliding under {_range(result)} {', '.join(losses)}."
+    for name, body in result.case["bodies"].items():
+        text += _coating(result, name, len(body.get("layers") or ()))
+    if result.status != "done":
+        text += f" The run is {result.status}; this is its save at {last['time_s']:.4g} s."
+    return text
+
+
+def _coating(result: Result, name: str, layers: int) -> str:
+    """Say of a body's layers which was worn through, and when."""
+    if not layers:
+        return ""
+    passed = [each for each in result.worn_through if each["body"] == name]
+    what = "coating" if layers == 1 else f"coating ({layers} layers)"
+    if not passed:
+        return f" The {what} of the {name} is nowhere worn through."
+    last = passed[-1]
+    which = "" if layers == 1 else f" down to layer {last['layer']}"
+    return (
+        f" The {what} of the {name} is worn through{which} at its deepest point since "
+        f"{last['distance_m']:.4g} m."
+    )
+
+
+def quoted(value: float, units: Mapping[str, float], study: Estimate | None = None) -> str:
+    """Return a value with three digits, or with as many as its uncertainty leaves it."""
+    unit = next((each for each, least in units.items() if value >= least * LEAST), [*units][-1])
+    scale, power = units[unit], 0
+    # Three digits, with a power of ten where zeros would hide them.
+    if value and not 1e-4 <= value / scale < 1e5:
+        power = math.floor(math.log10(value / scale))
+    number = value / scale / 10.0**power
+    words = f"{number:.3g}" if number < 1e3 else f"{float(f'{number:.3g}'):,.0f}"
+    uncertain = None if study is None else study["uncertainty"]
+    if uncertain and uncertain > EXACT * value:
+        off = uncertain / scale / 10.0**power
+        decimals = max(-math.floor(math.log10(off)), 0)
+        words = f"{number:.{decimals}f} ± {off:.{decimals}f}"
+        words = f"({words})" if power else words
+    return f"{words} × 10{str(power).translate(RAISED)} {unit}" if power else f"{words} {unit}"
+
+
+def trust(verified: Sequence[Estimate]) -> str:
+    """Return what the numbers behind ± are, or how to get them."""
+    if verified:
+        return (
+            "± is the numerical uncertainty, of grid and time steps together, found on three grids "
+            "and with three lengths of step. It says nothing of the wear coefficient, nor of what "
+            "the model leaves out."
+        )
+    return (
+        "The numerical uncertainty of these values was not estimated. For it: tribo verify CASE "
+        "--json > study.json, then tribo report RESULT --verified study.json."
+    )
+
+
+def _range(result: Result) -> str:
+    """Return the load, or its range."""
+    loads = [save["load_N"] for save in result.saves()]
+    ends = [amount(load, "N") for load in (min(loads), max(loads))]
+    return " to ".join(dict.fromkeys(ends))
+
+
+def _of(estimates: Sequence[Estimate], name: str) -> Estimate | None:
+    return next((row for row in estimates if row["name"] == name), None)

@@ -1,0 +1,163 @@
+"""The report of a sweep."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from tribo import CaseError, Result
+from tribo.kernel_api import cell, curves_by, is_text, labelled, sweep_pictures, varied
+
+from tribo_report.page import check_installed, render, stills
+from tribo_report.reduced import each_plain
+from tribo_report.result import case_text, cited, facts
+from tribo_report.sentence import DEPTHS, VOLUMES, quoted
+from tribo_report.tables import PageTable
+
+RUNS, RESULTS = "runs.csv", "results"
+MOST_PICTURES = 4
+DECADE = 10.0
+MEASURES = ("wear_volume_m3", "max_wear_depth_m", "scar_across_m")
+
+
+def sweep_page(folder: Path) -> str:
+    """Return the report of the sweep in a folder as HTML; see `tribo.write_report`.
+
+    Raises
+    ------
+    CaseError
+        If there is no table of its runs, or none of them is done.
+    """
+    check_installed()
+    try:
+        runs = pd.read_csv(folder / RUNS)
+        done = runs[runs["status"] == "done"]
+        if done.empty:
+            raise CaseError(f"no run of {folder} is done; there is nothing to report")
+        # What is a number first: it makes the better axis.
+        names = sorted(varied(runs), key=partial(is_text, done))
+        first = done.iloc[0]["file"]
+    except (OSError, ValueError, KeyError) as error:
+        raise CaseError(f"{folder / RUNS} is not the table of a sweep: {error}") from error
+    with Result.open(folder / RESULTS / str(first)) as result:
+        bodies, citation, case = result.body_names, cited(result), result.case
+        made = ", ".join(f"{name} {v}" for name, v in result.provenance["packages"].items())
+    measures = [
+        column
+        for column in (*(f"bodies.{b}.{m}" for m in MEASURES for b in bodies), "max_pressure_Pa")
+        if column in done and np.any(done[column] != 0)
+    ]
+    pictures = sweep_pictures(done, names, measures[:MOST_PICTURES])
+    return render(
+        "study.html.j2",
+        kind="Sweep",
+        title=folder.name,
+        answers=list(_answers(done, len(runs), names, bodies)),
+        tables_title="The runs",
+        tables=[_table(runs, names, measures)],
+        remarks=[],
+        notes=list(_notes(runs)),
+        has_moments=False,
+        curves_title="What varies, and what comes of it",
+        stills=stills({_words(name, done): draw for name, draw in pictures.items()}),
+        always=False,
+        provenance=[("folder", str(folder.name)), ("made with", made)],
+        citation=citation,
+        case=case_text(case),
+        whose=f" of run {done.iloc[0]['run']}",
+        facts=facts(case),
+        data={"history": _curves(done, names, measures)},
+    )
+
+
+def _answers(
+    done: pd.DataFrame, count: int, varied: list[str], bodies: tuple[str, ...]
+) -> Iterator[str]:
+    """Say between which ends each body's wear lies, and in which runs."""
+    yield f"{len(done)} of {count} runs are done."
+    for body in bodies:
+        volumes = done[f"bodies.{body}.wear_volume_m3"]
+        if not volumes.max() > 0:
+            continue
+        ends = []
+        for index in (volumes.idxmin(), volumes.idxmax()):
+            row = done.loc[index]
+            depth = quoted(row[f"bodies.{body}.max_wear_depth_m"], DEPTHS)
+            where = ", ".join(
+                f"{_words(name, done)} {_with_unit(name, done, index)}" for name in varied
+            )
+            ends.append(
+                f"{quoted(row[f'bodies.{body}.wear_volume_m3'], VOLUMES)}, {depth} deep (run "
+                f"{row['run']}: {where})"
+            )
+        yield f"The {body} lost {' to '.join(dict.fromkeys(ends))}."
+
+
+def _notes(runs: pd.DataFrame) -> Iterator[str]:
+    """Say once what several runs tell with other numbers."""
+    told = runs[runs["message"].notna()]
+    alike = told["message"].str.replace(r"[\d.]+", "", regex=True)
+    for _, rows in told.groupby(alike, sort=False):
+        numbers, text = list(rows["run"]), rows["message"].iloc[0]
+        more = f" and {len(numbers) - 1} more" if len(numbers) > 1 else ""
+        yield f"run {numbers[0]}{more}: {text}"
+
+
+def _words(name: str, runs: pd.DataFrame) -> str:
+    return labelled(name, runs)[0].partition(" (")[0]
+
+
+def _with_unit(name: str, runs: pd.DataFrame, index: Any) -> str:
+    label, _ = labelled(name, runs)
+    unit = label.rpartition(" (")[2].removesuffix(")") if label.endswith(")") else ""
+    return f"{cell(name, runs, index)} {unit}".rstrip()
+
+
+def _table(runs: pd.DataFrame, varied: list[str], measures: list[str]) -> PageTable:
+    shown = ["run", *(["status"] if (runs["status"] != "done").any() else []), *varied, *measures]
+    rows = [[cell(name, runs, index) for name in shown] for index in runs.index]
+    return PageTable("Each run at its end", [labelled(n, runs)[0] for n in shown], rows, True)
+
+
+def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[str, Any]:
+    """Return what is measured over each quantity that varies, a curve for each of the others."""
+    axes = []
+    for across in varied:
+        label, factor = labelled(across, done)
+        groups, apart = _groups(
+            done.sort_values(across), [name for name in varied if name != across]
+        )
+        text = is_text(done, across)
+        low, high = (0.0, 0.0) if text else (done[across].min(), done[across].max())
+        panels = []
+        for name in measures:
+            words, size = labelled(name, done)
+            what, _, unit = words.rpartition(" (")
+            curves = [
+                {
+                    "name": called,
+                    "x": list(rows[across]) if text else each_plain(rows[across] / factor),
+                    "y": each_plain(rows[name] / size),
+                    "apart": apart,
+                }
+                for called, rows in groups.items()
+            ]
+            panel = {"name": what, "unit": unit.rstrip(")"), "log": False, "curves": curves}
+            panels.append(panel | {"note": "A mark for each run that is done, at its end."})
+        log = bool(low > 0 and high >= DECADE * low)
+        axes.append({"name": _words(across, done), "label": label, "log": log, "panels": panels})
+    return {"axes": axes}
+
+
+def _groups(runs: pd.DataFrame, others: list[str]) -> tuple[dict[str, pd.DataFrame], bool]:
+    """Return the runs of each curve by name, and whether their marks stand apart."""
+    names, joined = curves_by(runs, others)
+    parts = {
+        ", ".join(f"{_words(n, runs)} {_with_unit(n, runs, rows.index[0])}" for n in names): rows
+        for _, rows in (runs.groupby(names, sort=True) if names else [("", runs)])
+    }
+    return parts, not joined

@@ -1,0 +1,65 @@
+"""The report of a comparison."""
+
+import re
+
+import numpy as np
+import pytest
+import tribo
+from command_line import tribo as command
+from made_results import SHAPES, written
+from pages import Checked
+
+from tribo_report.curves import _panels
+
+
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("compared")
+    written(folder / "a.h5", times=(0.0, 200.0, 500.0))
+    written(folder / "b.h5", times=(0.0, 500.0), **SHAPES["line contact"])
+    return folder, command("report", "a.h5", "b.h5", cwd=folder)
+
+
+def test_it_says_how_far_the_second_is_off_the_first(ran):
+    folder, done = ran
+    assert done.returncode == 0, done.stderr
+    assert "Wrote a-b-report.html" in done.stdout
+    page = (folder / "a-b-report.html").read_text(encoding="utf-8")
+    assert len(page.encode()) < 4_000_000
+    Checked(page)
+    with tribo.compare([folder / "a.h5", folder / "b.h5"]) as comparison:
+        a, b = (comparison.save(label, 500.0)["bodies"]["ball"] for label in "ab")
+    off = 100 * (b["max_wear_depth_m"] / a["max_wear_depth_m"] - 1)
+    (answer, *_) = re.findall('<p class="answer">(.*?)</p>', page, re.S)
+    assert f"is worn {1e6 * a['max_wear_depth_m']:.3g} µm (b: {off + 0.0:+.1f} %) deep" in answer
+
+
+@pytest.mark.slow
+def test_the_files_of_a_folder_go_by_what_varies(tmp_path):
+    for load in ("50_N", "100_N"):
+        written(tmp_path / f"load.normal={load}.h5", times=(0.0, 500.0))
+    path = tribo.write_report(tmp_path, tmp_path / "report.html")
+    page = path.read_text(encoding="utf-8")
+    assert "<h1>load.normal: 100 N and 50 N</h1>" in page
+    assert "Varied: load.normal." in page
+    assert "with load.normal 100 N and is worn" in page
+
+
+def test_a_study_of_one_case_does_not_go_with_several_results(ran):
+    done = command("report", "a.h5", "b.h5", "--verified", "study.json", cwd=ran[0])
+    assert done.returncode == 2
+    assert "--verified: a study of one case goes with one result" in done.stderr
+
+
+def test_a_folder_without_results_is_told_and_none_is_made(tmp_path):
+    with pytest.raises(tribo.CaseError, match=r"there is no folder .*; make it first"):
+        tribo.write_report(tmp_path, tmp_path / "new" / "report.html")
+    with pytest.raises(tribo.CaseError, match="holds no result file"):
+        tribo.write_report(tmp_path, tmp_path / "report.html")
+
+
+def test_a_force_that_is_one_number_for_all_is_left_out():
+    path = {"distance_m": np.arange(2.0), "time_s": np.arange(2.0), "load_N": np.full(2, 5.0)}
+    tables = {name: path | {"friction_force_N": np.full(2, len(name))} for name in ("a", "bb")}
+    panels = _panels(tables, {"a": [0, 1], "bb": [0, 1]}, ())
+    assert [name for name, *_ in panels] == ["Friction force"]

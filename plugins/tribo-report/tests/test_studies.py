@@ -1,0 +1,167 @@
+"""The reports of a sweep and of a calibration."""
+
+import json
+import re
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+import tribo
+from command_line import tribo as command
+from made_results import written
+from pages import Checked
+from tribo.templates import template
+from tribo_inverse.calibration.maps import FittedMaps, LocalMap
+from tribo_inverse.map_tables import maps_json
+
+ESTIMATE = {
+    "path": "bodies.ball.wear.k",
+    "unit": "1/Pa",
+    "value": 7.08e-15,
+    "lower": 6.79e-15,
+    "upper": 7.36e-15,
+    "resolution_share": 0.9,
+    "resolution_limit": 0.05,
+    "held": False,
+}
+MEASURED = {
+    "test": "",
+    "body": "ball",
+    "quantity": "mass",
+    "time_s": None,
+    "position_m": None,
+    "place": "measured.0",
+    "unit": "kg",
+    "measured": 2e-6,
+    "below": False,
+    "sigma": 4e-8,
+    "computed": 2e-6,
+    "residual": 0.0,
+}
+FIT = {
+    "level": 0.95,
+    "runs": 3,
+    "parameters": [ESTIMATE, ESTIMATE | {"path": "bodies.disk.wear.k", "upper": None}],
+    "data": [MEASURED],
+    "predictions": [],
+    "chi_square": 0.0,
+    "degrees_of_freedom": 0,
+    "p_value": None,
+    "repeatability": 0.0,
+    "repeatability_estimated": False,
+    "correlation": [[1.0, 0.0], [0.0, 1.0]],
+    "singular_values": [49.0, 5.0],
+    "bic": 0.0,
+    "left_out": [None],
+    "notes": ["there are no more data than parameters"],
+    "fitted": {"": template("weighed_split")},
+}
+
+
+def answers(path):
+    page = path.read_text(encoding="utf-8")
+    Checked(page)
+    return re.findall('<p class="answer">(.*?)</p>', page, re.S)
+
+
+def test_a_sweep_tells_the_least_and_the_most_wear(tmp_path):
+    folder = tmp_path / "study-sweep"
+    (folder / "results").mkdir(parents=True)
+    rows = []
+    for run, (load, motion) in enumerate([(50.0, "a"), (100.0, "a"), (50.0, "b")], start=1):
+        written(folder / "results" / f"{run}.h5", times=(0.0, 100.0 * run))
+        with tribo.open(folder / "results" / f"{run}.h5") as result:
+            saves = {name: values[-1] for name, values in result.table("saves").items()}
+        varied = {"load.normal_N": load, "kinematics.type": motion}
+        rows.append({"run": run, "status": "done", **varied, **saves, "file": f"{run}.h5"})
+    rows.append({"run": 4, "status": "failed", "message": "too steep"})
+    pd.DataFrame(rows).to_csv(folder / "runs.csv", index=False)
+    done = command("report", "study-sweep", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    count, ball, _ = answers(tmp_path / "study-sweep-report.html")
+    assert count == "3 of 4 runs are done."
+    volumes = [f"{1e9 * row['bodies.ball.wear_volume_m3']:.3g}" for row in (rows[0], rows[2])]
+    assert f"The ball lost {volumes[0]} mm³" in ball
+    assert f"to {volumes[1]} mm³" in ball
+    assert "(run 3: load normal 50 N, kinematics type b)" in ball
+    assert "run 4: too steep" in (tmp_path / "study-sweep-report.html").read_text()
+
+
+def test_a_sweep_without_a_run_that_is_done_has_no_report(tmp_path):
+    (tmp_path / "runs.csv").write_text("run,status,time_s,file,message\n1,failed,,1.h5,too steep\n")
+    with pytest.raises(tribo.CaseError, match=r"no run of .* is done"):
+        tribo.write_report(tmp_path, tmp_path / "report.html")
+
+
+def test_a_calibration_tells_its_estimates(tmp_path):
+    (tmp_path / "fit.json").write_text(json.dumps(FIT))
+    done = command("report", "fit.json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    first, second = answers(tmp_path / "fit-report.html")
+    assert first == (
+        "bodies.ball.wear.k is 7.08e-15 1/Pa, between 6.79e-15 and 7.36e-15 with a probability "
+        "of 95 %."
+    )
+    assert second.endswith("the data do not bound it.")
+    page = (tmp_path / "fit-report.html").read_text(encoding="utf-8")
+    assert "is known to 2.0 %, the least known to 20 % (one standard deviation)" in page
+    assert "Correlation of bodies.ball.wear.k and bodies.disk.wear.k: 0.00." in page
+    assert "The case as fitted, to copy" in page
+    assert "sphere, radius 5 mm" in page
+    # Nothing to draw: Plotly is left out.
+    assert (tmp_path / "fit-report.html").stat().st_size < 200_000
+
+
+def test_where_data_and_model_disagree_the_report_begins_with_that(tmp_path):
+    (tmp_path / "fit.json").write_text(
+        json.dumps(FIT | {"chi_square": 402.0, "degrees_of_freedom": 1})
+    )
+    tribo.write_report(tmp_path / "fit.json", tmp_path / "report.html")
+    first, *_ = answers(tmp_path / "report.html")
+    assert first.startswith("Data and model disagree, p &lt; 1e-6: the values below are not to be ")
+
+
+def test_a_narrow_interval_is_told_with_digits_enough(tmp_path):
+    narrow = ESTIMATE | {"lower": 7.0795e-15, "upper": 7.0805e-15}
+    (tmp_path / "fit.json").write_text(json.dumps(FIT | {"parameters": [narrow]}))
+    tribo.write_report(tmp_path / "fit.json", tmp_path / "report.html")
+    (told,) = answers(tmp_path / "report.html")
+    assert "between 7.0795e-15 and 7.0805e-15 with" in told
+
+
+def test_another_json_file_is_refused(tmp_path):
+    (tmp_path / "other.json").write_text("{}")
+    with pytest.raises(tribo.CaseError, match="is not what 'tribo calibrate --json' prints"):
+        tribo.write_report(tmp_path / "other.json", tmp_path / "report.html")
+    with pytest.raises(tribo.CaseError, match=r"^.*none\.json: there is no such file$"):
+        tribo.write_report(tmp_path / "none.json", tmp_path / "report.html")
+
+
+def test_local_coefficients_are_told_with_their_fit(tmp_path):
+    """Half a coefficient in one cell of four; of one of them the data say nothing."""
+    logs, deviation = np.log([[1.0, 0.5], [1.2, 1.0]]), np.array([[0.1, 0.1], [0.1, 0.5]])
+    prior, depth = np.full((2, 2), 0.5), np.array([[1e-6, 5e-7], [1.2e-6, np.nan]])
+    found = FittedMaps(
+        maps={
+            "ball": LocalMap(
+                logs, deviation, prior, (1e-5, 1e-5), depth, 1e-6 + 0 * depth, 1e-8 + 0 * depth
+            )
+        },
+        gradients=3,
+        products=2,
+        chi_square=3.0,
+        degrees_of_freedom=1.5,
+    )
+    with (tmp_path / "maps.json").open("w") as file:
+        file.write(json.dumps(maps_json(found, 0.95)).replace("NaN", "null"))
+    path = tribo.write_report(tmp_path / "maps.json", tmp_path / "report.html")
+    (told,) = answers(path)
+    assert "The coefficient of the ball is 0.50 to 1.20 times that of the case" in told
+    assert "at 95 % it is lower in 33 % of these cells and higher in 0 %." in told
+    page = path.read_text(encoding="utf-8")
+    assert "ball: the data say nothing of 1 cells" in page
+    assert page.count("<figure") == 2
+    assert not found.is_refuted
+    assert replace(found, chi_square=30.0).is_refuted
+    assert not replace(found, chi_square=1e-7, degrees_of_freedom=1e-4).is_refuted

@@ -1,0 +1,243 @@
+"""`tribo scar`."""
+
+from __future__ import annotations
+
+import math
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+from tribo import CaseError
+from tribo.kernel_api import (
+    JSON,
+    PATH,
+    check_output,
+    digits_of,
+    echo_json,
+    located,
+    signed,
+    write_file,
+)
+
+if TYPE_CHECKING:
+    from tribo import Surface
+
+    from tribo_scar.measurement import MeasuredScar
+
+DEPTHS = ".npy"
+"""Suffix of a depth map."""
+LARGEST_PITCH = 1e-3
+"""That between two pixels, in m."""
+MOST_DIGITS = 6
+"""Digits of a size in the table, as of maps without noise."""
+UNITS = ("m", "mm", "um", "µm", "nm")
+"""Words that are parts of a length without quotes."""
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=PATH, metavar="[BEFORE] AFTER")
+@click.option("--ideal", metavar="SURFACE", help="Shape in place of BEFORE, as in a case.")
+@click.option("--pitch", multiple=True, metavar="LENGTH", help="Of pixels; twice for x and y.")
+@click.option("--radius", metavar="LENGTH", help="Of the ball, for a lab's formulas.")
+@click.option("--track-length", metavar="LENGTH", help="Of the whole track; the map's.")
+@click.option("--form", type=int, default=1, help="2 takes a curvature off too.")
+@click.option(
+    "-o",
+    "--output",
+    multiple=True,
+    type=PATH,
+    help="Picture to write, as scar.png, or the depth map, as depth.npy; several times for both.",
+)
+@JSON
+def scar(
+    files: tuple[Path, ...],
+    ideal: str | None,
+    pitch: tuple[str, ...],
+    radius: str | None,
+    track_length: str | None,
+    form: int,
+    output: tuple[Path, ...],
+    as_json: bool,
+) -> None:
+    """Measure a scar between two height maps, BEFORE and AFTER a test.
+
+    The maps are laid on each other (shift, rotation, tilt) by their unworn
+    surface, and subtracted. Files are NumPy, CSV or HDF5 with heights in m, which
+    need --pitch, or in a format that a plugin reads, such as tribo-topography. x is
+    the sliding direction; what is missing is NaN. With one file, --ideal gives the
+    shape before the test.
+
+    \b
+    Example:
+      tribo scar before.x3p after.x3p --radius '5 mm' -o scar.png -o depth.npy
+      tribo scar after.npy --pitch '1 um' --ideal '{ type = "sphere", radius = "5 mm" }'
+    """
+    from tribo import Quantity, read_heights
+    from tribo.kernel_api import Console
+
+    from tribo_scar.measurement import measured_scar
+
+    def length(option: str, text: str | None) -> float | None:
+        with located(option):
+            return None if text is None else Quantity("m", above=0).read(text)
+
+    for path in files:
+        if str(path) in UNITS and not path.exists():
+            raise CaseError(f"'{path}' is no file: quote a length, as --radius '5 {path}'")
+    for path in output:
+        check_output(path)
+        if path.resolve() in {each.resolve() for each in files}:
+            raise CaseError(f"{path} is a measured map; give another name", "--output")
+        if path.suffix.lower() != DEPTHS:
+            _check_picture(path)
+    if len(files) != (1 if ideal else 2):
+        count = "1 file is" if len(files) == 1 else f"{len(files)} files are"
+        raise CaseError(
+            f"{count} given; give the maps before and after, or the one after with "
+            "the shape before as --ideal"
+        )
+    if len(pitch) > 2:
+        raise CaseError("give one --pitch, or two, along x and along y")
+    steps = [length("--pitch", text) or 0.0 for text in pitch]
+    if steps and max(steps) > LARGEST_PITCH:
+        raise CaseError(
+            f"{1e3 * max(steps):g} mm is too much between two pixels, 1 mm at most; give it as "
+            "'1 um'",
+            "--pitch",
+        )
+    maps = [read_heights(path, (steps[0], steps[-1]) if steps else None) for path in files]
+    before, lengths = _surface(ideal) if ideal else maps[0], (radius, track_length)
+    ball, track = map(length, ("--radius", "--track-length"), lengths)
+    with Console(stderr=True).status("Laying the maps on each other, and measuring the scar"):
+        found = measured_scar(before, maps[-1], radius=ball, track_length=track, form=form)
+    written = [_write(found, path, maps[-1].heights.shape) for path in output]
+    if as_json:
+        echo_json(found.as_json() | {"written": list(map(str, written))})
+        return
+    _print(found)
+    for path in written:
+        click.echo(f"Wrote {path}")
+
+
+def _check_picture(path: Path) -> None:
+    """Check that pictures are written in the format that a name ends in."""
+    from tribo.kernel_api import picture_format
+
+    try:
+        picture_format(path.suffix or ".png")
+    except CaseError as error:
+        raise CaseError(f"{error}, or {DEPTHS} for the depth map", "--output") from None
+
+
+def _write(found: MeasuredScar, path: Path, shape: tuple[int, ...]) -> Path:
+    """Write the depth at each pixel of the map after, NaN where missing, or a picture.
+
+    Return the file.
+    """
+    if path.suffix.lower() == DEPTHS:
+        import numpy as np
+
+        # The middle of the map stays where it is, which is that of the contact in a fit.
+        depths = np.full(shape, np.nan)
+        depths[found.registration.part] = found.depths
+        image = BytesIO()
+        np.save(image, depths)
+        write_file(path, image.getbuffer())
+        return path
+    from tribo.kernel_api import measured_scar_map, write_figures
+
+    pictures = {path.stem: lambda: measured_scar_map(found)}
+    (picture,) = write_figures(pictures, path.parent, path.suffix or ".png")
+    return picture
+
+
+def _surface(text: str) -> Surface:
+    """Return the surface that an option gives as a case does."""
+    import tomllib
+
+    from pydantic import TypeAdapter, ValidationError
+    from tribo import Surface
+    from tribo.kernel_api import case_error, parse_value
+
+    if text.lstrip().startswith("{"):
+        try:
+            tomllib.loads(f"ideal = {text}")
+        except ValueError as error:
+            reason = str(error).partition(" (at")[0]
+            raise CaseError(
+                f"--ideal {text} is no TOML: {reason}; quote texts, and put commas between "
+                'entries, as in \'{ type = "sphere", radius = "5 mm" }\''
+            ) from None
+    try:
+        surface: Surface = TypeAdapter(Surface).validate_python(parse_value(text))
+    except ValidationError as error:
+        raise CaseError(f"--ideal {case_error(error)}") from None
+    return surface
+
+
+def _width(
+    found: MeasuredScar, width: float | None, uncertainty: float | None
+) -> tuple[float | str, float | None]:
+    """Return a width and its uncertainty as the table has them, in mm."""
+    if width is None or uncertainty is None:
+        return "cut off" if found.cut_off else "several scars", None
+    return ("whole map", None) if math.isinf(width) else (1e3 * width, 1e3 * uncertainty)
+
+
+def _with_error(value: float, error: float) -> str:
+    """Return a value to two digits of its uncertainty."""
+    decimals = max(0, 1 - math.floor(math.log10(error))) if error else 3
+    return f"{signed(value, decimals)} ± {error:.{decimals}f}"
+
+
+def _print(found: MeasuredScar) -> None:
+    from tribo.kernel_api import Console, inferred_table, titled
+
+    laid, console = found.registration, Console()
+    table = titled("Scar, with standard uncertainties", "", "±")
+    relative = found.volume_uncertainty / found.volume
+    rows: list[tuple[str, float | str | None, float | None]] = [
+        ("volume in the map, mm³", 1e9 * found.volume, 1e9 * found.volume_uncertainty),
+        ("largest depth, µm", 1e6 * found.depth, 1e6 * found.depth_uncertainty),
+        ("along sliding, mm", *_width(found, found.along, found.along_uncertainty)),
+        ("across, mm", *_width(found, found.across, found.across_uncertainty)),
+        *(
+            (name, size * value, relative * size * value)
+            for name, size, value in (
+                ("mean section, mm²", 1e6, found.section),
+                ("volume of the track, mm³", 1e9, found.track_volume),
+            )
+            if value is not None
+        ),
+        ("piled up, mm³", 1e9 * found.piled_up or None, 1e9 * found.piled_up_uncertainty),
+        ("missing in it, %", 100 * found.missing or None, None),
+        ("outliers in both maps", str(found.outliers) if found.outliers else None, None),
+    ]
+    for name, value, error in rows:
+        if isinstance(value, float) and error is not None:
+            digits = min(digits_of(value - error, value + error), MOST_DIGITS)
+            table.add_row(name, f"{value:#.{digits}g}", f"{error:#.2g}")
+        elif value is not None:
+            table.add_row(name, value if isinstance(value, str) else f"{value:.3g}", "")
+    console.print(table)
+    if found.inferred:
+        console.print(inferred_table(found.inferred))
+    told, untold = [], []
+    for name, words, size, off, sure in (
+        ("the shift along x", "{} µm along x", 1e6, laid.shift[0], laid.shift_uncertainty[0]),
+        ("the shift along y", "{} µm along y", 1e6, laid.shift[1], laid.shift_uncertainty[1]),
+        ("the rotation", "turned by {} mrad", 1e3, laid.rotation, laid.rotation_uncertainty),
+    ):
+        if math.isinf(sure):
+            untold.append(name)
+        else:
+            told.append(words.format(_with_error(size * off, size * sure)))
+    if told:
+        console.print(f"In the map after all lies {', '.join(told)}.", markup=False)
+    if untold:
+        console.print(
+            f"The unworn surface does not tell {', '.join(untold)}: it is smooth, or not the same "
+            "in both maps."
+        )
+    console.print(f"Noise of the unworn difference {1e9 * laid.noise:.3g} nm.", markup=False)

@@ -1,0 +1,208 @@
+"""Warnings of what looks wrong with the maps of a scar."""
+
+from __future__ import annotations
+
+import math
+import warnings
+
+import numpy as np
+import scipy.ndimage as ndimage
+from tribo import Array, CaseError, Heights, Sphere, TriboWarning
+from tribo.kernel_api import Mask, without_form
+
+from tribo_scar.alignment import same_pitch
+from tribo_scar.registration import variance_inflation
+
+ZEROS = 10
+"""Ratio of the number of zeros to that of any other height above which zeros may be missing
+values."""
+CURVED = 20.0
+"""Sag of the map, relative to its relief, from which on the radius of its surface is known."""
+FEWEST = 100
+"""Pixels beside a scar that a form is looked for in."""
+ORDER = 4
+"""Order of the polynomial that a form is looked for by."""
+BENT = 40.0
+"""χ² of its 12 terms beyond a tilt, which chance exceeds once in 10⁴ maps."""
+FLAT = 20.0
+"""Radius of a surface over a ball's, from which on it is not the ball's."""
+GAP = 0.15
+"""Part of the volume in one gap of the map from which on it is told."""
+WIDE = 5
+"""Pixels of a gap along x and y at least."""
+RADIUS_OFF = 0.05
+"""Relative difference of a radius that is told."""
+
+
+def warn_of_zeros(heights: Heights, which: str) -> None:
+    """Warn of many heights of exactly 0, which may stand for missing values."""
+    known = heights.heights[np.isfinite(heights.heights)]
+    values, counts = np.unique(known, return_counts=True)
+    if values.size == 1:
+        words = f"every height of the map {which} is {known[0]:g} m"
+        if which == "after":
+            raise CaseError(f"{words}: nothing was measured; save it again")
+        warnings.warn(
+            f"{words}, an ideal flat; if it was measured, save it again", TriboWarning, stacklevel=3
+        )
+    zeros, others = (int(np.max(counts[each], initial=0)) for each in (values == 0, values != 0))
+    if zeros > ZEROS * others and 2 * zeros < known.size:
+        warnings.warn(
+            f"{zeros} heights of the map {which} are exactly 0; put NaN where nothing was measured",
+            TriboWarning,
+            stacklevel=3,
+        )
+
+
+def warn_of_outliers(count: int, which: str) -> None:
+    """Warn that pixels of a map were left out."""
+    warnings.warn(
+        f"{count} pixels of the map {which} are outliers: they lie far from all but one of their "
+        "neighbours, and are taken as missing",
+        TriboWarning,
+        stacklevel=4,
+    )
+
+
+def check_scales(before: Heights, after: Heights) -> None:
+    """Refuse maps of which one has a whole part of the other's pixels along both axes."""
+    ratios = np.divide(before.heights.shape, after.heights.shape)
+    for ratio in (ratios, 1 / ratios):
+        whole = round(float(ratio[0]))
+        if whole > 1 and np.all(ratio == whole) and same_pitch(before.pitch, after.pitch):
+            raise CaseError(
+                f"one map has {whole} times as many pixels along both axes as the other, and the "
+                "same pitch: if both show the same area, average the finer one over blocks, or "
+                "state each pitch in its file; else cut the larger one"
+            )
+
+
+def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
+    """Warn if what is unworn differs by a form, beyond what relief and noise make of it.
+
+    Not if its standard deviation is below the uncertainty `sure` of the scar's mean depth, in m.
+    A form of the order `form` was taken off.
+    """
+    if _is_covered(unworn):
+        warnings.warn(
+            f"fewer than {FEWEST} pixels lie beside the scar, which its depths are measured "
+            "against; measure a larger area, or with smaller pixels",
+            TriboWarning,
+            stacklevel=3,
+        )
+        return
+    rest = without_form(unworn, ORDER)
+    left, count = float(np.nanvar(rest)), np.count_nonzero(np.isfinite(unworn))
+    by_chance = BENT * left * variance_inflation(rest) / count
+    if np.nanvar(unworn) - left > max(by_chance, sure**2):
+        doubt = (
+            "check the shape given and the pitch"
+            if ideal
+            else "check that the maps belong together"
+        )
+        what, off = (
+            ("tilt", ", or take a curvature off with form 2") if form == 1 else ("curvature", "")
+        )
+        warnings.warn(
+            f"the unworn surfaces differ by more than a {what}: {doubt}{off}; volume and depth are "
+            "off by more than their uncertainties",
+            TriboWarning,
+            stacklevel=3,
+        )
+
+
+def _is_covered(unworn: Array) -> bool:
+    """Whether a scar covers as good as all of a map."""
+    return bool(np.count_nonzero(np.isfinite(unworn)) < FEWEST)
+
+
+def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
+    """Whether the unworn surface may be that of a ball; warn if not, or of another radius."""
+    unworn = np.where(scar, np.nan, after.heights)
+    if _is_covered(unworn):
+        # It is not known.
+        return True
+    rest = without_form(unworn)
+    found, noise = radius_across(unworn - rest, after.pitch), float(np.nanstd(rest))
+    sag = after.grid.size[1] ** 2 / (8 * min(radius, found))
+    if sag <= CURVED * noise:
+        return True
+    found *= radius / _of_ball(after, scar, radius)
+    if found > FLAT * radius:
+        warnings.warn(
+            f"the unworn surface is as good as flat, and the ball has a radius of "
+            f"{1e3 * radius:.4g} mm: the formulas for a scar on a ball are left out",
+            TriboWarning,
+            stacklevel=3,
+        )
+        return False
+    if abs(math.log(found / radius)) > RADIUS_OFF:
+        warnings.warn(
+            f"the unworn surface has a radius of {1e3 * found:.4g} mm, and the ball one of "
+            f"{1e3 * radius:.4g} mm: check radius and pitch",
+            TriboWarning,
+            stacklevel=3,
+        )
+    return True
+
+
+def _of_ball(after: Heights, scar: Mask, radius: float) -> float:
+    """Return the radius that a ball's surface is read to have, which is less where it is steep."""
+    try:
+        ball = np.where(scar, np.nan, Sphere(radius=radius).height(after.grid))
+    except CaseError:
+        return radius
+    return radius_across(ball - without_form(ball), after.pitch)
+
+
+def warn_of_gap(scar: Mask, known: Mask, depth: Array) -> None:
+    """Warn of a large gap in a scar, which may be the middle of a ring."""
+    # Not of pixels that are missing here and there, however many.
+    gaps, count = ndimage.label(ndimage.binary_opening(scar & ~known, np.ones((WIDE, WIDE))))
+    volumes = ndimage.sum(depth, gaps, np.arange(1, count + 1))
+    part = float(np.max(volumes, initial=0.0) / np.sum(depth[scar]))
+    if part > GAP:
+        warnings.warn(
+            f"{100 * part:.0f} % of the volume lie in one gap of what was measured, by the depths "
+            "around it: too much if it is not worn there, as in the middle of a circular track",
+            TriboWarning,
+            stacklevel=3,
+        )
+
+
+def warn_of_edge(*, within: bool) -> None:
+    """Warn that an edge cuts a scar off, that of the map, or of a gap, or `within` it."""
+    warnings.warn(
+        f"the edge of {'the area common to both maps' if within else 'what was measured'} cuts the "
+        "scar off: volume and depth are those of the part within, widths and formulas are left "
+        f"out; measure a larger area{', the same before and after' if within else ''}",
+        TriboWarning,
+        stacklevel=3,
+    )
+
+
+def warn_of_several(count: int) -> None:
+    """Warn that several areas are worn."""
+    warnings.warn(
+        f"{count} areas are worn: volume is that of all, depth that of the deepest, and widths and "
+        "formulas are left out; cut the maps to one of them for these",
+        TriboWarning,
+        stacklevel=3,
+    )
+
+
+def warn_of_ring() -> None:
+    """Warn that a scar encloses what is not worn."""
+    warnings.warn(
+        "the scar encloses what is not worn, as a whole circular track does: widths are those of "
+        "its outline, the largest depth is rough, and formulas are left out; cut the maps to a "
+        "part of the track for these",
+        TriboWarning,
+        stacklevel=3,
+    )
+
+
+def radius_across(form: Array, pitch: tuple[float, float]) -> float:
+    """Return the radius of the form of a surface across the sliding direction, in m."""
+    bend = float(np.nanmean(np.diff(form, 2, axis=1))) / pitch[1] ** 2
+    return math.inf if bend >= 0 else -1 / bend

@@ -1,0 +1,369 @@
+"""Volume, depth and widths of a scar from height maps before and after a test."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+import scipy.ndimage as ndimage
+from tribo import Array, CaseError, Heights, Sphere, Surface, TriboWarning
+from tribo.kernel_api import (
+    UNWORN,
+    InferredVolume,
+    Mask,
+    Scar,
+    ball_volumes,
+    circular_groove_area,
+    inferred,
+    outliers,
+    planimetric_volume,
+    reciprocating_track_volume,
+    without_form,
+)
+
+from tribo_scar.depth import deepest, sum_uncertainty
+from tribo_scar.findings import (
+    check_scales,
+    may_be_ball,
+    radius_across,
+    warn_of_edge,
+    warn_of_form,
+    warn_of_gap,
+    warn_of_outliers,
+    warn_of_ring,
+    warn_of_several,
+    warn_of_zeros,
+)
+from tribo_scar.registration import Registration, register
+from tribo_scar.widths import LINES, Width, scar_width
+from tribo_scar.worn_area import MARGIN, WornArea, worn_area
+
+MOST = 0.65
+"""Part of the map that a scar may cover, with its margin."""
+FEW_PIXELS = 64
+"""Pixels along an edge of a map below which the margin of a scar is much of it."""
+PIT = 0.03
+"""Part of the map below which what differs beside the scar is a pit or a scratch."""
+LITTLE = 2e-3
+"""Part of a volume that does not matter."""
+SHORTER = 0.95
+"""Length of a track over that within the map, below which it is refused."""
+SURE = 0.3
+"""Part of the largest depth from which on a pixel tells the shape of the worn surface."""
+
+
+@dataclass(frozen=True)
+class MeasuredScar:
+    """Sizes of a measured scar with standard uncertainties, and volumes by formulas.
+
+    Parameters
+    ----------
+    registration : Registration
+        Registration of the maps, with the depth map, on their common area.
+    after : Heights
+        The map after the test, on the common area.
+    scar, piled : ndarray of bool, shape (nx, ny)
+        The pixels of the scar, and those of what is piled up beside it.
+    volume, volume_uncertainty : float
+        Volume of the scar within the map, in m³.
+    piled_up, piled_up_uncertainty : float
+        Volume above the surface before, within the map, in m³.
+    depth, depth_uncertainty : float
+        Largest depth, of a paraboloid through the bottom of the scar, in m.
+    along, across : float
+        Widths along and across the sliding direction, in m; infinite for a track, which reaches
+        both edges of the map, and None for one that is cut off and for several.
+    along_uncertainty, across_uncertainty : float
+        Standard uncertainties of these, by noise and by how far the edge is from a parabola.
+    cut_off : bool
+        Whether the scar goes on beyond the edge of the map, other than at the ends of a track.
+    missing : float
+        Part of the scar's pixels that are missing; their depth is interpolated.
+    outliers : int
+        Pixels of both maps that are outliers, taken as missing.
+    section : float or None
+        Mean cross-section of a track, across its direction, in m²; None for a scar that ends within
+        the map.
+    track_volume : float or None
+        Of the whole track, its mean section times its length (ASTM G133, D7755), in m³; None where
+        that is not given, and for a scar that ends within the map.
+    inferred : tuple of InferredVolume
+        Volumes by formulas, and their difference from the measured one.
+    """
+
+    registration: Registration
+    after: Heights
+    scar: Mask
+    piled: Mask
+    volume: float
+    volume_uncertainty: float
+    piled_up: float
+    piled_up_uncertainty: float
+    depth: float
+    depth_uncertainty: float
+    along: float | None
+    along_uncertainty: float | None
+    across: float | None
+    across_uncertainty: float | None
+    cut_off: bool
+    missing: float
+    outliers: int
+    section: float | None
+    track_volume: float | None
+    inferred: tuple[InferredVolume, ...]
+
+    @property
+    def depths(self) -> Array:
+        """The depth map, shape (nx, ny), in m; NaN where missing."""
+        return self.registration.depth
+
+    @property
+    def is_track(self) -> bool:
+        """Whether it reaches two opposite edges of the map."""
+        return math.inf in (self.along, self.across)
+
+    def as_json(self) -> dict[str, Any]:
+        """Return it as plain data, in SI units, without the maps."""
+        found, turned = self.registration, self.registration.rotation_uncertainty
+        return {
+            "volume_m3": self.volume,
+            "volume_uncertainty_m3": self.volume_uncertainty,
+            "piled_up_m3": self.piled_up,
+            "piled_up_uncertainty_m3": self.piled_up_uncertainty,
+            "depth_m": self.depth,
+            "depth_uncertainty_m": self.depth_uncertainty,
+            "along_m": self.along,
+            "along_uncertainty_m": self.along_uncertainty,
+            "across_m": self.across,
+            "across_uncertainty_m": self.across_uncertainty,
+            "is_track": self.is_track,
+            "cut_off": self.cut_off,
+            "section_m2": self.section,
+            "track_volume_m3": self.track_volume,
+            "missing": self.missing,
+            "outliers": self.outliers,
+            "noise_m": found.noise,
+            "shift_m": [
+                shift if math.isfinite(sure) else None
+                for shift, sure in zip(found.shift, found.shift_uncertainty, strict=True)
+            ],
+            "shift_uncertainty_m": list(found.shift_uncertainty),
+            "rotation_rad": found.rotation if math.isfinite(turned) else None,
+            "rotation_uncertainty_rad": turned,
+            "inferred_volumes": [each._asdict() for each in self.inferred],
+        }
+
+
+def measured_scar(
+    before: Heights | Surface,
+    after: Heights,
+    *,
+    radius: float | None = None,
+    track_length: float | None = None,
+    form: int = 1,
+) -> MeasuredScar:
+    """Measure the scar between height maps before and after a test.
+
+    Parameters
+    ----------
+    before : Heights or Surface
+        The surface before the test, measured or ideal.
+    after : Heights
+        The surface after the test, x along the sliding direction.
+    radius : float, optional
+        Radius of the ball, in m, for the formulas that need it; for a scar on an ideal
+        sphere that of the sphere by default.
+    track_length : float, optional
+        Length of the whole track, in m: the stroke, or 2πr. By default its length in the map.
+    form : int, optional
+        Order of the polynomial form that is removed from the difference: 1 for tilt, 2 for
+        curvature as well, as of an instrument, or of a ball whose radius is uncertain.
+
+    Raises
+    ------
+    CaseError
+        If the maps cannot be registered (see `register`), or nothing is worn.
+
+    Examples
+    --------
+    >>> import tribo
+    >>> maps = [tribo.read_heights(f, (1e-6, 1e-6)) for f in ("a.npy", "b.npy")]  # doctest: +SKIP
+    >>> tribo.measured_scar(*maps, radius=5e-3).volume  # doctest: +SKIP
+    """
+    if form not in (1, 2):
+        raise CaseError(f"form is 1 (a tilt) or 2 (a curvature as well), not {form}", "form")
+    ideal, count_of_outliers = isinstance(before, Surface), 0
+    own_radius = before.radius if isinstance(before, Sphere) else None
+    if isinstance(before, Surface):
+        try:
+            before = Heights(before.height(after.grid), after.pitch)
+        except CaseError as error:
+            raise CaseError(
+                f"the shape before does not cover the map after ({error}); correct it, or the pitch"
+            ) from None
+    else:
+        if np.array_equal(before.heights, after.heights, equal_nan=True):
+            raise CaseError("the maps before and after are the same; give two that differ")
+        check_scales(before, after)
+        warn_of_zeros(before, "before")
+        before, count_of_outliers = _without_outliers(before, "before")
+    warn_of_zeros(after, "after")
+    after, count = _without_outliers(after, "after")
+    found = register(before, after, form)
+    shape = after.heights.shape
+    after = Heights(after.heights[found.part], after.pitch)
+    covered = float(np.mean(found.worn))
+    if covered > MOST:
+        few = ", or with smaller pixels" if min(shape) < FEW_PIXELS else ""
+        raise CaseError(
+            f"{100 * covered:.0f} % of the {shape[0]} × {shape[1]} pixels differ, or lie within a "
+            "few of those that do, too much to register the maps by the rest; measure a larger "
+            f"area, half of it unworn{few}"
+        )
+    worn = worn_area(found, after.pitch, ideal=ideal)
+    smooth, depth, known, scar = worn.smooth, worn.depth, worn.known, worn.scar
+    area = after.grid.cell_area
+    volume = area * float(np.sum(depth[scar]))
+    volume_uncertainty = area * sum_uncertainty(found, scar)
+    # Where the maps were laid on each other may leave out what a curvature lifts.
+    beside = np.where(scar | worn.piled | _small(found.worn), np.nan, found.depth)
+    sure = max(volume_uncertainty, LITTLE * volume) / (area * np.count_nonzero(scar))
+    warn_of_form(beside, sure, form, ideal=ideal)
+    if worn.cut_off:
+        warn_of_edge(within=max(np.subtract(shape, found.depth.shape)) > MARGIN)
+    else:
+        warn_of_gap(scar, known, depth)
+    several = 1 if worn.track else worn.count
+    if several > 1:
+        warn_of_several(several)
+    if worn.is_ring:
+        warn_of_ring()
+    sizes = _Sizes()
+    if several == 1 and not worn.cut_off:
+        ball = own_radius if radius is None and not worn.track else radius
+        sizes = _sizes(found, worn, after, volume, ball, track_length)
+    if track_length is not None and sizes.track_volume is None:
+        warnings.warn(
+            "track_length: no track from edge to edge of the map was found",
+            TriboWarning,
+            stacklevel=2,
+        )
+    largest, largest_uncertainty = deepest(found, smooth, worn.core, worn.noise)
+    (along, along_uncertainty), (across, across_uncertainty) = sizes.along, sizes.across
+    return MeasuredScar(
+        registration=found,
+        after=after,
+        scar=scar,
+        piled=worn.piled,
+        volume=volume,
+        volume_uncertainty=volume_uncertainty,
+        piled_up=-area * float(np.sum(depth[worn.piled])),
+        piled_up_uncertainty=area * sum_uncertainty(found, worn.piled),
+        depth=largest,
+        depth_uncertainty=largest_uncertainty,
+        along=along,
+        along_uncertainty=along_uncertainty,
+        across=across,
+        across_uncertainty=across_uncertainty,
+        cut_off=worn.cut_off,
+        missing=float(np.mean(~known[scar])),
+        outliers=count_of_outliers + count,
+        section=sizes.section,
+        track_volume=sizes.track_volume,
+        inferred=tuple(sizes.formulas),
+    )
+
+
+def _without_outliers(measured: Heights, which: str) -> tuple[Heights, int]:
+    """Return a map with its outliers missing, and their number."""
+    unlike = outliers(measured.heights)
+    if not unlike.any():
+        return measured, 0
+    count = int(np.count_nonzero(unlike))
+    warn_of_outliers(count, which)
+    return Heights(np.where(unlike, np.nan, measured.heights), measured.pitch), count
+
+
+def _small(marked: Mask) -> Mask:
+    """Return the small ones of some areas: pits and scratches."""
+    places, count = ndimage.label(marked)
+    small: Mask = np.bincount(places.ravel(), minlength=count + 1)[places] < PIT * marked.size
+    return marked & small
+
+
+class _Sizes(NamedTuple):
+    """Widths of a scar, section and volume of a track, and volumes by formulas; None if unknown."""
+
+    along: Width | tuple[None, None] = (None, None)
+    across: Width | tuple[None, None] = (None, None)
+    section: float | None = None
+    track_volume: float | None = None
+    formulas: Sequence[InferredVolume] = ()
+
+
+def _sizes(
+    found: Registration,
+    worn: WornArea,
+    after: Heights,
+    volume: float,
+    radius: float | None,
+    track_length: float | None,
+) -> _Sizes:
+    """Return the sizes of one scar that lies in the map."""
+    if worn.track and worn.length:
+        section, length = volume / worn.length, track_length or worn.length
+        if length < SHORTER * worn.length:
+            raise CaseError(
+                f"{1e3 * length:.4g} mm is too short: the track is {1e3 * worn.length:.4g} mm long "
+                "within the map alone; give the length of all of it",
+                "track_length",
+            )
+        whole = planimetric_volume(section, length)
+        formulas = _track_volumes(whole, worn.track.value, length, radius)
+        ends = (Width(math.inf, 0.0), worn.track)
+        along, across = ends if worn.is_open[0] else ends[::-1]
+        return _Sizes(along, across, section, whole if track_length else None, formulas)
+    # Correlated noise does not average out over neighbours.
+    of_lines = found.noise * math.sqrt(min(found.variance_inflation / LINES, 1.0))
+    noise, smooth = (of_lines, worn.noise), worn.smooth
+    along, across = (
+        scar_width(found.depth, smooth, worn.scar, noise, axis, after.pitch[axis])
+        for axis in (0, 1)
+    )
+    if radius is None or worn.is_ring:
+        return _Sizes(along, across)
+    sizes = Scar(along.value, across.value)
+    _check_width(max(sizes), radius)
+    if not may_be_ball(after, worn.scar, radius):
+        return _Sizes(along, across)
+    # Smoothing widens the core beyond what is worn.
+    sure = worn.core & (smooth > SURE * np.max(smooth[worn.core]))
+    bottom = np.where(sure, after.heights, np.nan)
+    groove = radius_across(bottom - without_form(bottom), after.pitch)
+    return _Sizes(along, across, formulas=ball_volumes("ball", sizes, radius, groove, volume))
+
+
+def _track_volumes(
+    measured: float, width: float, length: float, radius: float | None
+) -> list[InferredVolume]:
+    """Return the volumes of a track by formulas, for the ball that made it."""
+    if radius is None:
+        return []
+    _check_width(width, radius)
+    area = circular_groove_area(width, radius)
+    ends = reciprocating_track_volume(width, radius, length)
+    found = [(UNWORN, "ASTM G99", area * length), ("the same, with ends", "ASTM G133", ends)]
+    return [inferred("track", *each, measured) for each in found]
+
+
+def _check_width(width: float, radius: float) -> None:
+    if not 0 < width < 2 * radius:
+        raise CaseError(
+            f"a ball of {1e3 * radius:.4g} mm radius cannot have a scar {1e3 * width:.4g} mm wide; "
+            "correct radius or pitch",
+            "radius",
+        )
