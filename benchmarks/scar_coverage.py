@@ -14,8 +14,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import scipy.ndimage as ndimage
+from tribo_scar import measured_scar
 
-from tribo import Heights, TriboError, TriboWarning, measured_scar
+from tribo import Heights, TriboError, TriboWarning
 
 PITCHES = 1e-6, 2e-6, 4e-6
 NOISES = 10e-9, 30e-9

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 from importlib import metadata
 from pathlib import Path
@@ -71,5 +72,11 @@ napoleon_use_rtype = False
 
 
 def setup(app: Sphinx) -> None:
-    """Write the reference pages anew from the code, before anything is read."""
-    app.connect("builder-inited", lambda _: reference.write(DOCS / "_generated"))
+    """Write the reference pages anew, and bring those of packages, before anything is read."""
+    app.connect("builder-inited", lambda _: _prepare())
+
+
+def _prepare() -> None:
+    reference.write(DOCS / "_generated")
+    for page in (DOCS.parent / "plugins").glob("*/docs/*.md"):
+        shutil.copy(page, DOCS / page.name)

@@ -9,6 +9,7 @@ import pytest
 import tribo
 
 ROOT = Path(tribo.__file__).parent
+PLUGINS = ROOT.parent / "plugins"
 
 # A package may import those of its own rank or below.
 RANK = {
@@ -100,6 +101,15 @@ def test_imports_go_one_way(path):
 def test_models_use_only_what_a_stranger_may(path):
     package = path.relative_to(ROOT).parts[0]
     assert packages(path) <= {"core", "component", "closed_forms", "result", package}
+
+
+@pytest.mark.parametrize(
+    "path",
+    sorted(PLUGINS.glob("*/src/**/*.py")),
+    ids=lambda p: p.name,
+)
+def test_packages_use_what_the_kernel_hands_out(path):
+    assert imports(path) <= {"tribo.kernel_api"}
 
 
 def test_every_package_has_a_rank():

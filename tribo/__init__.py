@@ -5,29 +5,21 @@ lies in its modules is not part of the contract. Names are imported when first
 used, so that ``import tribo`` stays fast; ``__init__.pyi`` lists them.
 """
 
-from functools import cache
-from importlib import import_module
+from tribo.core.lazy import lazy
+from tribo.packages import NAMES, how_to_install
 
-
-@cache
-def _homes() -> dict[str, str]:
-    """Return the module of each name."""
-    # `python -m tribo` begins with this file, and a folder that it was started in may have others.
-    import re
-    from pathlib import Path
-
-    stub = Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8")
-    return {name: module for module, name in re.findall(r"from (\S+) import (\w+)", stub)}
+_get = lazy(__name__, __file__)
 
 
 def __getattr__(name: str) -> object:
-    homes = _homes()
-    if name == "__all__":
-        return [*homes]
-    if name in homes:
-        return getattr(import_module(homes[name]), name)
-    raise AttributeError(f"module 'tribo' has no attribute {name!r}")
+    if name in NAMES:
+        package = NAMES[name]
+        raise ImportError(
+            f"{name!r} comes with {package}: {how_to_install(package)}, and "
+            f"from {package.replace('-', '_')} import {name}"
+        )
+    return _get(name)
 
 
 def __dir__() -> list[str]:
-    return sorted(_homes())
+    return sorted(_get("__all__"))

@@ -20,12 +20,13 @@ from pydantic_core import PydanticUndefined
 import tribo
 import tribo.units
 from tribo.case import Body, Case
-from tribo.cli.commands import OWN, imported, own_command
+from tribo.cli.commands import imported, offered
 from tribo.cli.main import tribo as command_line
 from tribo.component import Component
 from tribo.core.dimensions import _SYMBOLS, _UNPREFIXED, PREFIXES
 from tribo.core.errors import TriboError
 from tribo.core.units import _KINDS, Quantity
+from tribo.packages import COMMANDS
 from tribo.registry import hookspecs
 from tribo.registry.kinds import KINDS
 from tribo.registry.registry import Registry
@@ -130,9 +131,11 @@ def units_table() -> Iterator[str]:
 
 def commands_page() -> Iterator[str]:
     """Yield the help of every command."""
-    for name in OWN:
-        command = imported(own_command(name))
+    for name, entry in offered().items():
+        command = imported(entry)
         yield f"## `tribo {name}`\n"
+        if name in COMMANDS:
+            yield f"It comes with {COMMANDS[name][0]}.\n"
         parts = [[name]]
         if isinstance(command, click.Group):
             parts += [[name, part] for part in command.commands]

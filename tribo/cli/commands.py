@@ -24,7 +24,6 @@ OWN = {
     "resume": "Go on with a run that was stopped.",
     "compare": "Run variants of a case, or take results, side by side.",
     "calibrate": "Fit a case to measured wear.",
-    "scar": "Measure a scar between two height maps.",
     "show": "Print a result as a table or as JSON.",
     "plot": "Draw the pictures of a result.",
     "report": "Write a result as one HTML file to hand on.",

@@ -16,6 +16,7 @@ from tribo.cli.interrupts import no_interrupt_lost
 from tribo.cli.streams import Output, Remarks, over, say
 from tribo.core.errors import CaseError, Interrupted, ReaderGone, TriboError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
+from tribo.packages import COMMANDS, how_to_install
 
 GLOBAL = ("--no-plugin", "--plugins")
 
@@ -31,15 +32,27 @@ class LazyGroup(click.Group):
         """Import the command's module, and return the command in it."""
         if cmd_name in OWN:
             return imported(own_command(cmd_name))
-        if cmd_name not in offered():
-            near = suggestion(did_you_mean(cmd_name, offered()))
-            raise click.UsageError(f"No such command {cmd_name!r}{near}", ctx)
-        return imported(offered()[cmd_name])
+        if cmd_name in offered():
+            return imported(offered()[cmd_name])
+        if cmd_name in COMMANDS:
+            package, _ = COMMANDS[cmd_name]
+            message = f"'tribo {cmd_name}' comes with {package}: {how_to_install(package)}"
+            raise click.UsageError(message, ctx)
+        near = suggestion(did_you_mean(cmd_name, [*offered(), *COMMANDS]))
+        raise click.UsageError(f"No such command {cmd_name!r}{near}", ctx)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List the commands without importing any."""
         with formatter.section("Commands"):
             formatter.write_dl([(name, command.summary) for name, command in offered().items()])
+        absent = [
+            (name, f"{summary} {how_to_install(package)}")
+            for name, (package, summary) in COMMANDS.items()
+            if name not in offered()
+        ]
+        if absent:
+            with formatter.section("Not installed"):
+                formatter.write_dl(absent)
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})

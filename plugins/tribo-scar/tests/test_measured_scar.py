@@ -17,13 +17,12 @@ from tribo import (
     Rough,
     Sphere,
     TriboWarning,
-    measured_scar,
     read_heights,
 )
 from tribo.lab import heights
-from tribo.plotting.scar import measured_scar_map
 from tribo.registry.plugins import builtin
 
+from tribo_scar import measured_scar, measured_scar_map
 from tribo_scar.command import scar as command
 from tribo_scar.registration import register
 

@@ -145,7 +145,9 @@ def _write(found: MeasuredScar, path: Path, shape: tuple[int, ...]) -> Path:
         np.save(image, depths)
         write_file(path, image.getbuffer())
         return path
-    from tribo.kernel_api import measured_scar_map, write_figures
+    from tribo.kernel_api import write_figures
+
+    from tribo_scar.picture import measured_scar_map
 
     pictures = {path.stem: lambda: measured_scar_map(found)}
     (picture,) = write_figures(pictures, path.parent, path.suffix or ".png")

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from tribo import Array, CaseError
-from tribo.lab.heights import interpolated
-from tribo.lab.roughness import without_form
+from tribo.kernel_api import interpolated, without_form
 
 from tribo_topography.config import MeasuredFile
 

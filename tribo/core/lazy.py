@@ -1,0 +1,39 @@
+"""Names of a package that are imported when first used, listed in its stub."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import import_module
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any
+
+
+def lazy(module: str, file: str) -> Callable[[str], Any]:
+    """Return ``__getattr__`` of a module whose stub (.pyi) says where each of its names is.
+
+    Parameters
+    ----------
+    module, file : str
+        The module's ``__name__`` and ``__file__``.
+    """
+
+    @cache
+    def homes() -> dict[str, str]:
+        # `python -m tribo` begins here, and a folder that it was started in may have other modules.
+        import re
+        from pathlib import Path
+
+        stub = Path(file).with_suffix(".pyi").read_text(encoding="utf-8")
+        return {name: home for home, name in re.findall(r"from (\S+) import (\w+) as", stub)}
+
+    def get(name: str) -> Any:
+        if name == "__all__":
+            return [*homes()]
+        if name in homes():
+            return getattr(import_module(homes()[name]), name)
+        raise AttributeError(f"module {module!r} has no attribute {name!r}")
+
+    return get
