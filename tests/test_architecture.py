@@ -15,6 +15,7 @@ PLUGINS = ROOT.parent / "plugins"
 RANK = {
     "core": 0,
     "above": 0,
+    "packages": 0,
     "templates": 0,
     "closed_forms": 1,
     "component": 1,
@@ -38,6 +39,7 @@ RANK = {
     "verification": 7,
     "scaffold": 7,
     "cli": 9,
+    "kernel_api": 10,
 }
 MODELS = {"contact", "wear", "motion", "surfaces", "effects", "observers"}
 
@@ -114,7 +116,7 @@ def test_packages_use_what_the_kernel_hands_out(path):
 
 def test_every_package_has_a_rank():
     found = {p.name for p in ROOT.iterdir() if p.is_dir() and p.name != "__pycache__"}
-    assert found | {"above", "component", "case"} == set(RANK)
+    assert found | {"above", "packages", "component", "case", "kernel_api"} == set(RANK)
 
 
 def test_no_module_imports_what_imports_it():

@@ -11,7 +11,6 @@ from tribo.cli.side_by_side import how_compared as how_compared
 from tribo.cli.swept import cell as cell
 from tribo.cli.swept import is_text as is_text
 from tribo.cli.swept import labelled as labelled
-from tribo.cli.swept import varied as varied
 from tribo.cli.tables import fields_table as fields_table
 from tribo.cli.tables import friction_words as friction_words
 from tribo.cli.tables import inferred_table as inferred_table
@@ -45,6 +44,9 @@ from tribo.core.errors import located as located
 from tribo.core.explain import case_error as case_error
 from tribo.core.fields import PLACE_X as PLACE_X
 from tribo.core.fields import PLACE_Y as PLACE_Y
+from tribo.core.files import check_file as check_file
+from tribo.core.files import check_pixels as check_pixels
+from tribo.core.hdf5 import contained as contained
 from tribo.core.lazy import lazy as lazy
 from tribo.core.measures import between_cells as between_cells
 from tribo.core.units import number as number
@@ -56,6 +58,7 @@ from tribo.core.words import shown as shown
 from tribo.core.words import signed as signed
 from tribo.core.words import suggestion as suggestion
 from tribo.core.writing import check_output as check_output
+from tribo.core.writing import make_folder as make_folder
 from tribo.core.writing import write_file as write_file
 from tribo.lab.conversion import in_mm3_per_newton_metre as in_mm3_per_newton_metre
 from tribo.lab.conversion import mass_from_volume as mass_from_volume
@@ -81,7 +84,6 @@ from tribo.lab.track import planimetric_volume as planimetric_volume
 from tribo.lab.track import reciprocating_track_volume as reciprocating_track_volume
 from tribo.plotting import style as style
 from tribo.plotting.curves import curves_by as curves_by
-from tribo.plotting.curves import fit_picture as fit_picture
 from tribo.plotting.curves import sweep_pictures as sweep_pictures
 from tribo.plotting.figures import picture_format as picture_format
 from tribo.plotting.figures import result_pictures as result_pictures

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from tribo import Result
-from tribo.core.writing import make_folder, write_file
+from tribo.kernel_api import make_folder, write_file
 
 HEADER = "Lateral units: m\nValue units: m"
 

@@ -15,8 +15,7 @@ from typing import Any, BinaryIO
 import h5py
 import numpy as np
 from tribo import Array, CaseError
-from tribo.core.files import check_file, check_pixels
-from tribo.core.hdf5 import contained
+from tribo.kernel_api import check_file, check_pixels, contained
 
 from tribo_topography.config import MeasuredFile
 
