@@ -17,7 +17,9 @@ import sys
 import warnings
 from time import process_time
 
-from tribo import Case, Deepest, TriboWarning, gradient
+from tribo_inverse import Deepest, gradient
+
+from tribo import Case, TriboWarning
 
 TIMES = 3
 

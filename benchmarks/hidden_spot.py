@@ -27,13 +27,14 @@ from typing import Any
 import numpy as np
 from scipy.fft import idctn
 from scipy.ndimage import shift as moved
+from tribo_inverse import View
 from tribo_inverse.adjoint.local import localised
 from tribo_inverse.calibration.cells import cell_means
 from tribo_inverse.calibration.maps import fit_maps
 from tribo_inverse.calibration.prior import Prior
 from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT
 
-from tribo import Case, TriboWarning, View
+from tribo import Case, TriboWarning
 from tribo.core.arrays import Array
 from tribo.simulation.march import begin, march
 from tribo.simulation.model import Model

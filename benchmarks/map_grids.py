@@ -16,9 +16,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+from tribo_inverse import calibrate
 from tribo_inverse.calibration.quantities import surface_depth
 
-from tribo import Simulation, TriboWarning, calibrate
+from tribo import Simulation, TriboWarning
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.templates import template

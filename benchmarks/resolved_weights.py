@@ -13,8 +13,9 @@ from importlib.resources import files
 from typing import Any
 
 from common import Row, Tables, main
+from tribo_inverse import calibrate
 
-from tribo import TriboWarning, calibrate
+from tribo import TriboWarning
 from tribo.config.load import read_toml
 from tribo.config.overrides import apply_settings
 

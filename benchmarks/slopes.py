@@ -16,6 +16,7 @@ from time import process_time
 
 import numpy as np
 from gradient_cost import cases
+from tribo_inverse import Depth, Volume
 from tribo_inverse.adjoint.backwards import swept_back
 from tribo_inverse.adjoint.numbers import changed, find
 from tribo_inverse.adjoint.objective import View
@@ -23,7 +24,7 @@ from tribo_inverse.adjoint.parameters import chain
 from tribo_inverse.adjoint.tape import Tape, recorded
 from tribo_inverse.calibration.fit import STEP
 
-from tribo import Case, Depth, TriboWarning, Volume
+from tribo import Case, TriboWarning
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 

@@ -100,8 +100,11 @@ from tribo.plotting.sections import scar_mask as scar_mask
 from tribo.plotting.style import DIFFERENCES as DIFFERENCES
 from tribo.plotting.style import Look as Look
 from tribo.plotting.style import SIGNIFICANT as SIGNIFICANT
+from tribo.plotting.style import SINGLE_COLUMN as SINGLE_COLUMN
 from tribo.plotting.style import house_style as house_style
+from tribo.plotting.style import legend_below as legend_below
 from tribo.plotting.style import new_figure as new_figure
+from tribo.plotting.style import ticks as ticks
 from tribo.plotting.units import axis_units as axis_units
 from tribo.plotting.units import height_unit as height_unit
 from tribo.plotting.units import shown_in as shown_in

@@ -3,10 +3,37 @@
 from __future__ import annotations
 
 COMMANDS = {
+    "calibrate": ("tribo-inverse", "Fit a case to measured wear."),
+    "report": ("tribo-report", "Write a result as one HTML file to hand on."),
     "scar": ("tribo-scar", "Measure a scar between two height maps."),
 }
 """Package and summary of each command."""
 NAMES = {
+    "write_report": "tribo-report",
+    **dict.fromkeys(
+        [
+            "Calibration",
+            "Choice",
+            "Deepest",
+            "Depth",
+            "EndDistance",
+            "EndTime",
+            "Gradient",
+            "Misfit",
+            "Plan",
+            "Pressure",
+            "Seeds",
+            "View",
+            "Volume",
+            "Width",
+            "calibrate",
+            "choose_case",
+            "gradient",
+            "plan_tests",
+            "value_and_gradient",
+        ],
+        "tribo-inverse",
+    ),
     **dict.fromkeys(("MeasuredScar", "measured_scar"), "tribo-scar"),
 }
 """Package of each name that was one of `tribo`."""

@@ -8,7 +8,6 @@ from made_results import made
 from tribo.core.errors import CaseError
 from tribo.plotting.curves import (
     curves_by,
-    fit_picture,
     history_curves,
     sweep_curves,
     sweep_pictures,
@@ -69,28 +68,6 @@ def test_no_line_joins_the_runs_of_a_sample():
     assert curves_by(runs.assign(k=1.0), ["k"]) == ([], True)
     (draw,) = sweep_pictures(runs, ["load_N", "k"], ["load_N"]).values()
     assert draw().axes[0].lines[0].get_linestyle() == "None"
-
-
-def test_a_fit_stands_over_what_was_measured():
-    data = pd.DataFrame(
-        {
-            "test": ["", "long"],
-            "body": ["ball", "disk"],
-            "quantity": ["scar_across", "mass"],
-            "time_s": [np.nan, 60.0],
-            "measured": [1e-3, 2e-7],
-            "below": [False, True],
-            "sigma": [1e-5, 1e-7],
-            "computed": [1.1e-3, 2e-7],
-        }
-    )
-    figure = fit_picture(data)
-    fitted = next(line for line in figure.axes[0].lines if line.get_label() == "fitted")
-    np.testing.assert_allclose(fitted.get_xdata(), [1.1, 1.0])
-    labels = [text.get_text() for text in figure.axes[0].get_yticklabels()]
-    assert labels == ["ball: scar across", "long, disk: mass, 60 s"]
-    (limit,) = [each for each in figure.axes[0].lines if "below this limit" in each.get_label()]
-    assert limit.get_xydata().tolist() == [[1.0, 0.0]]
 
 
 def test_a_field_of_the_models_is_drawn_from_above_and_over_time():

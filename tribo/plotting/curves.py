@@ -16,14 +16,10 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.plotting.style import (
-    DIFFERENCES,
-    SIGNIFICANT,
-    SINGLE_COLUMN,
     house_style,
     legend_below,
     new_figure,
     save_looks,
-    ticks,
 )
 from tribo.plotting.units import fitting, size
 from tribo.result.read import Result
@@ -46,12 +42,6 @@ MOST_CURVES = 6
 """In a picture of a sweep."""
 MARKS = "osD^vp"
 """Of its curves; the first is full, and seen inside another that coincides."""
-FIT = 4.0
-"""Height of a measured value in the picture of a fit, in mm."""
-NAME, PROFILE, MAP = 1.25, 42.0, 62.0
-"""Width of a letter of its name, and heights of a profile and of a map, in mm."""
-NOWHERE = {"position_m": None}
-"""What stands for all places of a profile or map."""
 
 
 def history_curves(result: Result, columns: Sequence[str], against: str = "distance_m") -> Figure:
@@ -166,108 +156,6 @@ def sweep_curves(
             legend_below(figure, curves)
             figure.legends[0].set_title(", ".join(label for label, _ in named))
     return figure
-
-
-def fit_picture(data: pd.DataFrame, points: pd.DataFrame | None = None) -> Figure:
-    """Draw what a calibration computes over what was measured, with its standard deviation.
-
-    Of a value below a limit of detection the limit stands for it, as an arrow that points down.
-
-    Parameters
-    ----------
-    data : DataFrame
-        A row for each measured value, as `brief` of a calibration: ``body``,
-        ``quantity``, ``measured``, ``sigma`` and ``computed``; ``test``,
-        ``time_s``, ``position_m`` and ``below`` where it has them.
-    points : DataFrame, optional
-        A row for each point, as its `data`; of these profiles and maps are drawn, each in a panel.
-    """
-    fields = [] if points is None else _fields(points)
-    measured, computed = data["measured"].to_numpy(float), data["computed"].to_numpy(float)
-    below = data.get("below", pd.Series(False, index=data.index)).to_numpy(bool)
-    rows = np.arange(len(data))[::-1]
-    names = list(map(_measured_name, data.to_dict("records")))
-    with house_style():
-        # Long names make the picture wider, not its axes narrower.
-        room = NAME * max(map(len, names), default=0)
-        heights = [18.0 + FIT * max(len(data), 3), *(size for _, size, _ in fields)]
-        figure = new_figure(sum(heights), max(SINGLE_COLUMN, 45.0 + room))
-        axes, *panels = figure.subplots(len(heights), height_ratios=heights, squeeze=False)[:, 0]
-        axes.axvline(1.0, color="black", linewidth=0.5)
-        told: dict[str, Any] = {"fmt": "none", "ecolor": "#56b4e9", "elinewidth": 2.4}
-        if not below.all():
-            axes.errorbar(
-                np.ones(np.sum(~below)),
-                rows[~below],
-                xerr=(data["sigma"] / np.abs(measured))[~below],
-                label="measured, ± its standard deviation",
-                **told,
-            )
-        if below.any():
-            axes.plot(np.ones(np.sum(below)), rows[below], "<", color="#0072b2", markersize=6.0)
-            axes.lines[-1].set_label("measured: below this limit")
-        axes.plot(computed / measured, rows, "s", color="#202020", markersize=3.0, label="fitted")
-        axes.set_yticks(rows, names)
-        axes.set_ylim(-0.7, len(data) - 0.3)
-        axes.set_xlabel("Relative to the measured value")
-        axes.xaxis.set_major_locator(ticks(5))
-        for panel, (draw, _, rows) in zip(panels, fields, strict=True):
-            draw(panel, rows)
-        legend_below(figure, axes.get_legend_handles_labels()[0], columns=2)
-    return figure
-
-
-def _fields(points: pd.DataFrame) -> list[tuple[Callable[..., None], float, pd.DataFrame]]:
-    """Return how to draw each profile and map, how high it is, in mm, and its rows."""
-    found: list[tuple[Callable[..., None], float, pd.DataFrame]] = []
-    places = points.assign(position_m=points["position_m"].fillna(points.get("y_m", np.nan)))
-    for _, rows in places[places["position_m"].notna()].groupby("place"):
-        if rows.get("x_m", pd.Series(np.nan)).nunique() > 1:
-            found.append((_residuals, MAP, rows))
-        else:
-            found.append((_profile, PROFILE, rows.sort_values("position_m")))
-    return found
-
-
-def _residuals(axes: Axes, rows: pd.DataFrame) -> None:
-    """Draw the residuals of a map over the surface."""
-    most = max(SIGNIFICANT, float(np.max(np.abs(rows["residual"]))))
-    look: dict[str, Any] = {"cmap": DIFFERENCES, "vmin": -most, "vmax": most}
-    look |= {"s": 9.0, "edgecolors": "#808080", "linewidths": 0.2}
-    # In grey both ends are dark.
-    for mark, part in (("s", rows[rows["residual"] > 0]), ("o", rows[rows["residual"] <= 0])):
-        places = 1e3 * part["x_m"], 1e3 * part["y_m"]
-        marks = axes.scatter(*places, c=part["residual"], marker=mark, **look)
-    axes.set_aspect("equal")
-    axes.set(xlabel="x (mm)", ylabel="y (mm)", title=_measured_name({**rows.iloc[0], **NOWHERE}))
-    axes.figure.colorbar(marks, ax=axes, label="fit − measured (deviations),\nsquares above 0")
-
-
-def _profile(axes: Axes, rows: pd.DataFrame) -> None:
-    """Draw a profile that was measured and that of the fit, over the place."""
-    place, depths = 1e3 * rows["position_m"], 1e6 * rows[["measured", "sigma", "computed"]]
-    axes.errorbar(
-        place, depths["measured"], yerr=depths["sigma"], fmt="o", color="#56b4e9", markersize=2.0
-    )
-    axes.plot(place, depths["computed"], color="#202020", linewidth=0.8)
-    axes.invert_yaxis()
-    axes.set_title(_measured_name({**rows.iloc[0], **NOWHERE}))
-    axes.set_xlabel("Position (mm)")
-    axes.set_ylabel("Depth (µm)")
-
-
-def _measured_name(row: dict[str, Any]) -> str:
-    """Return which test, body and quantity a measured value is of, when and where."""
-    test = row.get("test")
-    given = (row.get(key) for key in ("time_s", "position_m"))
-    time, place = (np.nan if value is None else float(value) for value in given)
-    words = f"{row['body']}: {str(row['quantity']).replace('_', ' ')}"
-    return (
-        (f"{test}, " if test else "")
-        + words
-        + (f", {time:g} s" if not np.isnan(time) else "")
-        + (f", {1e3 * place:g} mm" if not np.isnan(place) else "")
-    )
 
 
 def _draw(

@@ -1,4 +1,4 @@
-"""Cases to start from, a study and a file of measurements."""
+"""Cases to start from, and a study."""
 
 from __future__ import annotations
 
@@ -18,7 +18,6 @@ TEMPLATES = {
     "rough_ball": "A rough ball that runs in on a smooth disk.",
     "rough_flats": "A patch of two rough bodies that repeats.",
     "sweep": "A study over loads, coefficients and contact models, for tribo sweep.",
-    "weighed": "What was weighed in the paper's test, for tribo calibrate.",
 }
 
 

@@ -13,9 +13,9 @@ from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.config.write import to_toml
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
-from tribo.plotting.curves import fit_picture
 from tribo.simulation.run import Simulation
 
+from tribo_inverse import fit_picture
 from tribo_inverse.calibration.calibrate import calibrate
 from tribo_inverse.calibration.cells import block_means, cell_means
 from tribo_inverse.calibration.choice import choose_case

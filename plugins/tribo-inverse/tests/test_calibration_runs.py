@@ -13,10 +13,10 @@ from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
-from tribo.plotting.curves import fit_picture
 from tribo.result.export import profile
 from tribo.simulation.run import Simulation
 
+from tribo_inverse import fit_picture
 from tribo_inverse.calibration.calibrate import calibrate
 from tribo_inverse.calibration.measured import read_measurements
 from tribo_inverse.calibration.notes import on_repeats

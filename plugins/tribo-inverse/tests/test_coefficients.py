@@ -1,8 +1,10 @@
 """Pictures of local coefficients frame all that they show."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
+from tribo_inverse.fitted import fit_picture
 from tribo_inverse.pictures import depth_fit
 
 NOISE = 1e-8 * np.array([[1.0, -2.0, 0.5, -1.0]])
@@ -30,3 +32,25 @@ def test_the_sign_of_large_residuals_of_a_scar_is_seen_in_grey():
     (lines,) = figure.axes[1].collections
     np.testing.assert_allclose(lines.levels, [-3, 3])
     assert [dashes is not None for _, dashes in lines.get_linestyle()] == [True, False]
+
+
+def test_a_fit_stands_over_what_was_measured():
+    data = pd.DataFrame(
+        {
+            "test": ["", "long"],
+            "body": ["ball", "disk"],
+            "quantity": ["scar_across", "mass"],
+            "time_s": [np.nan, 60.0],
+            "measured": [1e-3, 2e-7],
+            "below": [False, True],
+            "sigma": [1e-5, 1e-7],
+            "computed": [1.1e-3, 2e-7],
+        }
+    )
+    figure = fit_picture(data)
+    fitted = next(line for line in figure.axes[0].lines if line.get_label() == "fitted")
+    np.testing.assert_allclose(fitted.get_xdata(), [1.1, 1.0])
+    labels = [text.get_text() for text in figure.axes[0].get_yticklabels()]
+    assert labels == ["ball: scar across", "long, disk: mass, 60 s"]
+    (limit,) = [each for each in figure.axes[0].lines if "below this limit" in each.get_label()]
+    assert limit.get_xydata().tolist() == [[1.0, 0.0]]

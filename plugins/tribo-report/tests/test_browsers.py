@@ -4,9 +4,10 @@ import re
 from importlib.resources import files
 
 import pytest
-import tribo
 from browsers import browser, missing, outside
 from made_results import made
+
+import tribo_report
 
 pytestmark = pytest.mark.slow
 SHOWN = "document.getElementById('said').textContent"
@@ -20,7 +21,7 @@ ARROW_LEFT = "\ue012"
 def report(tmp_path_factory):
     place = tmp_path_factory.mktemp("browsers") / "report.html"
     with made(times=(0.0, 200.0, 3600.0), relief=2e-8) as result:
-        return tribo.write_report(result, place)
+        return tribo_report.write_report(result, place)
 
 
 @pytest.fixture(scope="module", params=["chromium", "firefox"])

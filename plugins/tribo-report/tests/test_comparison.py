@@ -9,6 +9,7 @@ from command_line import tribo as command
 from made_results import SHAPES, written
 from pages import Checked
 
+import tribo_report
 from tribo_report.curves import _panels
 
 
@@ -38,7 +39,7 @@ def test_it_says_how_far_the_second_is_off_the_first(ran):
 def test_the_files_of_a_folder_go_by_what_varies(tmp_path):
     for load in ("50_N", "100_N"):
         written(tmp_path / f"load.normal={load}.h5", times=(0.0, 500.0))
-    path = tribo.write_report(tmp_path, tmp_path / "report.html")
+    path = tribo_report.write_report(tmp_path, tmp_path / "report.html")
     page = path.read_text(encoding="utf-8")
     assert "<h1>load.normal: 100 N and 50 N</h1>" in page
     assert "Varied: load.normal." in page
@@ -53,9 +54,9 @@ def test_a_study_of_one_case_does_not_go_with_several_results(ran):
 
 def test_a_folder_without_results_is_told_and_none_is_made(tmp_path):
     with pytest.raises(tribo.CaseError, match=r"there is no folder .*; make it first"):
-        tribo.write_report(tmp_path, tmp_path / "new" / "report.html")
+        tribo_report.write_report(tmp_path, tmp_path / "new" / "report.html")
     with pytest.raises(tribo.CaseError, match="holds no result file"):
-        tribo.write_report(tmp_path, tmp_path / "report.html")
+        tribo_report.write_report(tmp_path, tmp_path / "report.html")
 
 
 def test_a_force_that_is_one_number_for_all_is_left_out():

@@ -20,6 +20,7 @@ from tribo.config.load import case_tables
 from tribo.plotting.figures import result_pictures
 from tribo.templates import template
 
+import tribo_report
 from tribo_report.amounts import component_words, value_words
 from tribo_report.drawing import drawing
 from tribo_report.fields import charts
@@ -298,10 +299,3 @@ def test_its_data_are_those_of_the_result_and_its_case_can_be_copied(page):
     assert unpacked(page)["saves"][-1] == {"time": "200 s", "distance": "20 m"}
     (case,) = re.findall(r'<pre id="case".*?>(.*?)</pre>', page, re.S)
     assert tomllib.loads(case)["grid"]["cells"] == [50, 40]
-
-
-def test_without_what_it_needs_it_says_how_to_install_it(monkeypatch):
-    monkeypatch.setitem(__import__("sys").modules, "plotly.offline", None)
-    needed = pytest.raises(tribo.CaseError, match="pip install jinja2 plotly")
-    with made(times=(0.0, 200.0)) as result, needed:
-        result_page(result)

@@ -15,6 +15,8 @@ from tribo.templates import template
 from tribo_inverse.calibration.maps import FittedMaps, LocalMap
 from tribo_inverse.map_tables import maps_json
 
+import tribo_report
+
 ESTIMATE = {
     "path": "bodies.ball.wear.k",
     "unit": "1/Pa",
@@ -91,7 +93,7 @@ def test_a_sweep_tells_the_least_and_the_most_wear(tmp_path):
 def test_a_sweep_without_a_run_that_is_done_has_no_report(tmp_path):
     (tmp_path / "runs.csv").write_text("run,status,time_s,file,message\n1,failed,,1.h5,too steep\n")
     with pytest.raises(tribo.CaseError, match=r"no run of .* is done"):
-        tribo.write_report(tmp_path, tmp_path / "report.html")
+        tribo_report.write_report(tmp_path, tmp_path / "report.html")
 
 
 def test_a_calibration_tells_its_estimates(tmp_path):
@@ -117,7 +119,7 @@ def test_where_data_and_model_disagree_the_report_begins_with_that(tmp_path):
     (tmp_path / "fit.json").write_text(
         json.dumps(FIT | {"chi_square": 402.0, "degrees_of_freedom": 1})
     )
-    tribo.write_report(tmp_path / "fit.json", tmp_path / "report.html")
+    tribo_report.write_report(tmp_path / "fit.json", tmp_path / "report.html")
     first, *_ = answers(tmp_path / "report.html")
     assert first.startswith("Data and model disagree, p &lt; 1e-6: the values below are not to be ")
 
@@ -125,7 +127,7 @@ def test_where_data_and_model_disagree_the_report_begins_with_that(tmp_path):
 def test_a_narrow_interval_is_told_with_digits_enough(tmp_path):
     narrow = ESTIMATE | {"lower": 7.0795e-15, "upper": 7.0805e-15}
     (tmp_path / "fit.json").write_text(json.dumps(FIT | {"parameters": [narrow]}))
-    tribo.write_report(tmp_path / "fit.json", tmp_path / "report.html")
+    tribo_report.write_report(tmp_path / "fit.json", tmp_path / "report.html")
     (told,) = answers(tmp_path / "report.html")
     assert "between 7.0795e-15 and 7.0805e-15 with" in told
 
@@ -133,9 +135,9 @@ def test_a_narrow_interval_is_told_with_digits_enough(tmp_path):
 def test_another_json_file_is_refused(tmp_path):
     (tmp_path / "other.json").write_text("{}")
     with pytest.raises(tribo.CaseError, match="is not what 'tribo calibrate --json' prints"):
-        tribo.write_report(tmp_path / "other.json", tmp_path / "report.html")
+        tribo_report.write_report(tmp_path / "other.json", tmp_path / "report.html")
     with pytest.raises(tribo.CaseError, match=r"^.*none\.json: there is no such file$"):
-        tribo.write_report(tmp_path / "none.json", tmp_path / "report.html")
+        tribo_report.write_report(tmp_path / "none.json", tmp_path / "report.html")
 
 
 def test_local_coefficients_are_told_with_their_fit(tmp_path):
@@ -155,7 +157,7 @@ def test_local_coefficients_are_told_with_their_fit(tmp_path):
     )
     with (tmp_path / "maps.json").open("w") as file:
         file.write(json.dumps(maps_json(found, 0.95)).replace("NaN", "null"))
-    path = tribo.write_report(tmp_path / "maps.json", tmp_path / "report.html")
+    path = tribo_report.write_report(tmp_path / "maps.json", tmp_path / "report.html")
     (told,) = answers(path)
     assert "The coefficient of the ball is 0.50 to 1.20 times that of the case" in told
     assert "at 95 % it is lower in 33 % of these cells and higher in 0 %." in told

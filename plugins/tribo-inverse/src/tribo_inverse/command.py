@@ -202,7 +202,9 @@ class _Files:
 
     def write(self, found: Calibration) -> None:
         """Write the fitted cases and the picture."""
-        from tribo.kernel_api import fit_picture, write_figures
+        from tribo.kernel_api import write_figures
+
+        from tribo_inverse.fitted import fit_picture
 
         for name, tables in found.fitted.items():
             write_file(self.cases[name], to_toml(tables))

@@ -7,3 +7,7 @@ Vega-Lite and ECharts have flat charts only, and Plotly's smaller bundles are no
 paper, and where no script may run, as in the preview of some mail programs, the page shows the
 pictures of ``tribo plot`` instead.
 """
+
+from tribo.kernel_api import listed
+
+__all__, __getattr__ = listed(__name__, __file__)

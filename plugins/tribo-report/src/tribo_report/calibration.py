@@ -18,18 +18,18 @@ from tribo.kernel_api import (
     case_tables,
     digits_of,
     environment,
-    fit_picture,
     to_toml,
     validate_case,
 )
 from tribo_inverse.calibration.calibrate import DATA, Calibration
 from tribo_inverse.calibration.notes import UNLIKELY, bound
 from tribo_inverse.calibration.quantities import in_si, p_words
+from tribo_inverse.fitted import fit_picture
 from tribo_inverse.map_tables import read_maps
 from tribo_inverse.tables import data_table, estimates_table, fit_sentences, predictions_table
 
 from tribo_report.maps import maps_page
-from tribo_report.page import check_installed, render, stills
+from tribo_report.page import render, stills
 from tribo_report.printed import printed_by
 from tribo_report.result import CITATION, facts
 from tribo_report.tables import for_page
@@ -72,8 +72,7 @@ def _read(found: dict[str, Any]) -> Calibration:
 
 
 def calibration_page(found: Calibration, title: str) -> str:
-    """Return the report of a calibration as HTML; see `tribo.write_report`."""
-    check_installed()
+    """Return the report of a calibration as HTML; see `tribo_report.write_report`."""
     tables = [estimates_table(found), data_table(found)]
     if len(found.predictions):
         tables.append(predictions_table(found))

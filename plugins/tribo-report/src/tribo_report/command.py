@@ -20,8 +20,7 @@ def report(what: tuple[Path, ...], output: Path | None, verified: Path | None) -
     WHAT is a result, or the folder of a sweep, or what 'tribo calibrate --json' printed;
     several results, or the folder of 'tribo compare', are set side by side. The report has
     the answer in a sentence, tables, the case, maps and sections at every saved time, the
-    worn surface in 3-D, the history, and what made it. It needs jinja2 and plotly:
-    pip install ".[report]" in the folder of tribo's sources.
+    worn surface in 3-D, the history, and what made it.
 
     \b
     Example:

@@ -19,7 +19,7 @@ from tribo.kernel_api import (
 
 from tribo_report.curves import history, moments, sections, thinned
 from tribo_report.fields import pressure_maps
-from tribo_report.page import check_installed, render, stills
+from tribo_report.page import render, stills
 from tribo_report.result import cited, facts
 from tribo_report.sentence import DEPTHS, VOLUMES, quoted
 from tribo_report.tables import for_page
@@ -41,8 +41,7 @@ def readable(comparison: Comparison) -> Comparison:
 
 
 def comparison_page(comparison: Comparison) -> str:
-    """Return the report of results side by side as HTML; see `tribo.write_report`."""
-    check_installed()
+    """Return the report of results side by side as HTML; see `tribo_report.write_report`."""
     results, first = comparison.results, comparison.results[comparison.reference]
     times = [comparison.times[i] for i in thinned(len(comparison.times))]
     ends = comparison.chosen_times()

@@ -11,14 +11,13 @@ from tribo_inverse.calibration.maps import FittedMaps
 from tribo_inverse.calibration.quantities import p_words
 from tribo_inverse.map_tables import fit_words, map_pictures, maps_table
 
-from tribo_report.page import check_installed, render, stills
+from tribo_report.page import render, stills
 from tribo_report.result import CITATION
 from tribo_report.tables import for_page
 
 
 def maps_page(found: FittedMaps, level: float, title: str) -> str:
-    """Return the report of local coefficients as HTML; see `tribo.write_report`."""
-    check_installed()
+    """Return the report of local coefficients as HTML; see `tribo_report.write_report`."""
     packages: Any = environment()["packages"]
     pictures = map_pictures(found, level)
     return render(

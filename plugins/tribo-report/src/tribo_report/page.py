@@ -26,18 +26,6 @@ WIDE = 4.0
 """Width from which a picture takes a whole line, in inches."""
 
 
-def check_installed() -> None:
-    """Raise CaseError if what the extra ``report`` has is not installed."""
-    try:
-        import jinja2  # noqa: F401
-        import plotly.offline  # noqa: F401
-    except ImportError as error:
-        raise CaseError(
-            f"a report needs jinja2 and plotly, and {error.name} is not installed: pip install "
-            "jinja2 plotly, or pip install '.[report]' in the folder of tribo's sources"
-        ) from error
-
-
 def render(template: str, *, data: Mapping[str, Any] | None, **values: Any) -> str:
     """Return a template of this package filled in, with styles, scripts and data inside.
 

@@ -25,7 +25,7 @@ from tribo_inverse.adjoint.sensitivity import sensitivity
 from tribo_report.amounts import amount, component_words, value_words
 from tribo_report.drawing import drawing
 from tribo_report.fields import charts
-from tribo_report.page import check_installed, render, stills
+from tribo_report.page import render, stills
 from tribo_report.sentence import Estimate, read_verified, sentence, trust
 from tribo_report.tables import PageTable, for_page
 
@@ -50,8 +50,7 @@ CITATION = (
 
 
 def result_page(result: Result, verified: Path | None = None) -> str:
-    """Return the report of a result as HTML; see `tribo.write_report`."""
-    check_installed()
+    """Return the report of a result as HTML; see `tribo_report.write_report`."""
     lab, case = lab_report(result), result.case
     estimates = [] if verified is None else read_verified(verified, result)
     swept = next((name for name in result.body_names if result.body(name).swept), None)

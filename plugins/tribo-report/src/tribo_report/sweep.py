@@ -12,7 +12,7 @@ import pandas as pd
 from tribo import CaseError, Result
 from tribo.kernel_api import cell, curves_by, is_text, labelled, sweep_pictures, varied
 
-from tribo_report.page import check_installed, render, stills
+from tribo_report.page import render, stills
 from tribo_report.reduced import each_plain
 from tribo_report.result import case_text, cited, facts
 from tribo_report.sentence import DEPTHS, VOLUMES, quoted
@@ -25,14 +25,13 @@ MEASURES = ("wear_volume_m3", "max_wear_depth_m", "scar_across_m")
 
 
 def sweep_page(folder: Path) -> str:
-    """Return the report of the sweep in a folder as HTML; see `tribo.write_report`.
+    """Return the report of the sweep in a folder as HTML; see `tribo_report.write_report`.
 
     Raises
     ------
     CaseError
         If there is no table of its runs, or none of them is done.
     """
-    check_installed()
     try:
         runs = pd.read_csv(folder / RUNS)
         done = runs[runs["status"] == "done"]

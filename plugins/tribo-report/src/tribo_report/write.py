@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 from tribo import CaseError, Comparison, Result, Sweep, compare
 from tribo.kernel_api import check_output
-from tribo_inverse.calibration.calibrate import Calibration
 
-from tribo_report.calibration import calibration_file_page, calibration_page
 from tribo_report.comparison import comparison_page, readable
 from tribo_report.page import write_page
 from tribo_report.result import result_page
 from tribo_report.sweep import RUNS, sweep_page
 
-What = Result | Comparison | Sweep | Calibration | str | Path | Sequence[str | Path]
+if TYPE_CHECKING:
+    pass
+
+What = "Result | Comparison | Sweep | Calibration | str | Path | Sequence[str | Path]"
 
 
 def write_report(
@@ -48,17 +52,16 @@ def write_report(
     Raises
     ------
     CaseError
-        If what a report needs is not installed (``pip install jinja2 plotly``),
-        there is no such result, or `verified` is of another
+        If there is no such result, or `verified` is of another
         case; or there is no such folder.
     OutputError
         If the file cannot be written.
 
     Examples
     --------
-    >>> import tribo
-    >>> tribo.write_report("my.h5", "report.html")  # doctest: +SKIP
-    >>> tribo.write_report(["winkler.h5", "dcfft.h5"], "report.html")  # doctest: +SKIP
+    >>> import tribo_report
+    >>> tribo_report.write_report("my.h5", "report.html")  # doctest: +SKIP
+    >>> tribo_report.write_report(["winkler.h5", "dcfft.h5"], "report.html")  # doctest: +SKIP
     """
     path = Path(path)
     check_output(path)
@@ -70,7 +73,7 @@ def _page(what: What, verified: Path | None) -> str:
     if isinstance(what, str | Path) and Path(what).suffix == ".json":
         if verified is not None:
             raise _not_one_result()
-        return calibration_file_page(Path(what))
+        return _calibrations().calibration_file_page(Path(what))
     found = _found(what) if isinstance(what, str | Path) else what
     if isinstance(found, Result):
         return result_page(found, verified)
@@ -83,12 +86,22 @@ def _page(what: What, verified: Path | None) -> str:
         return sweep_page(found.folder)
     if isinstance(found, Path):
         return sweep_page(found)
-    if isinstance(found, Calibration):
-        return calibration_page(found, "Calibration")
     if isinstance(found, Comparison):
         return comparison_page(found)
+    if not isinstance(found, Sequence):
+        return _calibrations().calibration_page(found, "Calibration")
     with compare(found) as comparison:
         return comparison_page(readable(comparison))
+
+
+def _calibrations() -> ModuleType:
+    """Return the pages of calibrations, which need tribo-inverse."""
+    try:
+        return import_module("tribo_report.calibration")
+    except ModuleNotFoundError as error:
+        raise CaseError(
+            f"the report of a calibration needs {error.name}: pip install ./plugins/tribo-inverse"
+        ) from error
 
 
 def _not_one_result() -> CaseError:

@@ -192,7 +192,7 @@ def measured_scar(
     --------
     >>> import tribo
     >>> maps = [tribo.read_heights(f, (1e-6, 1e-6)) for f in ("a.npy", "b.npy")]  # doctest: +SKIP
-    >>> tribo.measured_scar(*maps, radius=5e-3).volume  # doctest: +SKIP
+    >>> tribo_scar.measured_scar(*maps, radius=5e-3).volume  # doctest: +SKIP
     """
     if form not in (1, 2):
         raise CaseError(f"form is 1 (a tilt) or 2 (a curvature as well), not {form}", "form")

@@ -210,7 +210,7 @@ def value_and_gradient(
 
     Examples
     --------
-    >>> from tribo import Volume, value_and_gradient
+    >>> from tribo_inverse import Volume, value_and_gradient
     >>> fit = value_and_gradient("case.toml", Volume("ball"), ["load.normal"])  # doctest: +SKIP
     >>> value, slope = fit(fit.start)  # doctest: +SKIP
     """
