@@ -11,6 +11,7 @@ from tribo.cli.side_by_side import how_compared as how_compared
 from tribo.cli.swept import cell as cell
 from tribo.cli.swept import is_text as is_text
 from tribo.cli.swept import labelled as labelled
+from tribo.cli.swept import varied_paths as varied_paths
 from tribo.cli.tables import fields_table as fields_table
 from tribo.cli.tables import friction_words as friction_words
 from tribo.cli.tables import inferred_table as inferred_table
@@ -118,6 +119,7 @@ from tribo.result.layout import TRACK as TRACK
 from tribo.result.layout import TRACK_PLASTIC as TRACK_PLASTIC
 from tribo.result.provenance import environment as environment
 from tribo.simulation.assembly import assemble as assemble
+from tribo.simulation.assembly import varied as varied
 from tribo.simulation.coarse import MARGINS as MARGINS
 from tribo.simulation.coarse import coarsened as coarsened
 from tribo.simulation.doubt import unusual as unusual

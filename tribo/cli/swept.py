@@ -30,7 +30,7 @@ def print_runs(runs: pd.DataFrame, console: Console | None = None) -> None:
     table = titled("Runs: what varied; largest pressure, depth and volume of each body at the end")
     columns = [list(map(str, done["run"][:ROWS]))]
     table.add_column("run", justify="right")
-    for name in varied(runs):
+    for name in varied_paths(runs):
         # The heading has the unit.
         cells = [escape(cell(name, done, index)) for index in done.index[:ROWS]]
         # A long name is broken before a value is.
@@ -57,12 +57,12 @@ def draw_runs(runs: pd.DataFrame, folder: Path) -> list[Path]:
 
     depths = [str(name) for name in runs if str(name).endswith(".max_wear_depth_m")]
     worn = [depth for depth in depths if (runs[depth] > 0).any()]
-    pictures = sweep_pictures(runs, varied(runs), worn)
+    pictures = sweep_pictures(runs, varied_paths(runs), worn)
     named = {f"{depth.split('.')[1]}_depth": draw for depth, draw in pictures.items()}
     return write_figures(named, folder) if named else []
 
 
-def varied(runs: pd.DataFrame) -> Sequence[str]:
+def varied_paths(runs: pd.DataFrame) -> Sequence[str]:
     """Return the columns of what varies, which stand before the measures."""
     columns = list(map(str, runs))
     return columns[2 : columns.index("time_s")] if "time_s" in columns else []

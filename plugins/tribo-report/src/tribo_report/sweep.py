@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from tribo import CaseError, Result
-from tribo.kernel_api import cell, curves_by, is_text, labelled, sweep_pictures, varied
+from tribo.kernel_api import cell, curves_by, is_text, labelled, sweep_pictures
 
 from tribo_report.page import render, stills
 from tribo_report.reduced import each_plain
@@ -38,7 +38,7 @@ def sweep_page(folder: Path) -> str:
         if done.empty:
             raise CaseError(f"no run of {folder} is done; there is nothing to report")
         # What is a number first: it makes the better axis.
-        names = sorted(varied(runs), key=partial(is_text, done))
+        names = sorted(varied_paths(runs), key=partial(is_text, done))
         first = done.iloc[0]["file"]
     except (OSError, ValueError, KeyError) as error:
         raise CaseError(f"{folder / RUNS} is not the table of a sweep: {error}") from error

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from tribo import CaseError, Comparison, Result, Sweep, compare
 from tribo.kernel_api import check_output
@@ -17,9 +16,9 @@ from tribo_report.result import result_page
 from tribo_report.sweep import RUNS, sweep_page
 
 if TYPE_CHECKING:
-    pass
+    from tribo_inverse import Calibration
 
-What = "Result | Comparison | Sweep | Calibration | str | Path | Sequence[str | Path]"
+    What = Result | Comparison | Sweep | Calibration | str | Path | Sequence[str | Path]
 
 
 def write_report(
@@ -73,7 +72,7 @@ def _page(what: What, verified: Path | None) -> str:
     if isinstance(what, str | Path) and Path(what).suffix == ".json":
         if verified is not None:
             raise _not_one_result()
-        return _calibrations().calibration_file_page(Path(what))
+        return str(_calibrations().calibration_file_page(Path(what)))
     found = _found(what) if isinstance(what, str | Path) else what
     if isinstance(found, Result):
         return result_page(found, verified)
@@ -89,12 +88,12 @@ def _page(what: What, verified: Path | None) -> str:
     if isinstance(found, Comparison):
         return comparison_page(found)
     if not isinstance(found, Sequence):
-        return _calibrations().calibration_page(found, "Calibration")
+        return str(_calibrations().calibration_page(found, "Calibration"))
     with compare(found) as comparison:
         return comparison_page(readable(comparison))
 
 
-def _calibrations() -> ModuleType:
+def _calibrations() -> Any:
     """Return the pages of calibrations, which need tribo-inverse."""
     try:
         return import_module("tribo_report.calibration")
