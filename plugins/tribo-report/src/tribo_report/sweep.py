@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from tribo import CaseError, Result
-from tribo.kernel_api import cell, curves_by, is_text, labelled, sweep_pictures
+from tribo.kernel_api import cell, curves_by, is_text, labelled, sweep_pictures, varied_paths
 
 from tribo_report.page import render, stills
 from tribo_report.reduced import each_plain
