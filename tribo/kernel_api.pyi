@@ -68,8 +68,8 @@ from tribo.lab.heights import interpolated as interpolated
 from tribo.lab.heights import nearest_filled as nearest_filled
 from tribo.lab.heights import outliers as outliers
 from tribo.lab.heights import smoothed as smoothed
-from tribo.lab.inferred import InferredVolume as InferredVolume
 from tribo.lab.inferred import UNWORN as UNWORN
+from tribo.lab.inferred import InferredVolume as InferredVolume
 from tribo.lab.inferred import ball_volumes as ball_volumes
 from tribo.lab.inferred import inferred as inferred
 from tribo.lab.inferred import track_section as track_section
@@ -99,9 +99,9 @@ from tribo.plotting.sections import limits as limits
 from tribo.plotting.sections import removed as removed
 from tribo.plotting.sections import scar_mask as scar_mask
 from tribo.plotting.style import DIFFERENCES as DIFFERENCES
-from tribo.plotting.style import Look as Look
 from tribo.plotting.style import SIGNIFICANT as SIGNIFICANT
 from tribo.plotting.style import SINGLE_COLUMN as SINGLE_COLUMN
+from tribo.plotting.style import Look as Look
 from tribo.plotting.style import house_style as house_style
 from tribo.plotting.style import legend_below as legend_below
 from tribo.plotting.style import new_figure as new_figure

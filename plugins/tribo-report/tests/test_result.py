@@ -20,7 +20,6 @@ from tribo.config.load import case_tables
 from tribo.plotting.figures import result_pictures
 from tribo.templates import template
 
-import tribo_report
 from tribo_report.amounts import component_words, value_words
 from tribo_report.drawing import drawing
 from tribo_report.fields import charts

@@ -1,5 +1,5 @@
 """From wear to its causes: gradients of a run, and coefficients from what was measured."""
 
-from tribo.kernel_api import listed
+from tribo.kernel_api import lazy
 
-__all__, __getattr__ = listed(__name__, __file__)
+__getattr__ = lazy(__name__, __file__)

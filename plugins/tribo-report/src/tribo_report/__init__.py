@@ -8,6 +8,6 @@ paper, and where no script may run, as in the preview of some mail programs, the
 pictures of ``tribo plot`` instead.
 """
 
-from tribo.kernel_api import listed
+from tribo.kernel_api import lazy
 
-__all__, __getattr__ = listed(__name__, __file__)
+__getattr__ = lazy(__name__, __file__)
