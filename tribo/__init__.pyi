@@ -69,6 +69,7 @@ from tribo.observers.observer import Observer as Observer
 from tribo.registry.hookspecs import CaseTemplate as CaseTemplate
 from tribo.registry.hookspecs import Command as Command
 from tribo.registry.hookspecs import ExportFormat as ExportFormat
+from tribo.registry.hookspecs import Finding as Finding
 from tribo.registry.hookspecs import HeightFormat as HeightFormat
 from tribo.registry.hookspecs import LabRow as LabRow
 from tribo.registry.hookspecs import hookimpl as hookimpl

@@ -113,6 +113,7 @@ from tribo.plotting.units import size as size
 from tribo.plotting.units import time_labels as time_labels
 from tribo.plotting.units import time_unit as time_unit
 from tribo.registry.registry import default_registry as default_registry
+from tribo.registry.registry import findings as findings
 from tribo.result.body import BodyResult as BodyResult
 from tribo.result.export import profile as profile
 from tribo.result.layout import TRACK as TRACK

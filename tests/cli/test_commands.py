@@ -175,10 +175,9 @@ def test_check_begins_with_its_verdict(case):
     data, told = json.loads(tribo("check", "my.toml", *small, "--json").stdout), done.stdout.split()
     (problem,) = data["problems"]
     assert problem in " ".join(told)
-    assert data["sensitivity"] is None
-    why = data["sensitivity_refused"]
-    assert why.startswith("bodies: the largest pressure of a cell jumps in the step in which it")
-    assert f"sensitivity not known, since {why}" in " ".join(told)
+    (finding,) = data["findings"]
+    assert (finding["kind"], finding["value"]) == ("sensitivity", None)
+    assert finding["words"] in " ".join(told)
 
 
 @pytest.mark.slow

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
+from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 from rich.table import Table
@@ -18,16 +18,12 @@ from tribo.cli.waiting import waiting_for
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.words import readable
 from tribo.lab.first_contact import HertzContact, computed_pressure, in_mpa, yield_words
+from tribo.registry.hookspecs import Finding
 from tribo.simulation.model import Model
 from tribo.simulation.predict import Prediction
 
-if TYPE_CHECKING:
-    from tribo_inverse.adjoint.sensitivity import Sensitivity
-
 SPREAD = 3.0
 """Factor to which the time of a run is known."""
-SHOWN = 6
-"""Most numbers of the case that are shown with what they change."""
 
 
 @click.command()
@@ -46,9 +42,8 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     Exit codes: 0 nothing found on which the run must stop, 2 bad input, 3
     numerical failure; where it must stop, the code that it would end with.
     """
-    from tribo_inverse.adjoint.sensitivity import sensitivity
-
     from tribo.config.load import load_case
+    from tribo.registry.registry import findings
     from tribo.simulation.doubt import unusual
     from tribo.simulation.predict import predict
     from tribo.simulation.run import Simulation
@@ -64,20 +59,15 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
         model = Simulation(read).model
     with waiting_for(f"first contact and a trial run of {TRIAL_TIME:g} s at most"):
         prediction = predict(model)
-    ruled: Sensitivity | str = "the trial on a coarse grid did not reach the end"
+    found: list[Finding] = []
     if prediction.last:
-        try:
-            with waiting_for(f"which numbers rule the answer, {TRIAL_TIME:g} s at most"):
-                ruled = sensitivity(model, prediction.first.half_width_x)
-        except (CaseError, NumericalError) as error:
-            ruled = str(error)
+        with waiting_for(f"what packages have to say, {TRIAL_TIME:g} s at most"):
+            found = findings(model, prediction.first.half_width_x)
     if as_json:
-        refused = ruled if isinstance(ruled, str) else None
-        told = None if isinstance(ruled, str) else asdict(ruled)
-        echo_json({**asdict(prediction), "sensitivity": told, "sensitivity_refused": refused})
+        echo_json({**asdict(prediction), "findings": [each._asdict() for each in found]})
     else:
         problems = [problem for problem in prediction.problems if problem not in doubts]
-        _print(case, model, prediction, problems, ruled)
+        _print(case, model, prediction, problems, found)
     for kind in (CaseError, NumericalError):
         if prediction.exit_code == kind.exit_code:
             raise kind(f"a run of {case} would stop on its way: {prediction.stops}")
@@ -88,7 +78,7 @@ def _print(
     model: Model,
     prediction: Prediction,
     problems: Sequence[str],
-    ruled: Sensitivity | str,
+    found: Sequence[Finding],
 ) -> None:
     console = Console()
     verdict = "is valid, but:" if problems else "is valid."
@@ -97,15 +87,9 @@ def _print(
     console.print(f"{case} {verdict}", markup=False, soft_wrap=True)
     console.print(_rows(("  -", problem) for problem in problems))
     console.print(_rows((f"  {name}", text) for name, text in _facts(model, prediction)))
-    if isinstance(ruled, str):
-        console.print(_rows([("  sensitivity", f"not known, since {ruled}")]))
-    else:
-        depth, time = f"depth of {ruled.body}", f"time until {ruled.body} reaches stop.depth"
-        what = depth if ruled.of == "depth" else time
-        console.print(f"  {what}, for 1 % more of:", markup=False)
-        first = list(ruled.percent)[:SHOWN]
-        console.print(_rows((f"    {path}", ruled.shown(path)) for path in first))
-        console.print(f"    (of {ruled.whence})", markup=False)
+    for kind, group in groupby(found, key=lambda finding: finding.kind):
+        console.print(f"  {kind}:", markup=False)
+        console.print(_rows((f"    {each.place}".rstrip(), each.words) for each in group))
     for place, facts in prediction.facts.items():
         console.print(f"  {place}:", markup=False)
         console.print(_rows((f"    {name}", text) for name, text in facts.items()))

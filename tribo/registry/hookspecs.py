@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from tribo.component import Component
     from tribo.lab.heights import Heights
     from tribo.result.read import Result
+    from tribo.simulation.model import Model
     from tribo.verification.reference import Reference
 
 PROJECT = "tribo"
@@ -57,6 +58,22 @@ class CaseTemplate(NamedTuple):
     name: str
     summary: str
     text: str
+
+
+class Finding(NamedTuple):
+    """What is to be known of a case before it runs.
+
+    Its kind, in words, and what it is about: a number, by how much that is uncertain, its limit, a
+    place in the case and a time (s).
+    """
+
+    kind: str
+    words: str
+    value: float | None = None
+    uncertainty: float | None = None
+    limit: float | None = None
+    place: str = ""
+    time: float | None = None
 
 
 class Command(NamedTuple):
@@ -109,6 +126,12 @@ def tribo_templates() -> Iterable[CaseTemplate]:
 @hookspec
 def tribo_cases() -> Iterable[Reference]:
     """Return problems with a known answer, for `tribo verify`."""
+    return ()
+
+
+@hookspec
+def tribo_findings(model: Model, half_width_x: float) -> Iterable[Finding]:
+    """Return what is to be known of a case, given half the length (m) of its first contact."""
     return ()
 
 

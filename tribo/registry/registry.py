@@ -21,11 +21,13 @@ from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError, PluginError, TriboWarning
 from tribo.core.words import did_you_mean, said, suggestion
 from tribo.registry import hookspecs
+from tribo.registry.hookspecs import Finding
 from tribo.registry.kinds import Classes, offered
 from tribo.registry.plugins import Plugin, builtin, given, installed
 
 if TYPE_CHECKING:
     from tribo.result.read import Result
+    from tribo.simulation.model import Model
 
 
 class Registry:
@@ -140,7 +142,7 @@ class Registry:
         if len(owners) > 1:
             raise CaseError(f"{words} {self.conflicts[name]}")
         for plugin in owners:
-            self._load(plugin)
+            self.load(plugin)
             if name in plugin.classes:
                 return plugin.classes[name]
         refused = [p for p in self.plugins if name in p.names and not p.usable]
@@ -153,7 +155,7 @@ class Registry:
         """Import every plugin that is not disabled, and return those that cannot be used."""
         usable = [plugin for plugin in self.plugins if plugin.usable]
         for plugin in usable:
-            self._load(plugin)
+            self.load(plugin)
         return [plugin for plugin in usable if not plugin.usable]
 
     def providers(self, fields: set[str]) -> list[str]:
@@ -186,7 +188,7 @@ class Registry:
         # Which are of this kind is not known before they are imported.
         return "; ".join([*texts, *(["more: tribo plugins list"] if self.waiting else [])])
 
-    def _load(self, plugin: Plugin) -> None:
+    def load(self, plugin: Plugin) -> None:
         """Import a plugin once; its status says whether that succeeded."""
         if plugin.status != "available":
             return
@@ -250,6 +252,23 @@ def from_all_plugins(hook: str) -> list[Any]:
     for plugin in registry.load_all():
         warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=3)
     return [item for answer in registry.ask(hook) for item in answer]
+
+
+def findings(model: Model, half_width_x: float) -> list[Finding]:
+    """Return what packages have to say of a case; a package that fails is left out with a warning.
+
+    Asked are those of the case's models, and those with hooks alone.
+    """
+    registry = default_registry()
+    try:
+        for plugin in registry.plugins:
+            if plugin.usable and not plugin.names:
+                registry.load(plugin)
+        answers = registry.ask("tribo_findings", model=model, half_width_x=half_width_x)
+    except PluginError as error:
+        warnings.warn(str(error), TriboWarning, stacklevel=2)
+        return []
+    return [finding for answer in answers for finding in answer]
 
 
 def from_plugins_of(result: Result, hook: str) -> list[Any]:

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from importlib.resources import files
+from typing import TYPE_CHECKING
 
-from tribo import CaseTemplate, Command, hookimpl
+from tribo import CaseTemplate, Command, Finding, hookimpl
+
+if TYPE_CHECKING:
+    from tribo.kernel_api import Model
 
 
 @hookimpl
@@ -12,6 +16,14 @@ def tribo_commands() -> list[Command]:
     """Offer `tribo calibrate`."""
     summary = "Fit a case to measured wear."
     return [Command("calibrate", summary, "tribo_inverse.command:calibrate")]
+
+
+@hookimpl
+def tribo_findings(model: Model, half_width_x: float) -> list[Finding]:
+    """Say which numbers of a case rule its answer."""
+    from tribo_inverse.adjoint.sensitivity import findings
+
+    return findings(model, half_width_x)
 
 
 @hookimpl

@@ -10,6 +10,7 @@ from tribo import CaseError, Friction, Layer, Load, Material, NumericalError, Re
 from tribo.kernel_api import (
     LabReport,
     fields_table,
+    findings,
     friction_words,
     inferred_table,
     lab_report,
@@ -20,7 +21,6 @@ from tribo.kernel_api import (
     to_toml,
     wear_table,
 )
-from tribo_inverse.adjoint.sensitivity import sensitivity
 
 from tribo_report.amounts import amount, component_words, value_words
 from tribo_report.drawing import drawing
@@ -31,7 +31,6 @@ from tribo_report.tables import PageTable, for_page
 
 LONGEST_CASE = 200_000
 """Characters of a case that a report holds; one with a measured surface has millions."""
-MOST_NUMBERS = 8
 OF_A_BODY: Mapping[str, Callable[[Any], str]] = {
     "surface": component_words,
     "material": lambda table: value_words(table, Material),
@@ -98,19 +97,21 @@ def _tables(result: Result, lab: LabReport, estimates: Sequence[Estimate]) -> li
 
 
 def _ruled(result: Result) -> dict[str, Any]:
-    """Return which numbers of the case rule the largest depth, or why that is not known."""
+    """Return which numbers of the case rule its answer, or why that is not known."""
     try:
         model = Simulation(result.case).model
-        found = sensitivity(model, result.saves()[0]["contact_half_width_x_m"])
+        found = findings(model, result.saves()[0]["contact_half_width_x_m"])
     except (CaseError, NumericalError) as error:
         return {"why": str(error), "rows": []}
-    longest = max(map(abs, found.percent.values()), default=1.0)
+    ruling = [each for each in found if each.kind == "sensitivity"]
+    longest = max((abs(each.value or 0.0) for each in ruling), default=0.0) or 1.0
     rows = [
-        {"path": path, "percent": found.shown(path).replace("-", "−"), "size": size}
-        for path, percent in [*found.percent.items()][:MOST_NUMBERS]
-        for size in [round(100 * abs(percent) / longest)]
+        {"path": each.place, "words": each.words, "size": round(100 * abs(each.value) / longest)}
+        for each in ruling
+        if each.value is not None
     ]
-    return {"body": found.body, "of": found.of, "whence": found.whence, "rows": rows}
+    why = [each.words for each in ruling] or ["tribo-inverse finds it, and is not installed"]
+    return {"rows": rows, "why": why[0]}
 
 
 def _uncertainty(row: Estimate) -> str:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from tribo import CaseError, NumericalError
+from tribo import CaseError, Finding, NumericalError
 from tribo.kernel_api import MARGINS, Model, OverTime, coarsened, limited
 
 from tribo_inverse.adjoint.gradient import gradient
@@ -19,6 +19,10 @@ An error of first order in the size of a cell is as large on the finer grid as t
 """
 LEAST = 0.005
 """Per cent for one per cent, below which a number is left out."""
+
+MOST = 8
+"""Numbers that are shown."""
+KIND = "sensitivity"
 
 Answer = Literal["depth", "end_time"]
 
@@ -129,3 +133,23 @@ def _asked(view: View) -> tuple[str, Answer]:
     if state.time < model.end_time:
         return model.case.stop.body or deepest, "end_time"
     return deepest, "depth"
+
+
+def findings(model: Model, half_width_x: float) -> list[Finding]:
+    """Return the `MOST` numbers that rule a case, as what `tribo check` and a report say of it."""
+    try:
+        found = sensitivity(model, half_width_x)
+    except (CaseError, NumericalError) as error:
+        return [Finding(KIND, f"not known, since {error}")]
+    depth, time = f"depth of {found.body}", f"time until {found.body} reaches stop.depth"
+    what = depth if found.of == "depth" else time
+    return [
+        Finding(
+            KIND,
+            f"{what} {found.shown(path)} for 1 % more",
+            value=percent,
+            uncertainty=found.uncertainty[path],
+            place=path,
+        )
+        for path, percent in [*found.percent.items()][:MOST]
+    ]
