@@ -76,7 +76,7 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
         echo_json({**asdict(prediction), "sensitivity": told, "sensitivity_refused": refused})
     else:
         problems = [problem for problem in prediction.problems if problem not in doubts]
-        _print(case, model, prediction, problems, ruled)
+        _print(case, model, prediction, problems, ruled, asked=bool(doubts))
     for kind in (CaseError, NumericalError):
         if prediction.exit_code == kind.exit_code:
             raise kind(f"a run of {case} would stop on its way: {prediction.stops}")
@@ -88,9 +88,13 @@ def _print(
     prediction: Prediction,
     problems: Sequence[str],
     ruled: Sensitivity | str,
+    *,
+    asked: bool,
 ) -> None:
     console = Console()
-    verdict = "is valid, but:" if problems else "is valid."
+    verdict = "is valid, if that is meant." if asked else "is valid."
+    if problems:
+        verdict = "is valid, but:"
     if prediction.exit_code:
         verdict = "would stop on its way:"
     console.print(f"{case} {verdict}", markup=False, soft_wrap=True)

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 
 from tribo.contact.operator import Operator
 from tribo.core.arrays import Array, Mask
-from tribo.core.errors import CaseError, TriboError
+from tribo.core.errors import CaseError, OverTime, TriboError
 from tribo.simulation.assembly import assemble
 from tribo.simulation.model import Model
 from tribo.stepping.memory import Memory
@@ -220,6 +220,8 @@ def chain(
                 _varied(base, places, value + by * step, factors) if by else base
                 for by, _ in scheme
             ]
+        except OverTime:
+            raise
         except (TriboError, ValidationError) as failed:
             error = error or failed
             continue
