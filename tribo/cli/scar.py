@@ -208,6 +208,7 @@ def _print(found: MeasuredScar) -> None:
         ),
         ("piled up, mm³", 1e9 * found.piled_up or None, 1e9 * found.piled_up_uncertainty),
         ("missing in it, %", 100 * found.missing or None, None),
+        ("outliers in both maps", str(found.outliers) if found.outliers else None, None),
     ]
     for name, value, error in rows:
         if isinstance(value, float) and error is not None:

@@ -13,7 +13,7 @@ import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, TriboWarning
-from tribo.lab.heights import Heights
+from tribo.lab.heights import Heights, outliers
 from tribo.lab.inferred import UNWORN, InferredVolume, ball_volumes, inferred
 from tribo.lab.registration import Registration, register
 from tribo.lab.roughness import without_form
@@ -26,6 +26,7 @@ from tribo.lab.scar_doubts import (
     warn_of_edge,
     warn_of_form,
     warn_of_gap,
+    warn_of_outliers,
     warn_of_ring,
     warn_of_several,
     warn_of_zeros,
@@ -77,6 +78,8 @@ class MeasuredScar:
         Whether the scar goes on beyond the edge of the map, other than at the ends of a track.
     missing : float
         Part of the scar's pixels that are missing; their depth is interpolated.
+    outliers : int
+        Pixels of both maps that are outliers, taken as missing.
     section : float or None
         Mean cross-section of a track, across its direction, in m²; None for a scar that ends within
         the map.
@@ -103,6 +106,7 @@ class MeasuredScar:
     across_uncertainty: float | None
     cut_off: bool
     missing: float
+    outliers: int
     section: float | None
     track_volume: float | None
     inferred: tuple[InferredVolume, ...]
@@ -136,6 +140,7 @@ class MeasuredScar:
             "section_m2": self.section,
             "track_volume_m3": self.track_volume,
             "missing": self.missing,
+            "outliers": self.outliers,
             "noise_m": found.noise,
             "shift_m": [
                 shift if math.isfinite(sure) else None
@@ -186,7 +191,7 @@ def measured_scar(
     """
     if form not in (1, 2):
         raise CaseError(f"form is 1 (a tilt) or 2 (a curvature as well), not {form}", "form")
-    ideal = isinstance(before, Surface)
+    ideal, count_of_outliers = isinstance(before, Surface), 0
     own_radius = before.radius if isinstance(before, Sphere) else None
     if isinstance(before, Surface):
         try:
@@ -200,7 +205,9 @@ def measured_scar(
             raise CaseError("the maps before and after are the same; give two that differ")
         check_scales(before, after)
         warn_of_zeros(before, "before")
+        before, count_of_outliers = _without_outliers(before, "before")
     warn_of_zeros(after, "after")
+    after, count = _without_outliers(after, "after")
     found = register(before, after, form)
     shape = after.heights.shape
     after = Heights(after.heights[found.part], after.pitch)
@@ -259,10 +266,21 @@ def measured_scar(
         across_uncertainty=across_uncertainty,
         cut_off=worn.cut_off,
         missing=float(np.mean(~known[scar])),
+        outliers=count_of_outliers + count,
         section=sizes.section,
         track_volume=sizes.track_volume,
         inferred=tuple(sizes.formulas),
     )
+
+
+def _without_outliers(measured: Heights, which: str) -> tuple[Heights, int]:
+    """Return a map with its outliers missing, and their number."""
+    unlike = outliers(measured.heights)
+    if not unlike.any():
+        return measured, 0
+    count = int(np.count_nonzero(unlike))
+    warn_of_outliers(count, which)
+    return Heights(np.where(unlike, np.nan, measured.heights), measured.pitch), count
 
 
 def _small(marked: Mask) -> Mask:

@@ -57,6 +57,16 @@ def warn_of_zeros(heights: Heights, which: str) -> None:
         )
 
 
+def warn_of_outliers(count: int, which: str) -> None:
+    """Warn that pixels of a map were left out."""
+    warnings.warn(
+        f"{count} pixels of the map {which} are outliers: they lie far from all but one of their "
+        "neighbours, and are taken as missing",
+        TriboWarning,
+        stacklevel=4,
+    )
+
+
 def check_scales(before: Heights, after: Heights) -> None:
     """Refuse maps of which one has a whole part of the other's pixels along both axes."""
     ratios = np.divide(before.heights.shape, after.heights.shape)
