@@ -10,7 +10,7 @@ from scipy.ndimage import binary_opening, correlate1d
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, located
-from tribo.lab.heights import Heights, interpolated, read_heights
+from tribo.lab.heights import Heights, read_heights
 from tribo.simulation.model import Model
 
 ROUNDING = 1e-6
@@ -105,15 +105,14 @@ def on_cells(
     known = np.isfinite(heights.heights)
     # Along a track all is alike, so that nothing need be interpolated.
     used = known if averaged else np.ones(known.shape)
-    filled = interpolated(heights.heights, ~known)
-    pixels = np.where(used, filled, 0.0)
+    pixels = np.where(used, heights.filled, 0.0)
     if averaged and _has_swapped_axes(pixels, known):
         raise CaseError(
             "it is uneven along x, the sliding direction, and even across it, but a track is even "
             "along x: its axes are swapped; x goes from row to row of the map, y along each"
         )
     # A cell takes parts of pixels: linear interpolation gives the mean of each part.
-    slopes = [np.where(used, slope, 0.0) for slope in np.gradient(filled)]
+    slopes = [np.where(used, slope, 0.0) for slope in np.gradient(heights.filled)]
     (in_x, offset_x), (in_y, offset_y) = (
         _overlaps(n, width, m, pitch, off)
         for n, width, m, pitch, off in zip(
