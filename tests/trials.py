@@ -1,7 +1,7 @@
-"""The figures that earn trust, from one command: kill, damage, fill, fuzz and verify.
+"""The figures that earn trust, from one command: damage, fill, fuzz and verify.
 
     python tests/trials.py                      # about an hour; docs/_data/trust.json
-    python tests/trials.py --cases 200 --kills 5 --damages 50 --disks 3 --json small.json
+    python tests/trials.py --cases 200 --damages 50 --disks 3 --json small.json
 
 Every trial can be repeated with the seed that it prints. The exit code is 1 if one fails.
 """
@@ -22,7 +22,6 @@ from rich.console import Console
 from rich.table import Table
 from trust.damages import damage_and_read
 from trust.full_disks import fill_and_resume
-from trust.kills import kill_and_resume
 
 FIGURES = Path(__file__).parents[1] / "docs" / "_data" / "trust.json"
 PACKAGES = ("tribo", "numpy", "scipy", "h5py", "pydantic")
@@ -51,7 +50,6 @@ def show(row):
 
 def trials(given):
     """Make the trials one after another, and yield each as it ends."""
-    yield trial("runs killed and resumed", kill_and_resume(given.kills, given.seed))
     yield trial("results damaged and read", damage_and_read(given.damages, given.seed))
     yield trial("disks filled, runs resumed", fill_and_resume(given.disks, given.seed))
     yield trial("cases and files made at random", fuzz(given.cases, given.seed))
@@ -63,7 +61,6 @@ def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--kills", type=int, default=100)
     parser.add_argument("--damages", type=int, default=1000)
     parser.add_argument("--disks", type=int, default=30)
     parser.add_argument("--cases", type=int, default=10000)

@@ -111,6 +111,17 @@ def test_an_unusual_value_is_told_before_anything_is_computed(folder, command, m
     assert "bodies.ball.material.poisson is -0.3" in told
 
 
+def test_the_hardness_of_a_layer_is_asked_about():
+    wear = {"type": "archard", "k": 0}
+    ball = {
+        **CASE["bodies"]["ball"],
+        "wear": wear,
+        "layers": [{"thickness": 2e-6, "hardness": "20 MPa"}],
+    }
+    (doubt,) = unusual(validate_case({**CASE, "bodies": {**CASE["bodies"], "ball": ball}}))
+    assert doubt.startswith("bodies.ball.layers.0.hardness, 20 MPa, is ")
+
+
 @pytest.mark.parametrize("k", ["0", "'1e-6 mm^3/(N m)'"])
 def test_what_is_usual_is_not_asked_about(folder, k):
     settings = ["--set", f"bodies.ball.wear.k={k}", "--set", "grid.cells=64"]

@@ -151,3 +151,13 @@ def test_where_a_number_is_missing_is_told(tmp_path):
     np.save(tmp_path / "a.npy", [[1.0, 2.0], [3.0, np.nan]])
     with pytest.raises(ValueError, match=r"1 of the 4 values of .* at index \(1, 1\) from 0; put"):
         read_numbers(tmp_path / "a.npy")
+
+
+def test_numbers_that_were_read_do_not_follow_their_file(tmp_path):
+    path = tmp_path / "map.npy"
+    np.save(path, np.zeros((8, 8)))
+    numbers = table_of_numbers(path)
+    with path.open("r+b") as file:
+        file.seek(-8, 2)
+        file.write(np.ones(1).tobytes())
+    assert not numbers.any()

@@ -20,8 +20,6 @@ from tribo import Grid, Simulation
 from tribo.core.errors import TriboError
 from tribo.observers import recorder
 from tribo.observers.observer import Observer
-from tribo.result import checkpoint
-from tribo.result.sealed import write_sealed
 
 SAVES = (10, 20, 30)
 TIME_LIMIT = 120.0
@@ -58,37 +56,6 @@ def run(path, pipe):
 
 def resume(path, pipe):
     simulation().resume(path, observers=[Acknowledge(pipe=pipe)]).close()
-
-
-def dying(work, at):
-    """Return `work` that kills itself at its write number `at`, or half-way through it."""
-    left = [at]
-
-    def dies():
-        left[0] -= 1
-        return left[0] < 0
-
-    def before(function):
-        def then(*args, **options):
-            if dies():
-                os.kill(os.getpid(), signal.SIGKILL)
-            return function(*args, **options)
-
-        return then
-
-    def half(path, data, through=None):
-        if dies():
-            fresh = (through or path.parent) / f"tribo-{0:016x}.new"
-            fresh.write_bytes(data[: len(data) // 2])
-            os.kill(os.getpid(), signal.SIGKILL)
-        write_sealed(path, data, through)
-
-    def worked(*args):
-        checkpoint.write_sealed = recorder.write_sealed = half
-        os.replace, os.unlink = before(os.replace), before(os.unlink)
-        work(*args)
-
-    return worked
 
 
 def start(work, *args):

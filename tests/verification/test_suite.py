@@ -19,6 +19,12 @@ def test_rows_hold_and_say_what_their_error_is(known):
         assert row.note or (row.theory is not None and len(known.levels) == 3)
 
 
+def test_a_problem_that_raises_is_a_row_that_fails():
+    (row,) = Reference("broken", "nobody", lambda level, placement: 1 / 0, (8,)).run()
+    assert (row.case, row.verdict) == ("broken", "fails")
+    assert "ZeroDivisionError" in row.note
+
+
 def test_names_of_cases_are_unique():
     assert len({known.case for known in REFERENCES}) == len(REFERENCES)
 
@@ -62,7 +68,7 @@ def test_another_code_that_is_missing_or_breaks_is_told_from_one_that_disagrees(
     other = made(None, needs=("no_such_module",))
     assert [row.verdict for row in other.run()] == ["not installed"]
     (row,) = replace(other, needs=("json",)).run()
-    assert (row.verdict, row.note) == ("fails", "'NoneType' object is not callable")
+    assert (row.verdict, row.note) == ("fails", "TypeError: 'NoneType' object is not callable")
     with pytest.raises(TypeError):
         replace(other, needs=()).run()
 

@@ -67,7 +67,7 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
         echo_json({**asdict(prediction), "findings": [each._asdict() for each in found]})
     else:
         problems = [problem for problem in prediction.problems if problem not in doubts]
-        _print(case, model, prediction, problems, found)
+        _print(case, model, prediction, problems, found, asked=bool(doubts))
     for kind in (CaseError, NumericalError):
         if prediction.exit_code == kind.exit_code:
             raise kind(f"a run of {case} would stop on its way: {prediction.stops}")
@@ -79,9 +79,13 @@ def _print(
     prediction: Prediction,
     problems: Sequence[str],
     found: Sequence[Finding],
+    *,
+    asked: bool,
 ) -> None:
     console = Console()
-    verdict = "is valid, but:" if problems else "is valid."
+    verdict = "is valid, if that is meant." if asked else "is valid."
+    if problems:
+        verdict = "is valid, but:"
     if prediction.exit_code:
         verdict = "would stop on its way:"
     console.print(f"{case} {verdict}", markup=False, soft_wrap=True)

@@ -64,6 +64,8 @@ def table_of_numbers(file: Path) -> Array:
         if file.suffix == ".npy":
             numbers: NDArray[Any] = np.lib.format.open_memmap(file, mode="r")
             check_pixels(numbers.size)
+            # What is mapped would change with the file.
+            numbers = np.array(numbers)
         elif file.suffix in HDF5:
             numbers = _only_table(file)
         else:

@@ -70,14 +70,14 @@ def write_file(path: Path, *parts: str | bytes | memoryview, through: Path | Non
         opened = _open(fresh, os.O_EXCL, 0o666 if old is None else old)
         try:
             with os.fdopen(opened, "wb") as file:
-                if old is not None:
-                    os.chmod(fresh, old)
+                if old is not None and os.name != "nt":
+                    os.chmod(file.fileno(), old)
                 file.writelines(p.encode() if isinstance(p, str) else p for p in parts)
                 file.flush()
                 os.fsync(file.fileno())
             os.replace(fresh, path)
         except BaseException:
-            with suppress(FileNotFoundError):
+            with suppress(OSError):
                 os.unlink(fresh)
             raise
         _sync_names(path.parent)
@@ -106,7 +106,8 @@ def remove(*paths: Path) -> None:
         with writing(path), suppress(FileNotFoundError):
             os.unlink(path)
     for folder in {path.parent for path in paths}:
-        _sync_names(folder)
+        with writing(folder):
+            _sync_names(folder)
 
 
 def remove_empty(folder: Path) -> None:
@@ -131,8 +132,9 @@ def _open(path: Path, how: int, mode: int) -> int:
 
 def _sync_names(folder: Path) -> None:
     """Wait until the names in a folder would survive a power failure."""
-    # Windows opens no folder; its file system has a journal of names.
-    if os.name != "nt":
+    # Windows opens no folder; its file system has a journal of names. Nor can one be opened that
+    # may be written but not listed.
+    if os.name != "nt" and os.access(folder, os.R_OK):
         opened = os.open(folder, os.O_RDONLY)
         try:
             os.fsync(opened)

@@ -72,7 +72,7 @@ class RunFolder:
         make_folder(self.path)
         with writing(self.path):
             names = {path.name for path in self.path.iterdir()}
-        own = not names or ("lock" in names and all(map(_OWN.fullmatch, names)))
+        own = not names or "lock" in names
         if self.path.is_symlink() or not own:
             raise CaseError(
                 f"{self.path} was not made by tribo, which needs the name while it runs; rename "
@@ -98,7 +98,7 @@ class RunFolder:
             self.unlock()
             raise busy
         # What a process was writing that was killed.
-        remove(*self.path.glob("*.new"))
+        remove(*(path for path in self.path.glob("*.new") if _OWN.fullmatch(path.name)))
 
     def unlock(self) -> None:
         """Let other processes write the result."""

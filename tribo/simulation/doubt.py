@@ -30,14 +30,16 @@ def unusual(case: Case) -> list[str]:
                 place = place[:-1]
             found.append(f"{path(place)} is {doubt}")
     for name, body in case.bodies.items():
-        young, hardness = body.material.young, body.material.hardness
-        low, high = HARDNESSES
-        if hardness is not None and not low <= hardness / young <= high:
-            found.append(
-                f"bodies.{name}.material.hardness, {stated(hardness, 'Pa')}, is "
-                f"{hardness / young:.2g} of young, {stated(young, 'Pa')}, usual are {low:g} to "
-                f"{high:g}: is the unit of one wrong, as MPa for GPa?"
-            )
+        (low, high), layers = HARDNESSES, range(len(body.layers))
+        parts = [*(f"layers.{i}" for i in layers), "material"]
+        for part, material in zip(parts, body.materials(), strict=True):
+            young, hardness = material.young, material.hardness
+            if hardness is not None and not low <= hardness / young <= high:
+                found.append(
+                    f"bodies.{name}.{part}.hardness, {stated(hardness, 'Pa')}, is "
+                    f"{hardness / young:.2g} of young, {stated(young, 'Pa')}, usual are {low:g} to "
+                    f"{high:g}: is the unit of one wrong, as MPa for GPa?"
+                )
     return list(dict.fromkeys(found))
 
 

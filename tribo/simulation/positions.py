@@ -195,11 +195,12 @@ def _spacing(model: Model, stroke: float, half_width: float) -> float:
     apart, dx = 0.5 * SPARE * half_width, model.grid.spacing[0]
     if _goes_round(model, stroke, half_width):
         return 0.5 * dx
-    form = assemble(varied(smoothed(model.case)))
-    if form.system.curvature is not None:
-        return apart
     # A contact that wear does not widen, as a flat pin's, keeps its edge.
-    return min(apart, spacing_for(first_contact(form).contact.pressure, EVEN) * dx)
+    with suppress(NumericalError):
+        form = assemble(varied(smoothed(model.case)))
+        if form.system.curvature is None:
+            return min(apart, spacing_for(first_contact(form).contact.pressure, EVEN) * dx)
+    return apart
 
 
 def _goes_round(model: Model, stroke: float, half_width: float) -> bool:

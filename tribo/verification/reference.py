@@ -11,6 +11,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import TriboError
+from tribo.core.words import said
 
 Verdict = Literal["holds", "fails", "not installed"]
 
@@ -84,10 +85,9 @@ class Reference:
                 for level in self.levels
             ]
         except Exception as error:
-            # Another code may have changed, or be broken; tribo itself fails in its own ways only.
-            if not self.needs and not isinstance(error, TriboError):
-                raise
-            return [replace(nothing, note=str(error))]
+            # Another code, or the plugin that states the problem, may be broken.
+            words = str(error) if isinstance(error, TriboError) else said(error)
+            return [replace(nothing, note=words)]
         return [
             self._judged(row, [_error([rows[i] for rows in placed]) for placed in found])
             for i, row in enumerate(found[-1][0])

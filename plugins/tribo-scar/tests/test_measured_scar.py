@@ -906,6 +906,7 @@ def test_heights_in_micrometres_and_fill_values_are_told_by_their_file(standard,
     assert Heights(heights + 1.0, (PITCH, PITCH)).heights.shape == heights.shape
 
 
+@pytest.mark.filterwarnings("ignore:.*are outliers")
 def test_zeros_in_place_of_what_is_missing_are_told(standard):
     before, after, *_ = standard
     zeros = np.nan_to_num(before.heights)

@@ -11,7 +11,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from tribo.core.errors import CaseError, Interrupted, OutputError, TriboError, TriboWarning
+from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
 from tribo.core.locks import BusyError, lock
 from tribo.core.state import Snapshot
 from tribo.core.writing import open_lock, remove
@@ -74,7 +74,7 @@ def locked(path: Path) -> Iterator[None]:
             yield
         finally:
             # Windows cannot remove an open file.
-            with suppress(OutputError):
+            with suppress(TriboError):
                 remove(path)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 from tribo import Array, CaseError, Operator, TriboError
-from tribo.kernel_api import Mask, Memory, Model, Moment, assemble
+from tribo.kernel_api import Mask, Memory, Model, Moment, OverTime, assemble
 
 from tribo_inverse.adjoint.course import Other
 from tribo_inverse.adjoint.linear import Carrier, carriers_of
@@ -215,6 +215,8 @@ def chain(
                 _varied(base, places, value + by * step, factors) if by else base
                 for by, _ in scheme
             ]
+        except OverTime:
+            raise
         except (TriboError, ValidationError) as failed:
             error = error or failed
             continue

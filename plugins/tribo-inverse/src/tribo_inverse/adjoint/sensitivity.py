@@ -39,7 +39,7 @@ class Sensitivity:
         ``"depth"`` of the body, or ``"end_time"`` where a depth ends the run.
     percent : dict of float
         By path, the largest first: by how many per cent that changes for one per cent of the
-        number, on the finer grid. What is smaller than its uncertainty is left out.
+        number, on the finer grid.
     uncertainty : dict of float
         By path: by how many per cent for one per cent the two grids differ.
     cells : tuple of tuple of int
@@ -90,20 +90,24 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
     resolved = np.inf if model.contact.periodic else half_width_x
     wide = 1.0 if model.may_reach_edge else MARGINS[0]
     failed: CaseError | NumericalError | None = None
-    # The average of the stroke is the cheapest, but has not all surfaces.
-    for cells, margin, half_width in (
+    trials = (
+        # The average of the stroke is the cheapest, but has not all surfaces.
         (CELLS, wide, np.inf if model.contact.periodic else 0.0),
         (2 * CELLS, 1.0, resolved),
-    ):
-        try:
-            with limited():
-                return _of_two(
-                    *(coarsened(model.case, n, margin, half_width) for n in (cells, 2 * cells))
-                )
-        except OverTime as error:
-            raise NumericalError(str(error)) from None
-        except (CaseError, NumericalError) as error:
-            failed = failed or error
+    )
+    try:
+        with limited():
+            for cells, margin, half_width in trials:
+                try:
+                    return _of_two(
+                        *(coarsened(model.case, n, margin, half_width) for n in (cells, 2 * cells))
+                    )
+                except OverTime:
+                    raise
+                except (CaseError, NumericalError) as error:
+                    failed = failed or error
+    except OverTime as error:
+        failed = NumericalError(str(error))
     assert failed is not None
     raise failed
 
@@ -122,7 +126,7 @@ def _of_two(coarse: Model, fine: Model) -> Sensitivity:
         raise CaseError("no body wears", "bodies")
     off = {p: abs(value - before.relative.get(p, np.inf)) for p, value in after.relative.items()}
     ranked = sorted(after.relative.items(), key=lambda item: -abs(item[1]))
-    percent = {p: float(value) for p, value in ranked if abs(value) >= max(LEAST, off[p])}
+    percent = {p: float(value) for p, value in ranked if abs(value) >= LEAST}
     uncertainty = {path: float(off[path]) for path in percent}
     return Sensitivity(*asked[0], percent, uncertainty, (coarse.grid.cells, fine.grid.cells))
 

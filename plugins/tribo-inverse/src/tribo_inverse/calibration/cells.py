@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from scipy.ndimage import binary_opening, correlate1d
 from tribo import Array, CaseError, Heights, read_heights
-from tribo.kernel_api import Mask, Model, interpolated, located
+from tribo.kernel_api import Mask, Model, located
 
 ROUNDING = 1e-6
 """Relative rounding of pixel pitch and cell size."""
@@ -102,15 +102,14 @@ def on_cells(
     known = np.isfinite(heights.heights)
     # Along a track all is alike, so that nothing need be interpolated.
     used = known if averaged else np.ones(known.shape)
-    filled = interpolated(heights.heights, ~known)
-    pixels = np.where(used, filled, 0.0)
+    pixels = np.where(used, heights.filled, 0.0)
     if averaged and _has_swapped_axes(pixels, known):
         raise CaseError(
             "it is uneven along x, the sliding direction, and even across it, but a track is even "
             "along x: its axes are swapped; x goes from row to row of the map, y along each"
         )
     # A cell takes parts of pixels: linear interpolation gives the mean of each part.
-    slopes = [np.where(used, slope, 0.0) for slope in np.gradient(filled)]
+    slopes = [np.where(used, slope, 0.0) for slope in np.gradient(heights.filled)]
     (in_x, offset_x), (in_y, offset_y) = (
         _overlaps(n, width, m, pitch, off)
         for n, width, m, pitch, off in zip(
