@@ -235,7 +235,7 @@ def test_a_command_leaves_whole_files_at_a_crash_before_each_operation(
     def refused(*given):
         raise CaseError("it takes seconds")
 
-    monkeypatch.setattr("tribo.report.result.sensitivity", refused)
+    monkeypatch.setattr("tribo_report.result.findings", refused)
     folder = tmp_path / "work"
     shutil.copytree(made, folder)
     with recorded(folder) as work:

@@ -91,7 +91,7 @@ def demo(directory: Path, force: bool) -> None:
     for path in (case, output, followed, *pictures):
         like = LIKE.get(path.stem)
         click.echo(f"  {path.name:24}{like}" if like else f"  {path.name}")
-    click.echo(f"To hand the result on: tribo report {output} (needs jinja2 and plotly)")
+    click.echo(f"To hand the result on: tribo report {output} (comes with tribo-report)")
 
 
 def _end(result: Result) -> dict[str, Any]:
