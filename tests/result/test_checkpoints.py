@@ -239,3 +239,35 @@ def test_a_result_is_read_through_a_link_and_not_written(tmp_path):
     simulation().run(there, overwrite=True).close()
     with Result.open(link) as result:
         assert result.status == "done"
+
+
+@pytest.mark.parametrize("names", [["notes.txt"], ["lock", "notes.txt"], ["checkpoint"]])
+@pytest.mark.parametrize("overwrite", [False, True])
+def test_a_folder_that_no_run_made_is_refused_and_stays(tmp_path, names, overwrite):
+    folder = tmp_path / "run.h5.run"
+    folder.mkdir()
+    for name in names:
+        (folder / name).write_text("mine")
+    with pytest.raises(CaseError, match=r"run\.h5\.run was not made by tribo"):
+        simulation().run(tmp_path / "run.h5", overwrite=overwrite)
+    assert {path.name: path.read_text() for path in folder.iterdir()} == dict.fromkeys(
+        names, "mine"
+    )
+    assert list(tmp_path.iterdir()) == [folder]
+
+
+def test_what_is_put_into_the_folder_of_a_run_stays(tmp_path):
+    class Puts(Observer):
+        def on_save(self, snapshot):
+            (tmp_path / "run.h5.run" / "notes.txt").write_text("mine")
+
+    simulation().run(tmp_path / "run.h5", observers=[Puts()]).close()
+    assert [path.name for path in (tmp_path / "run.h5.run").iterdir()] == ["notes.txt"]
+
+
+def test_what_a_killed_process_was_writing_goes_as_the_run_goes_on(killed):
+    left = RunFolder(killed).path / f"tribo-{0:016x}.new"
+    left.touch()
+    with pytest.raises(Interrupted):
+        simulation().resume(killed, observers=[StopAfter(steps=15)])
+    assert not left.exists()

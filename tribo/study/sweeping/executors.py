@@ -62,6 +62,7 @@ def on_local_cluster(workers: int | None = None) -> Iterator[Executor]:
     """
     distributed = _distributed()
     with (
+        _environment(),
         distributed.LocalCluster(
             n_workers=workers or _cores(), threads_per_worker=1, dashboard_address=None
         ) as cluster,
@@ -129,11 +130,13 @@ def _cores() -> int:
 def _environment() -> Iterator[None]:
     """Limit processes that start now to one thread each for linear algebra.
 
-    Also silences Python's resource tracker, which would warn if this process is killed.
+    They import nothing from the folder that they start in. Also silences Python's resource
+    tracker, which would warn if this process is killed.
     """
     before = dict(os.environ)
     quiet = before.get("PYTHONWARNINGS"), "ignore:::multiprocessing.resource_tracker"
     os.environ.update(dict.fromkeys(THREADS, "1"), PYTHONWARNINGS=",".join(filter(None, quiet)))
+    os.environ["PYTHONSAFEPATH"] = "1"
     try:
         yield
     finally:
