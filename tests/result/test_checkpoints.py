@@ -295,3 +295,17 @@ def test_what_a_killed_process_was_writing_goes_as_the_run_goes_on(killed):
     with pytest.raises(Interrupted):
         simulation().resume(killed, observers=[StopAfter(steps=15)])
     assert not left.exists()
+
+
+@pytest.mark.slow
+def test_a_stopped_run_that_is_set_aside_is_resumed_to_the_same_bits(killed, undisturbed):
+    aside = RunFolder(killed).set_aside()
+    assert (aside, killed.exists(), RunFolder(killed).path.exists()) == (
+        killed.with_name("run.1.h5"),
+        False,
+        False,
+    )
+    simulation().run(killed).close()
+    assert RunFolder(killed).set_aside() is None
+    with simulation().resume(aside) as result:
+        assert bits(result) == undisturbed

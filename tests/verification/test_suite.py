@@ -69,8 +69,6 @@ def test_another_code_that_is_missing_or_breaks_is_told_from_one_that_disagrees(
     assert [row.verdict for row in other.run()] == ["not installed"]
     (row,) = replace(other, needs=("json",)).run()
     assert (row.verdict, row.note) == ("fails", "TypeError: 'NoneType' object is not callable")
-    with pytest.raises(TypeError):
-        replace(other, needs=()).run()
 
 
 def test_a_solve_that_fails_fails_its_reference_and_says_why():

@@ -14,7 +14,7 @@ from tribo.cli.waiting import waiting_for
 @CASE
 @click.option("-o", "--output", type=PATH, help="Result file; CASE.h5.")
 @SET
-@click.option("--force", is_flag=True, help="Replace an existing result.")
+@click.option("--force", is_flag=True, help="Replace a result; one to resume gets another name.")
 def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool) -> None:
     """Run CASE, a TOML file, and print what a lab would report.
 
@@ -30,6 +30,7 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     from tribo.config.load import load_case
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
+    from tribo.result.checkpoint import RunFolder
     from tribo.simulation.doubt import unusual
     from tribo.simulation.run import Simulation
 
@@ -41,6 +42,8 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     path = output or case.with_suffix(".h5")
     if path.resolve() == case.resolve():
         raise CaseError(f"{path} is the case itself; choose another file with -o")
+    if force and (aside := RunFolder(path).set_aside()):
+        click.echo(f"The run that was stopped is now {aside}, and can be resumed.", err=True)
     with simulation.run(path, observers=[Progress()], overwrite=force) as result:
         # The choice of positions was told as the run began.
         print_report(result, told="positions")

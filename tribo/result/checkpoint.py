@@ -16,6 +16,7 @@ from contextlib import suppress
 from dataclasses import dataclass, fields
 from hashlib import sha256
 from io import BytesIO
+from itertools import count
 from pathlib import Path
 from typing import IO, Any
 
@@ -104,6 +105,23 @@ class RunFolder:
         """Let other processes write the result."""
         if self._lock is not None:
             self._lock.close()
+
+    def set_aside(self) -> Path | None:
+        """Give a run that was stopped another name, free until now, under which it can be resumed.
+
+        Return the new name of the result; None where there is nothing to go on from, or a process
+        is writing it.
+        """
+        stopped = self.checkpoint.exists() and (self.path / "lock").exists()
+        if not (stopped and self.result.is_file()) or self.busy():
+            return None
+        for number in count(1):
+            aside = self.result.with_stem(f"{self.result.stem}.{number}")
+            if not (aside.exists() or RunFolder(aside).path.exists()):
+                break
+        move(self.path, RunFolder(aside).path)
+        move(self.result, aside)
+        return aside
 
     def busy(self) -> bool:
         """Whether a process is writing the result, as far as can be told."""
