@@ -34,7 +34,6 @@ RANK = {
     "simulation": 6,
     "plotting": 7,
     "study": 8,
-    "report": 8,
     "testing": 7,
     "verification": 7,
     "scaffold": 7,
@@ -42,16 +41,6 @@ RANK = {
     "kernel_api": 10,
 }
 MODELS = {"contact", "wear", "motion", "surfaces", "effects", "observers"}
-
-
-# A page has the tables of the terminal.
-SHOWN = {
-    "report/result.py": {"cli"},
-    "report/comparison.py": {"cli"},
-    "report/calibration.py": {"cli"},
-    "report/maps.py": {"cli"},
-    "report/sweep.py": {"cli"},
-}
 
 
 def imports(path: Path) -> set[str]:
@@ -91,7 +80,7 @@ FILES.remove(UPWARDS)
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
 def test_imports_go_one_way(path):
     package = path.relative_to(ROOT).parts[0].removesuffix(".py")
-    for other in packages(path) - SHOWN.get(path.relative_to(ROOT).as_posix(), set()):
+    for other in packages(path):
         assert RANK[other] <= RANK[package], f"{package} imports {other}"
 
 

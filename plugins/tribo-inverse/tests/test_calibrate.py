@@ -21,7 +21,7 @@ from tribo_inverse.calibration.quantities import p_words
 from tribo_inverse.command import _Progress
 from tribo_inverse.tables import estimates_table
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLES = Path(__file__).parents[3] / "examples"
 QUICK = ["--set", "grid.cells=24", "--set", "contact.type=winkler"]
 COARSE = ["--set", "stepping.depth_tolerance=1e-2", "--set", "stepping.pressure_tolerance=0.3"]
 WEIGHED = ["calibrate", "weighed_split.toml", "--measured", "weighed.toml", *QUICK, *COARSE]

@@ -100,8 +100,8 @@ def test_what_cannot_be_compared_is_told(cases, fit, words):
 
 
 def test_a_plan_is_of_one_case():
-    example = str(Path(__file__).parents[2] / "examples" / "weighed_split.toml")
-    data = str(Path(__file__).parents[2] / "examples" / "weighed.toml")
+    example = str(Path(__file__).parents[3] / "examples" / "weighed_split.toml")
+    data = str(Path(__file__).parents[3] / "examples" / "weighed.toml")
     ended = CliRunner().invoke(tribo, ["calibrate", example, example, "--measured", data])
     assert isinstance(ended.exception, CaseError)
     assert "give files of different names" in str(ended.exception)

@@ -34,7 +34,7 @@ CASE = apply_settings(
     {"grid.cells": 16, "stepping.depth_tolerance": 0.1, "bodies.disk.wear.k": 9e-15},
 )
 NOISE, PIXEL = 10e-9, 1e-3 / 640
-DATA = Path(__file__).parents[2] / "docs" / "_data"
+DATA = Path(__file__).parents[3] / "docs" / "_data"
 
 
 def worn(factor):

@@ -16,7 +16,7 @@ from tribo_inverse.calibration.plan import Search, plan_tests
 
 CASE = cheap(300)
 MASS = {"body": "ball", "quantity": "mass", "uncertainty": "0.2 ug"}
-DATA = Path(__file__).parents[2] / "docs" / "_data" / "calibration_coverage.json"
+DATA = Path(__file__).parents[3] / "docs" / "_data" / "calibration_coverage.json"
 
 
 def fewest(kinds, within, *, scatters=True):

@@ -22,7 +22,7 @@ from tribo_inverse.calibration.linearised import Problem
 from tribo_inverse.calibration.sample import sampled
 from tribo_inverse.calibration.setups import Run
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLES = Path(__file__).parents[3] / "examples"
 CASE, WEIGHED = EXAMPLES / "weighed_split.toml", EXAMPLES / "weighed.toml"
 
 
