@@ -107,6 +107,13 @@ def test_of_a_result_without_a_save_it_is_told_where_its_rest_is(state, name, co
         assert ("try again" in said) == (name == "running, unsaved")
 
 
+@pytest.mark.parametrize("command", [READING["show"], WRITING["resume"]])
+def test_a_run_that_left_its_folder_alone_is_started_again(state, command):
+    state("unsaved")
+    Path("r.h5").unlink()
+    assert "'tribo run --force' starts again" in refusal(command)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("command", READING.values(), ids=READING)
 @pytest.mark.parametrize("name", SAVED)

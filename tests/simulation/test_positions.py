@@ -45,12 +45,20 @@ def resolved():
 
 
 @pytest.mark.parametrize(
-    ("stroke", "taken"), [("0.4 mm", 9), ("4 mm", 67), ("5.8 mm", 95), ("6 mm", "average")]
+    ("stroke", "taken"), [("0.4 mm", 9), ("4 mm", 65), ("5.8 mm", 93), ("6 mm", "average")]
 )
 def test_long_strokes_are_averaged_and_others_resolved(stroke, taken):
     model = composed(left_open(stroke))
     assert model.case.kinematics.positions == taken
     assert len(model.cycle) == (1 if taken == "average" else taken)
+
+
+def test_the_choice_does_not_follow_the_grid():
+    # 20 lengths of Hertz's contact are 5.95 mm.
+    for stroke, averaged in (("5.9 mm", False), ("6 mm", True)):
+        for cells in (30, 40, 48):
+            model = composed(left_open(stroke, Grid((1.4e-3, 1.4e-3), (cells, cells))))
+            assert (len(model.cycle) == 1) == averaged
 
 
 def test_positions_lie_less_than_half_a_half_width_apart(resolved):

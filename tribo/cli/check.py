@@ -17,9 +17,17 @@ from tribo.cli.options import CASE, JSON, SET, echo_json
 from tribo.cli.waiting import waiting_for
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.words import readable
-from tribo.lab.first_contact import HertzContact, computed_pressure, in_mpa, yield_words
+from tribo.lab.first_contact import (
+    HertzContact,
+    computed_pressure,
+    hertz_half_width,
+    in_mpa,
+    yield_words,
+)
+from tribo.motion.reciprocating import Reciprocating
 from tribo.registry.hookspecs import Finding
 from tribo.simulation.model import Model
+from tribo.simulation.positions import lengths_of
 from tribo.simulation.predict import Prediction
 
 SPREAD = 3.0
@@ -122,6 +130,10 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
         if prediction.positions_for_1_percent is not None:
             words = f"{prediction.positions_for_1_percent} if the contact stays as it is at first"
             yield "positions for 1 % of the depth, about", words
+    elif isinstance(model.case.kinematics, Reciprocating):
+        half_width = hertz_half_width(model.system) or prediction.first.half_width_x
+        lengths = lengths_of(model.case.kinematics.stroke, half_width)
+        yield "positions", f"averaged over the stroke, {lengths}"
     yield from _end(model, prediction)
     if prediction.run_time is not None:
         soonest, latest = prediction.run_time / SPREAD, prediction.run_time * SPREAD

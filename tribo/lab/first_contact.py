@@ -74,6 +74,12 @@ def hertz_contact(system: ContactSystem) -> HertzContact | None:
     return HertzContact(a, b, p0, approach, ratio, loads)
 
 
+def hertz_half_width(system: ContactSystem) -> float | None:
+    """Return half the length of Hertz's contact along x, in m; None where it has no such."""
+    hertz = hertz_contact(system)
+    return hertz.half_width_x if hertz is not None and hertz.half_width_x < inf else None
+
+
 def first_hertz(result: Result) -> HertzContact | str:
     """Return Hertz's contact for the first save of a result, or why there is none."""
     if result.case.get("begin"):

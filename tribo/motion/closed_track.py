@@ -89,7 +89,7 @@ class ClosedTrack(Kinematics):
         """Length of the closed track, in m."""
 
     @property
-    def track(self) -> float:
+    def track_extent(self) -> float:
         """Length of the closed track, in m."""
         return self.lap
 

@@ -29,7 +29,7 @@ class Kinematics(Component):
         """Return the sliding distance from 0 to `time` (s), in m; never decreasing."""
 
     @property
-    def track(self) -> float:
+    def track_extent(self) -> float:
         """Length of the track, in m: the stroke, or once round.
 
         Infinite, unless overridden: points that pass do not come back.

@@ -108,7 +108,7 @@ class Measured(Kinematics):
         return float(np.max(places) - np.min(places))
 
     @property
-    def track(self) -> float:
+    def track_extent(self) -> float:
         """Range of the path, in m."""
         return self._range
 

@@ -127,7 +127,7 @@ class Reciprocating(Kinematics):
     _middle = field_validator("positions")(odd)
 
     @property
-    def track(self) -> float:
+    def track_extent(self) -> float:
         """The stroke, in m."""
         return self.stroke
 

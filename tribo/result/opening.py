@@ -38,6 +38,10 @@ def source_of(path: Path) -> Path | BytesIO:
 def is_unfinished(path: Path) -> bool:
     """Whether a result file is that of a run that goes on, or was killed."""
     if not os.path.isfile(path):
+        if RunFolder(path.resolve()).path.is_dir():
+            raise CaseError(
+                f"{path}: its run ended before its first save; 'tribo run --force' starts again"
+            )
         raise CaseError(f"{path} is not a file; give the .h5 file that 'tribo run' wrote")
     try:
         open_sealed(path).close()

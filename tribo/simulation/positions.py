@@ -11,6 +11,8 @@ from typing import Any
 from tribo.case import Begin, Case
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.measures import half_widths
+from tribo.core.words import readable
+from tribo.lab.first_contact import hertz_half_width
 from tribo.motion.cycle import Stroke, least_positions, spacing_for
 from tribo.motion.reciprocating import Reciprocating
 from tribo.result.read import Result
@@ -183,9 +185,13 @@ def _cells(case: Case, stroke: float) -> int:
 
 
 def _first_half_width(model: Model) -> float | None:
-    """Return half the extent along x of the first contact, in m; None where it cannot be solved."""
+    """Return half the length along x of the first contact, in m; None where it cannot be solved.
+
+    That of Hertz where the bodies have one, so that it does not follow the grid.
+    """
     try:
-        return half_widths(first_contact(model).contact, model.grid)[0]
+        hertz = hertz_half_width(model.system)
+        return hertz or half_widths(first_contact(model).contact, model.grid)[0]
     except (CaseError, NumericalError):
         return None
 
@@ -219,10 +225,12 @@ def _why(model: Model, stroke: float, half_width: float) -> str | None:
             f"the contact repeats every {1e3 * window:.3g} mm, and the average would spread what "
             f"it wears there over the stroke of {1e3 * stroke:.3g} mm"
         )
-    lengths = stroke / (2 * half_width)
-    if lengths >= LENGTHS:
+    if stroke >= LENGTHS * 2 * half_width:
         return None
-    return (
-        f"the stroke of {1e3 * stroke:.3g} mm is {lengths:.2g} times as long as the first contact "
-        f"(from {LENGTHS:g} times on it is averaged)"
-    )
+    return f"the stroke is {lengths_of(stroke, half_width)} (from {LENGTHS:g} on it is averaged)"
+
+
+def lengths_of(stroke: float, half_width: float) -> str:
+    """Return how many lengths of the first contact a stroke (m) has, in words."""
+    length = 2 * half_width
+    return f"{stroke / length:.3g} lengths of the first contact, {readable(1e6 * length, '.3g')} µm"

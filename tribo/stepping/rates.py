@@ -373,7 +373,7 @@ def _conditions(
         distance=moment.distance,
         materials=dict(model.system.materials),
         swept=model.swept,
-        track=motion.track,
+        track=motion.track_extent,
         turns_back=motion.turns_back,
         fields={name: copy(of_bodies) for name, of_bodies in fields.items()},
         state={key: in_window(model, key, memory.between[key]) for key in effect.initial_state},

@@ -24,14 +24,12 @@ ORDER = 4
 """Order of the polynomial that a form is looked for by."""
 BENT = 40.0
 """χ² of its 12 terms beyond a tilt, which chance exceeds once in 10⁴ maps."""
-FLAT = 20.0
-"""Radius of a surface over a ball's, from which on it is not the ball's."""
 GAP = 0.15
 """Part of the volume in one gap of the map from which on it is told."""
 WIDE = 5
 """Pixels of a gap along x and y at least."""
 RADIUS_OFF = 0.05
-"""Relative difference of a radius that is told."""
+"""Relative difference of a radius beyond which the surface is not the ball's."""
 
 
 def warn_of_zeros(heights: Heights, which: str) -> None:
@@ -128,21 +126,15 @@ def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
     if sag <= CURVED * noise:
         return True
     found *= radius / _of_ball(after, scar, radius)
-    if found > FLAT * radius:
+    if abs(math.log(found / radius)) > RADIUS_OFF:
         warnings.warn(
-            f"the unworn surface is as good as flat, and the ball has a radius of "
-            f"{1e3 * radius:.4g} mm: the formulas for a scar on a ball are left out",
+            f"the unworn surface has a radius of {1e3 * found:.4g} mm, and the ball one of "
+            f"{1e3 * radius:.4g} mm: the formulas for a scar on a ball are left out; check radius "
+            "and pitch",
             TriboWarning,
             stacklevel=3,
         )
         return False
-    if abs(math.log(found / radius)) > RADIUS_OFF:
-        warnings.warn(
-            f"the unworn surface has a radius of {1e3 * found:.4g} mm, and the ball one of "
-            f"{1e3 * radius:.4g} mm: check radius and pitch",
-            TriboWarning,
-            stacklevel=3,
-        )
     return True
 
 

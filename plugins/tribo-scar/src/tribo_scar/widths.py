@@ -141,6 +141,8 @@ def _read(profile: Array, noise: float, blur: float, pitch: float) -> Width:
     parabola through higher levels. Sides that fall within a pixel end at half of the depth.
     """
     peak = float(np.max(profile))
+    if peak <= 0:
+        raise CaseError("what is worn has no depth on the mean: is the map of before given first?")
     half = _crossed(profile, 0.5 * peak)
     low = min(max(LOWEST, DEEP * noise / peak, 3 * blur * math.sqrt(2) / half), HIGHEST)
     levels = (low, 2 * low, min(4 * low, 0.9))

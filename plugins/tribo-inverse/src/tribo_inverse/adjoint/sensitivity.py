@@ -124,8 +124,10 @@ def _of_two(coarse: Model, fine: Model) -> Sensitivity:
     before, after = gradient(coarse, answer), gradient(fine, answer)
     if not after.value > 0:
         raise CaseError("no body wears", "bodies")
-    off = {p: abs(value - before.relative.get(p, np.inf)) for p, value in after.relative.items()}
-    ranked = sorted(after.relative.items(), key=lambda item: -abs(item[1]))
+    # A number may have a derivative on one of the grids alone.
+    both = {p: value for p, value in after.relative.items() if p in before.relative}
+    off = {p: abs(value - before.relative[p]) for p, value in both.items()}
+    ranked = sorted(both.items(), key=lambda item: -abs(item[1]))
     percent = {p: float(value) for p, value in ranked if abs(value) >= LEAST}
     uncertainty = {path: float(off[path]) for path in percent}
     return Sensitivity(*asked[0], percent, uncertainty, (coarse.grid.cells, fine.grid.cells))
