@@ -41,7 +41,7 @@ def titled(title: str, *columns: str) -> Table:
     """
     table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
     if columns:
-        table.add_column("")
+        table.add_column("", overflow="fold")
     for column in columns:
         table.add_column(escape(column), justify="right", overflow="fold")
     return table
