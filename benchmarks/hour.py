@@ -75,7 +75,7 @@ def measure(options: argparse.Namespace) -> Tables:
 
     run(DEFAULT)
     first = results[DEFAULT]
-    begin = states(first, runs[DEFAULT].model.gap)
+    begin = states(first, runs[DEFAULT].model.contact.gap)
     loops = {
         f"loop on {package.name}": blocks(
             package,

@@ -79,8 +79,8 @@ def compared(
         "estimate_percent": 100
         * groove_excess(length, half_width, deep, state.reference_depth, ball_k / flat_k),
         "groove_over_approach": deep / state.reference_depth,
-        **_contact("average", state.contact, state.bodies["ball"].wear, model.gap, grid),
-        **_contact("resolved", moved.contact, moved.ball, model.gap, grid),
+        **_contact("average", state.contact, state.bodies["ball"].wear, model.contact.gap, grid),
+        **_contact("resolved", moved.contact, moved.ball, model.contact.gap, grid),
     }
 
 

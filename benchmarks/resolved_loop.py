@@ -29,8 +29,8 @@ from tribo.contact.love import displacement
 from tribo.core.contact import ContactSolution
 from tribo.core.state import State
 from tribo.simulation.march import begin, march
-from tribo.simulation.model import Model
 from tribo.stepping.explicit import Explicit, largest_stable_increment
+from tribo.stepping.model import Model
 from tribo.stepping.step import moment_after, undeformed
 
 EQUAL = "equal coefficients"
@@ -101,7 +101,7 @@ class Jumps:
                 disk[row : row + len(depth)] += depth
             answers = [
                 self.package.solve(gap + ball + disk[row : row + len(ball)], answer)
-                for row, gap, answer in zip(starts, self.model.gaps, answers, strict=True)
+                for row, gap, answer in zip(starts, self.model.contact.gaps, answers, strict=True)
             ]
         return answers
 
@@ -125,7 +125,7 @@ def measure(options: argparse.Namespace) -> Tables:
     states = [begun, *_at_saves(model, begun, options.saves)]
     limits = [_limit(model, state) for state in states]
     _, pressure, depth = hertz(LOAD)
-    contact = Contact(model.gap, CASES[EQUAL][1], LOAD, depth, pressure)
+    contact = Contact(model.contact.gap, CASES[EQUAL][1], LOAD, depth, pressure)
     makers: dict[str, Callable[[State], Callable[[float], Sequence[Any]]]] = {
         "steps of tribo": lambda state: partial(own_jumps, model, state, options.steps)
     }
@@ -177,7 +177,7 @@ def _row(
 
 
 def _rows(model: Model) -> Sequence[int]:
-    starts = model.exposures["disk"].starts
+    starts = model.cycle.maps["disk"].starts
     assert starts is not None
     return starts
 

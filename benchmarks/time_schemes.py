@@ -50,7 +50,7 @@ class Hour:
     def __init__(self, cells: int, duration: float) -> None:
         self.case = load_case(CASE, overrides=[f"grid.cells={cells}", *_lasting(duration)])
         self.model = Simulation(self.case).model
-        ball, disk = self.model.bodies.values()
+        ball, disk = self.model.case.bodies.values()
         assert ball.wear is not None
         assert disk.wear is not None
         self.ball_rate = float(ball.wear.k)
@@ -66,11 +66,11 @@ class Hour:
         """Return the first contact."""
         self.solves = 0
         unworn = np.zeros(self.model.grid.cells)
-        return Worn(unworn, unworn[:1], self._solve(self.model.gap, 0.0, None))
+        return Worn(unworn, unworn[:1], self._solve(self.model.contact.gap, 0.0, None))
 
     def implicit(self, worn: Worn, increment: float) -> Worn:
         """Return `worn` after wear under the pressure at the end."""
-        gap = self.model.gap + worn.ball + worn.track
+        gap = self.model.contact.gap + worn.ball + worn.track
         contact = self._solve(gap, increment, worn.contact)
         return self.explicit(Worn(worn.ball, worn.track, contact), increment)
 
@@ -92,9 +92,12 @@ class Hour:
             np.full(cells[1], self.track_rate * increment),
         )
         problem = ContactProblem(
-            self.model.system, gap, self.model.load, wear if increment else None
+            self.model.contact.system,
+            gap,
+            self.model.contact.system.load,
+            wear if increment else None,
         )
-        return self.model.contact.solve(problem, start)
+        return self.model.case.contact.solve(problem, start)
 
 
 def backward_euler(hour: Hour, worn: Worn, step: float) -> Worn:

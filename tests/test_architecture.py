@@ -30,6 +30,7 @@ RANK = {
     "registry": 4,
     "config": 5,
     "case": 5,
+    "guards": 4,
     "stepping": 5,
     "simulation": 6,
     "plotting": 7,

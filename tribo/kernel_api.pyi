@@ -61,6 +61,8 @@ from tribo.core.words import suggestion as suggestion
 from tribo.core.writing import check_output as check_output
 from tribo.core.writing import make_folder as make_folder
 from tribo.core.writing import write_file as write_file
+from tribo.guards.parts import GuardedLaw as GuardedLaw
+from tribo.guards.trial_time import limited as limited
 from tribo.lab.conversion import in_mm3_per_newton_metre as in_mm3_per_newton_metre
 from tribo.lab.conversion import mass_from_volume as mass_from_volume
 from tribo.lab.heights import BLUR as BLUR
@@ -124,13 +126,10 @@ from tribo.simulation.assembly import varied as varied
 from tribo.simulation.coarse import MARGINS as MARGINS
 from tribo.simulation.coarse import coarsened as coarsened
 from tribo.simulation.doubt import unusual as unusual
-from tribo.simulation.guards import GuardedLaw as GuardedLaw
 from tribo.simulation.march import DEPTH_ACCURACY as DEPTH_ACCURACY
 from tribo.simulation.march import begin as begin
 from tribo.simulation.march import march as march
-from tribo.simulation.model import Model as Model
 from tribo.simulation.positions import chosen as chosen
-from tribo.simulation.trial_time import limited as limited
 from tribo.stepping.events import Drawn as Drawn
 from tribo.stepping.events import Event as Event
 from tribo.stepping.events import Worn as Worn
@@ -148,6 +147,7 @@ from tribo.stepping.layers import over_increment as over_increment
 from tribo.stepping.memory import Memory as Memory
 from tribo.stepping.memory import at_surface as at_surface
 from tribo.stepping.memory import first_memory as first_memory
+from tribo.stepping.model import Model as Model
 from tribo.stepping.neville import EXACT as EXACT
 from tribo.stepping.neville import PLAIN as PLAIN
 from tribo.stepping.neville import RELAXING as RELAXING

@@ -38,7 +38,7 @@ def test_a_ring_stays_round_and_its_block_takes_its_shape():
     worn = 1e-15 * LOAD * distance / (2 * np.pi * RADIUS * LENGTH)
     np.testing.assert_allclose(ring, np.full((1, 4), worn), rtol=1e-6)
     volume = 1e-13 * LOAD * distance
-    assert model.exposures["block"].volume(block) == pytest.approx(volume, rel=1e-6, abs=0)
+    assert model.cycle.maps["block"].volume(block) == pytest.approx(volume, rel=1e-6, abs=0)
     # ASTM G77: the scar is a segment of the ring's circle, of section 2c³/3R for a half-width c.
     half = (1.5 * RADIUS * volume / LENGTH) ** (1 / 3)
     depth = np.maximum(half**2 - GRID.x**2, 0) / (2 * RADIUS)
@@ -70,7 +70,7 @@ def test_a_ring_is_round_and_as_large_as_its_track(ring, words):
 
 def test_a_ring_with_grooves_round_its_rim_stays_as_it_is():
     grooved = Waves(amplitude="1 nm", wavelength="1 mm", along="y", on=Cylinder(radius=RADIUS))
-    assert block_on_ring(1.0, ring=grooved).exposures["ring"].shape_stays
+    assert block_on_ring(1.0, ring=grooved).cycle.maps["ring"].shape_stays
 
 
 def test_a_ring_has_no_positions():

@@ -8,7 +8,7 @@ from paper_models import K, archard, half_space, motion, named, pair, small, sph
 from tribo_inverse.adjoint.sensitivity import sensitivity
 
 from tribo import CaseError, Effect, Field, Grid, NumericalError, Simulation, Waves
-from tribo.simulation import trial_time
+from tribo.guards import trial_time
 from tribo.simulation.predict import predict
 from tribo.stepping import step
 from tribo.stepping.explicit import Explicit

@@ -6,7 +6,7 @@ from paper_models import K, foundation, lost, pair, pin, power, small, states, s
 
 from tribo import Field, Grid, WearLaw, WearRate
 from tribo.core.fields import LocalConditions
-from tribo.simulation.guards import GuardedLaw
+from tribo.guards.parts import GuardedLaw
 from tribo.stepping.implicit import Implicit
 from tribo.wear.power import Power
 

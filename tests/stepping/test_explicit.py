@@ -15,7 +15,7 @@ def test_steps_that_cannot_do_are_refused_before_anything_is_written(tmp_path):
     model = small(bodies=pair(archard()), stepping=Explicit(time_step="60 s"), save_times=(1.0,))
     # Δs < 2 · 0.58069 Δ/(k E*)
     spacing = model.grid.spacing[0]
-    limit = 2 * 0.58069 * spacing / (K * model.system.modulus) / 0.1
+    limit = 2 * 0.58069 * spacing / (K * model.contact.system.modulus) / 0.1
     with pytest.raises(CaseError, match=r"stepping\.time_step: .*largest stable step") as caught:
         Simulation(model.case).run(tmp_path / "run.h5")
     stated = float(str(caught.value).split("stable step is ")[1].split(" s")[0])
@@ -42,7 +42,9 @@ def test_where_only_the_track_wears_the_limit_counts_the_part_of_it_in_contact()
     state = first_contact(model)
     touching = np.count_nonzero(state.contact.pressure > 0, axis=0).max()
     spacing = model.grid.spacing[0]
-    expected = 2 * 0.58069 * spacing / (K * model.system.modulus * touching * spacing / 2e-3)
+    expected = (
+        2 * 0.58069 * spacing / (K * model.contact.system.modulus * touching * spacing / 2e-3)
+    )
     limit = largest_stable_increment(model, state, Moment(0.0, 0.0, 0.1))
     assert limit == pytest.approx(expected, rel=1e-3)
 
@@ -87,7 +89,7 @@ def test_the_limit_counts_what_comes_through_fields_that_follow_the_pressure(fie
     stepping = Explicit(time_step="1 h")
     model = small(bodies=bodies, effects=[Load()], stepping=stepping)
     slope = K * steepest(first_contact(model).contact.pressure)
-    limit = 2 * 0.58069 * model.grid.spacing[0] / (slope * model.system.modulus) / 0.1
+    limit = 2 * 0.58069 * model.grid.spacing[0] / (slope * model.contact.system.modulus) / 0.1
     with pytest.raises(CaseError, match="largest stable step") as caught:
         Simulation(model.case).run()
     stated = float(str(caught.value).split("stable step is ")[1].split(" s")[0])

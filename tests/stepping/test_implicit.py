@@ -27,7 +27,7 @@ def test_a_step_is_exact_backward_euler(laws, contact):
     state = one_step(model)
     pressure = state.contact.pressure
     # The wear is the law's at the new pressure ...
-    for name, body in model.bodies.items():
+    for name, body in model.case.bodies.items():
         if body.wear is None:
             assert not state.bodies[name].wear.any()
             continue
@@ -35,12 +35,14 @@ def test_a_step_is_exact_backward_euler(laws, contact):
         rate = body.wear.rate(local).depth_rate
         np.testing.assert_allclose(
             state.bodies[name].wear,
-            1.0 * model.exposures[name].average(rate),
+            1.0 * model.cycle.maps[name].average(rate),
             rtol=1e-6,
             atol=1e-7 * state.bodies[name].wear.max(),
         )
     # ... and the pressure is that of the worn geometry.
-    again = contact.solve(ContactProblem(model.system, undeformed(model, state)[0], model.load))
+    again = contact.solve(
+        ContactProblem(model.contact.system, undeformed(model, state)[0], model.contact.system.load)
+    )
     np.testing.assert_allclose(again.pressure, pressure, atol=2e-5 * pressure.max())
 
 
@@ -56,11 +58,11 @@ def test_halving_tolerances_changes_the_answer_within_them(paper_small):
     )
     coarse = paper_small[-1]
     for name in ("ball", "disk"):
-        assert coarse.bodies[name].wear.max() == pytest.approx(
+        assert coarse.case.bodies[name].wear.max() == pytest.approx(
             fine.bodies[name].wear.max(), rel=5e-3
         )
     middle = slice(23, 25)
-    assert coarse.contact.pressure[middle, middle].mean() == pytest.approx(
+    assert coarse.case.contact.pressure[middle, middle].mean() == pytest.approx(
         fine.contact.pressure[middle, middle].mean(), rel=0.02
     )
 

@@ -40,7 +40,7 @@ def one_body(surface=None, law=None, **changes):
 def time_step(factor):
     """A part of the largest stable one of `one_body`."""
     model = one_body()
-    return factor * 2 * 0.58069 * model.grid.spacing[0] / (K * model.system.modulus) / 0.1
+    return factor * 2 * 0.58069 * model.grid.spacing[0] / (K * model.contact.system.modulus) / 0.1
 
 
 def unstable(factor):
@@ -126,7 +126,7 @@ def test_a_step_that_may_chatter_is_told_of_before_it_does(factor, told):
 )
 def test_a_motion_that_miscounts_wear_stops_the_run(exposure, words):
     model = one_body()
-    exposure(model.exposures["ball"])
+    exposure(model.cycle.maps["ball"])
     with pytest.raises(NumericalError, match=rf"^step 1, at .*{words}.*; .*kinematics"):
         last(model)
 

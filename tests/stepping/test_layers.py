@@ -265,7 +265,11 @@ def test_nothing_yields_twice_under_one_load():
     for _, state in zip(range(4), march(model, begin(model)), strict=False):
         worn = start_sliding(model, state.state)
     again = solve_cycle(
-        model, undeformed(model, worn), model.loads.before(worn.time), worn.contacts, worn.bodies
+        model,
+        undeformed(model, worn),
+        model.contact.loads.before(worn.time),
+        worn.contacts,
+        worn.bodies,
     )
     deepest = max(np.max(body.plastic) for body in worn.bodies.values())
     assert deepest > 1e-7
@@ -423,8 +427,8 @@ def test_laws_that_know_their_means_are_asked_as_rarely_below_a_layer():
     case["bodies"]["pin"]["layers"][0]["thickness"] = "0.1 um"
     made = Case.model_validate({**case, "stepping": LONG})
     law = Counted(factor=4.0, over="100 MPa m", law=Archard(k=10 * K))
-    pin = made.bodies["pin"].model_copy(update={"wear": law})
-    made = made.model_copy(update={"bodies": {**made.bodies, "pin": pin}})
+    pin = made.case.bodies["pin"].model_copy(update={"wear": law})
+    made = made.model_copy(update={"bodies": {**made.case.bodies, "pin": pin}})
     _, notices, totals = ended(made)
     assert any("layer 1 of pin" in told for told in notices)
     # Where parts of steps were tried until they agreed, some 150 times a solve.

@@ -36,7 +36,7 @@ def loaded(load, duration=20, **changes):
 
 
 def volumes(model, state):
-    return [model.exposures[name].volume(body.wear) for name, body in state.bodies.items()]
+    return [model.cycle.maps[name].volume(body.wear) for name, body in state.bodies.items()]
 
 
 @pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step=0.07)], ids=lambda s: s.type)
@@ -77,7 +77,7 @@ def depth_after(steps, load):
     model = loaded(load)
     state = states(loaded(load, duration=1e-6))[0]
     for step in range(1, steps + 1):
-        state = model.stepping.step(model, state, 8.0 * SPEED / steps, 8.0 * step / steps)
+        state = model.case.stepping.step(model, state, 8.0 * SPEED / steps, 8.0 * step / steps)
     return float(state.bodies["ball"].wear.max())
 
 

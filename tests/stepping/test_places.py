@@ -39,9 +39,9 @@ def test_the_same_points_of_a_body_wear_wherever_they_pass():
 def test_a_place_moves_through_the_window_with_its_body():
     model = sliding("cells")
     dx = GRID.spacing[0]
-    starts = model.exposures["disk"].starts
+    starts = model.cycle.maps["disk"].starts
     for position, start in enumerate(starts):
-        places = model.places(position)
+        places = model.cycle.places(position)
         np.testing.assert_array_equal(places["place_x"]["ball"][:, 3], GRID.x)
         np.testing.assert_allclose(
             places["place_x"]["disk"][:, 3], GRID.x + (start - starts[6]) * dx, atol=1e-12

@@ -54,8 +54,10 @@ def test_the_groove_is_the_envelope_of_what_was_pressed_in(run):
 def test_a_lighter_contact_on_the_groove_is_elastic(run, part):
     model, all_states = run
     settled = start_sliding(model, all_states[0])
-    lighter = model.contact.solve(
-        ContactProblem(model.system, undeformed(model, settled)[0], part * model.load)
+    lighter = model.case.contact.solve(
+        ContactProblem(
+            model.contact.system, undeformed(model, settled)[0], part * model.contact.system.load
+        )
     )
     assert lighter.pressure.max() < HARDNESS
     assert lighter.overlap.max() == 0
@@ -86,7 +88,7 @@ def test_a_softer_disk_gets_a_groove_that_comes_to_rest(hardness):
     # Without the ball's share the disk alone sinks deeper than with equal hardness.
     assert disk.max() > 2e-6
     assert np.ptp(disk, axis=0).max() == 0
-    assert last.contact.pressure.max() < model.system.cap
+    assert last.contact.pressure.max() < model.contact.system.cap
 
 
 def test_what_is_pressed_in_is_shared_out_whole(run):
@@ -98,8 +100,10 @@ def test_what_is_pressed_in_is_shared_out_whole(run):
 def test_every_pressure_belongs_to_the_geometry_saved_with_it(run):
     model, all_states = run
     for state in (all_states[0], all_states[1], all_states[-1]):
-        again = model.contact.solve(
-            ContactProblem(model.system, undeformed(model, state)[0], model.load)
+        again = model.case.contact.solve(
+            ContactProblem(
+                model.contact.system, undeformed(model, state)[0], model.contact.system.load
+            )
         )
         np.testing.assert_allclose(
             again.pressure, state.contact.pressure, atol=1e-4 * state.contact.pressure.max()

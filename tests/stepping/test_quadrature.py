@@ -43,10 +43,10 @@ def true_error(state, finest, model):
     for name, body in state.bodies.items():
         off = np.abs(body.wear - finest.bodies[name].wear)
         weighed = sum(
-            position.share * np.sum(contact.pressure * model.under(name, off, at))
+            position.share * np.sum(contact.pressure * model.cycle.maps[name].see(off, at))
             for at, (position, contact) in enumerate(zip(model.cycle, state.contacts, strict=True))
         )
-        errors.append(weighed * model.grid.cell_area / model.load / body.wear.max())
+        errors.append(weighed * model.grid.cell_area / model.contact.system.load / body.wear.max())
     return max(errors)
 
 

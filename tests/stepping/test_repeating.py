@@ -214,7 +214,7 @@ def test_waves_press_at_each_position_as_far_apart_as_they_have_come():
     # In full contact a wave of the amplitude A is pressed flat by E* q A / 2.
     for contact, cell in zip(first_contact(model).contacts, range(-8, 8), strict=True):
         wave = 2e-8 * np.cos(q * x) + 3e-8 * np.cos(q * (x - cell * DX))
-        expected = mean + 0.5 * model.system.modulus * q * wave
+        expected = mean + 0.5 * model.contact.system.modulus * q * wave
         assert np.min(expected) > 0
         np.testing.assert_allclose(contact.pressure, expected + 0 * GRID.y, rtol=1e-9)
 

@@ -111,7 +111,7 @@ def depth_after(steps, positions=7):
     model = resolved(positions, stepping=Implicit(cycle_tolerance=1e-9))
     state = first_contact(model)
     for step in range(1, steps + 1):
-        state = model.stepping.step(model, state, 2.0 / steps, 80.0 * step / steps)
+        state = model.case.stepping.step(model, state, 2.0 / steps, 80.0 * step / steps)
     return float(state.bodies["ball"].wear.max())
 
 
@@ -141,7 +141,9 @@ def test_on_stiff_springs_every_pressure_belongs_to_its_gap():
     model = resolved(duration=60, contact=foundation(modulus=3e15), bodies=bodies)
     for state in states(model)[1:]:
         again = [
-            model.contact.solve(ContactProblem(model.system, gap, model.load)).pressure
+            model.case.contact.solve(
+                ContactProblem(model.contact.system, gap, model.contact.system.load)
+            ).pressure
             for gap in undeformed(model, state)
         ]
         kept = [contact.pressure for contact in state.contacts]
@@ -165,7 +167,9 @@ def test_nothing_yields_twice_at_any_position(soft):
     assert deepest > 1e-8
     for position in range(7):
         gap = undeformed(model, state)[position]
-        again = model.contact.solve(ContactProblem(model.system, gap, model.load))
+        again = model.case.contact.solve(
+            ContactProblem(model.contact.system, gap, model.contact.system.load)
+        )
         assert again.overlap.max() <= 1e-5 * deepest
         assert again.pressure.max() <= 1.5e9 * (1 + 1e-9)
 

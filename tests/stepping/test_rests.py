@@ -68,7 +68,7 @@ def test_a_load_may_rise_as_the_motion_comes_to_rest_and_goes_on(ramp):
     load_distance = np.trapezoid(slides * np.interp(times, ramp, (50, 100)), times)
     assert last.load_distance == pytest.approx(load_distance, rel=1e-4)
     for name, body in last.bodies.items():
-        volume = model.exposures[name].volume(body.wear)
+        volume = model.cycle.maps[name].volume(body.wear)
         assert volume == pytest.approx(K * last.load_distance, rel=1e-9, abs=0)
 
 

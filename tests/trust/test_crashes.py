@@ -178,7 +178,7 @@ def test_a_model_that_keeps_a_state_goes_on_to_the_same_bits_from_each_checkpoin
     resumed, _ = resumed_from_each(checkpoints.values(), simulation, folder, undisturbed)
     assert resumed == 2
     model = simulation.model
-    states = [field for place in (*model.bodies, None) for field in model.kept_on(place)]
+    states = [field for place in (*model.case.bodies, None) for field in model.laws.kept_on(place)]
     assert bool(states) == (name not in ("layers", "positions"))
 
 

@@ -7,11 +7,11 @@ import pytest
 
 from tribo.contact import dcfft, love, operator, periodic
 from tribo.core.fields import WearRate
+from tribo.guards.parts import GuardedSolver
 from tribo.lab import ball, track
 from tribo.motion.cycle import Stroke
 from tribo.motion.exposure import Track
 from tribo.simulation import assembly
-from tribo.simulation.guards import GuardedSolver
 from tribo.stepping import layers, step
 from tribo.verification.suite import REFERENCES
 from tribo.wear.archard import Archard

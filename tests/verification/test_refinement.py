@@ -71,7 +71,7 @@ def ball_on_disk(path, cells):
 def exact(tmp_path_factory):
     """On cells a third of the finest size that is held against it."""
     model = ball_on_disk(tmp_path_factory.mktemp("exact") / "case.toml", 240)
-    level = refinement._run(model, model.grid.cells, model.stepping)
+    level = refinement._run(model, model.grid.cells, model.case.stepping)
     return refinement._quantities(model, level.end)
 
 

@@ -26,9 +26,9 @@ from tribo.lab.first_contact import (
 )
 from tribo.motion.reciprocating import Reciprocating
 from tribo.registry.hookspecs import Finding
-from tribo.simulation.model import Model
 from tribo.simulation.positions import lengths_of
 from tribo.simulation.predict import Prediction
+from tribo.stepping.model import Model
 
 SPREAD = 3.0
 """Factor to which the time of a run is known."""
@@ -51,11 +51,11 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     numerical failure; where it must stop, the code that it would end with.
     """
     from tribo.config.load import load_case
+    from tribo.guards.trial_time import TRIAL_TIME
     from tribo.registry.registry import findings
     from tribo.simulation.doubt import unusual
     from tribo.simulation.predict import predict
     from tribo.simulation.run import Simulation
-    from tribo.simulation.trial_time import TRIAL_TIME
 
     read = load_case(case, overrides=overrides)
     doubts = unusual(read)
@@ -131,7 +131,7 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
             words = f"{prediction.positions_for_1_percent} if the contact stays as it is at first"
             yield "positions for 1 % of the depth, about", words
     elif isinstance(model.case.kinematics, Reciprocating):
-        half_width = hertz_half_width(model.system) or prediction.first.half_width_x
+        half_width = hertz_half_width(model.contact.system) or prediction.first.half_width_x
         lengths = lengths_of(model.case.kinematics.stroke, half_width)
         yield "positions", f"averaged over the stroke, {lengths}"
     yield from _end(model, prediction)
@@ -144,7 +144,7 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
 
 def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     hertz, first = prediction.hertz, prediction.first
-    low, high = model.loads.least, model.loads.largest
+    low, high = model.contact.loads.least, model.contact.loads.largest
     if low < high:
         yield "load", f"{first.load:.4g} N at first, {low:.4g} to {high:.4g} N in all"
     if begin := model.case.begin:
@@ -155,7 +155,9 @@ def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, 
         said = "{} without the layer, {} of the layer throughout"
         yield "Hertz half-widths", said.format(_widths(below), _widths(above))
         peaks = (in_mpa(each.peak_pressure) for each in (below, above))
-        _, computed = computed_pressure(model.system, first.max_pressure, first.centre_pressure)
+        _, computed = computed_pressure(
+            model.contact.system, first.max_pressure, first.centre_pressure
+        )
         yield "Hertz peak pressure p0", f"{said.format(*peaks)}, computed {computed}"
     elif hertz is None or prediction.cells_across is None:
         yield "first contact", "no Hertz solution for these surfaces"
@@ -163,10 +165,10 @@ def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, 
         p0 = hertz.peak_pressure
         yield "Hertz half-widths", _widths(hertz)
         pressure, computed = computed_pressure(
-            model.system, first.max_pressure, first.centre_pressure
+            model.contact.system, first.max_pressure, first.centre_pressure
         )
         yield "Hertz peak pressure p0", f"{in_mpa(p0)}, computed {computed}"
-        hardness = model.system.cap
+        hardness = model.contact.system.cap
         if hardness is not None:
             yield "p0/H", f"{p0 / hardness:.3f}"
             yield "yield", yield_words(pressure, hardness, hertz)

@@ -7,16 +7,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, add_from, rows_from
 from tribo.core.contact import WearCompliance
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 
 
 class Exposure(ABC):
-    """Maps rates in the contact frame on to a body's own surface.
+    """The surface map of a body: how its own surface meets the window at each position of a cycle.
 
-    Fields on a body's surface have shape (rows, ny).
+    `see` takes a field from the surface to the window, `gather` a rate from the window to the
+    surface: its transpose, weighted as the average is. Fields on a body's surface have shape
+    (rows, ny).
     """
 
     swept: bool = False
@@ -39,6 +41,35 @@ class Exposure(ABC):
     def averaged(self) -> bool:
         """Whether its points pass and are all taken as one, which has no place along x."""
         return self.swept and self.starts is None
+
+    def first_row(self, position: int) -> int:
+        """Return the row of the body's own surface at which the window begins at a position."""
+        return 0
+
+    def see(self, field: Array, position: int) -> Array:
+        """Return what lies in the window of a field on the body's own surface, at a position.
+
+        Shape (nx, ny), or (1, ny) of a field that is the same all along a track.
+        """
+        return field
+
+    def lay(self, field: Array, position: int) -> Array:
+        """Return a field of the window where it lies on the body's own surface, at a position.
+
+        Fields of a track that is the same all along stay in the window.
+        """
+        return field
+
+    def gather(
+        self, rate: Array, position: int, part: float = 1.0, total: Array | None = None
+    ) -> Array:
+        """Return what a part of the path, at a rate in the window, adds up to on the surface.
+
+        With a `total`, on the surface, it is added to that: in place if the body has rows of its
+        own.
+        """
+        mean = part * self.average(rate)
+        return mean if total is None else total + mean
 
     @abstractmethod
     def average(self, rate: Array) -> Array:
@@ -177,12 +208,36 @@ class Passing(Stationary):
     """
 
     swept = True
+    starts: Sequence[int]
 
     def __init__(self, grid: Grid, starts: Sequence[int], length: float) -> None:
         super().__init__(grid)
         self.starts = tuple(starts)
         self.rows = grid.period or grid.cells[0] + max(starts)
         self._length = length if grid.period is None else min(length, grid.size[0])
+
+    def first_row(self, position: int) -> int:
+        """Return the start of the position."""
+        return self.starts[position]
+
+    def see(self, field: Array, position: int) -> Array:
+        """Return the rows of the window, from the start of the position on."""
+        return rows_from(field, self.starts[position], self._grid.cells[0])
+
+    def lay(self, field: Array, position: int) -> Array:
+        """Return the field on the body's rows, from the start of the position on."""
+        own = np.zeros((self.rows, *field.shape[1:]))
+        add_from(own, field, self.starts[position])
+        return own
+
+    def gather(
+        self, rate: Array, position: int, part: float = 1.0, total: Array | None = None
+    ) -> Array:
+        """Return the rate's part on the body's rows, added to `total` in place."""
+        if total is None:
+            return self.lay(part * rate, position)
+        add_from(total, part * rate, self.starts[position])
+        return total
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
         """Return that of the average, which takes all positions to change alike.

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from tribo.component import Component
     from tribo.lab.heights import Heights
     from tribo.result.read import Result
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
     from tribo.verification.reference import Reference
 
 PROJECT = "tribo"

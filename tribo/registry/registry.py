@@ -27,7 +27,7 @@ from tribo.registry.plugins import Plugin, builtin, given, installed
 
 if TYPE_CHECKING:
     from tribo.result.read import Result
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 
 class Registry:

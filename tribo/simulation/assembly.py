@@ -11,7 +11,7 @@ import numpy as np
 
 from tribo.case import Body, Case
 from tribo.contact.solver import ContactSolver
-from tribo.core.arrays import Array, readonly, rows_from
+from tribo.core.arrays import Array, readonly
 from tribo.core.coating import Coating
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, located
@@ -19,20 +19,23 @@ from tribo.core.fields import PLACE_X
 from tribo.core.grid import Grid, RepeatingGrid
 from tribo.core.loads import Loads
 from tribo.core.material import contact_modulus
-from tribo.motion.exposure import Exposure
-from tribo.motion.unidirectional import Unidirectional
-from tribo.registry.plugins import check_requirements
-from tribo.simulation.effects import in_order
-from tribo.simulation.guarded_motion import GuardedMotion
-from tribo.simulation.guards import (
+from tribo.guards.layers import LayeredLaw
+from tribo.guards.motion import GuardedMotion
+from tribo.guards.parts import (
     GuardedEffect,
     GuardedLaw,
     GuardedSolver,
     GuardedSurface,
 )
-from tribo.simulation.layers import LayeredLaw
+from tribo.motion.exposure import Exposure
+from tribo.motion.unidirectional import Unidirectional
+from tribo.registry.plugins import check_requirements
+from tribo.simulation.effects import in_order
 from tribo.simulation.memory import check_memory, memory_needed
-from tribo.simulation.model import Model
+from tribo.stepping.contact_setup import ContactSetup
+from tribo.stepping.cycle import Cycle
+from tribo.stepping.laws import Laws
+from tribo.stepping.model import Model
 
 ROUNDING = 1e-9
 SAME_RADIUS = 1e-2
@@ -47,7 +50,7 @@ def assemble(case: Case) -> Model:
     with located("kinematics"):
         window = as_it_repeats(grid, case.contact)
         exposures = motion.exposures(window, list(bodies))
-        cycle = motion.cycle(window)
+        cycle = Cycle(grid, motion.cycle(window), exposures)
         for exposure in exposures.values():
             motion.check_starts(exposure, len(cycle), window)
     cap, share, hardness = _plastic(bodies, case.contact)
@@ -101,28 +104,22 @@ def assemble(case: Case) -> Model:
             "stepping.type",
         )
     effects = tuple(GuardedEffect(effect, list(bodies)) for effect in in_order(case))
+    friction = None if case.friction is None else case.friction.coefficient
     end = motion.end_time(case.stop.distance)
     motion.check_distance(end)
     model = Model(
         case=case,
-        solver=solver,
         motion=motion,
         surfaces=surfaces,
-        laws=laws,
-        effects=effects,
-        exposures=exposures,
-        plastic_share=share,
-        hardness=hardness,
-        system=system,
-        loads=loads,
         cycle=cycle,
-        gaps=_gaps(grid, len(cycle), surfaces, exposures),
+        contact=ContactSetup(solver, system, loads, _gaps(cycle, surfaces), share, hardness),
+        laws=Laws(laws, effects, cycle, friction),
         end_time=end,
     )
     _check_ends(model)
     for effect in effects:
         with located("effects"):
-            effect.ask(effect.component.check, dict(system.materials), model.swept)
+            effect.ask(effect.component.check, dict(system.materials), model.cycle.swept)
     return model
 
 
@@ -239,31 +236,23 @@ def _places(grid: Grid, positions: int, exposures: Mapping[str, Exposure]) -> Ar
     return np.asarray(grid.spacing[0] * (starts[positions // 2] - np.array(starts)))
 
 
-def _gaps(
-    grid: Grid,
-    positions: int,
-    surfaces: Mapping[str, GuardedSurface],
-    exposures: Mapping[str, Exposure],
-) -> tuple[Array, ...]:
+def _gaps(cycle: Cycle, surfaces: Mapping[str, GuardedSurface]) -> tuple[Array, ...]:
     """Return the initial gap at each position, 0 at the least in the middle of the cycle."""
 
     def gap_at(position: int) -> Array:
-        gap = np.zeros(grid.cells)
+        gap = np.zeros(cycle.grid.cells)
         for name, surface in surfaces.items():
-            starts = exposures[name].starts
-            first = 0 if starts is None else starts[position]
-            gap -= rows_from(surface.height, first, grid.cells[0])
+            gap -= cycle.maps[name].see(surface.height, position)
         return gap
 
-    middle = positions // 2
-    lowest = float(np.min(gap_at(middle)))
+    lowest = float(np.min(gap_at(cycle.middle)))
     moving = any(
-        exposures[name].starts is not None and _varies_along_x(surface.height)
+        cycle.maps[name].starts is not None and _varies_along_x(surface.height)
         for name, surface in surfaces.items()
     )
     if not moving:
-        return (readonly(gap_at(middle) - lowest),) * positions
-    return tuple(readonly(gap_at(position) - lowest) for position in range(positions))
+        return (readonly(gap_at(cycle.middle) - lowest),) * len(cycle)
+    return tuple(readonly(gap_at(position) - lowest) for position in range(len(cycle)))
 
 
 def _check_sliding(surface: GuardedSurface, exposure: Exposure) -> None:
@@ -307,11 +296,11 @@ def _varies_along_x(height: Array) -> bool:
 
 
 def _check_ends(model: Model) -> None:
-    end = model.end_time
-    if model.loads.end < end * (1 - 1e-12):
+    end, last = model.end_time, model.contact.loads.end
+    if last < end * (1 - 1e-12):
         raise CaseError(
-            f"the load ends at {model.loads.end:g} s, before the run does at {end:g} s; give it up "
-            "to then, or shorten the motion",
+            f"the load ends at {last:g} s, before the run does at {end:g} s; give it up to then, "
+            "or shorten the motion",
             "load.normal",
         )
     times = model.case.output.save_times
@@ -325,8 +314,8 @@ def _check_ends(model: Model) -> None:
             "output.save_times",
         )
     stop = model.case.stop
-    if stop.body is not None and stop.body not in model.bodies:
+    if stop.body is not None and stop.body not in model.case.bodies:
         raise CaseError(
-            f"no body is called {stop.body!r}; the bodies are " + ", ".join(model.bodies),
+            f"no body is called {stop.body!r}; the bodies are " + ", ".join(model.case.bodies),
             "stop.body",
         )

@@ -18,8 +18,8 @@ import numpy as np
 from tribo.core.arrays import readonly
 from tribo.core.errors import TriboError, TriboWarning
 from tribo.core.state import RunInfo, Snapshot
+from tribo.guards.guard import Guard
 from tribo.observers.observer import Observer
-from tribo.simulation.guard import Guard
 
 
 class Audience:

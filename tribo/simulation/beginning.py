@@ -16,7 +16,7 @@ from tribo.core.grid import Grid
 from tribo.core.state import BodyState, State
 from tribo.result.layout import BETWEEN, STATE, TRACK, TRACK_PLASTIC, TRACK_STATE
 from tribo.result.read import Result
-from tribo.simulation.model import Model
+from tribo.stepping.model import Model
 from tribo.stepping.step import first_contact
 
 PLACE = "begin.result"
@@ -43,12 +43,12 @@ def first_state(model: Model) -> State:
     with result:
         save = _save(result, begin)
         _check_alike(model, result)
-        bodies = {name: _worn(model, result, name, save) for name in model.bodies}
+        bodies = {name: _worn(model, result, name, save) for name in model.case.bodies}
         found, otherwise = _remembered(model, result, save)
         carried = result.saves()[save]
     for name, body in bodies.items():
         bodies[name] = replace(body, law={k: found.get((name, k), v) for k, v in body.law.items()})
-    between = {key: values for (_, key), values in found.items() if key in model.between}
+    between = {key: values for (_, key), values in found.items() if key in model.laws.between}
     state = replace(
         first_contact(model, bodies, between),
         load_distance=carried["load_distance_N_m"],
@@ -82,10 +82,10 @@ def _save(result: Result, begin: Begin) -> int:
 def _check_alike(model: Model, result: Result) -> None:
     """Refuse a result of other bodies, or on another grid."""
     name, grid = result.name, result.grid
-    if set(result.body_names) != set(model.bodies):
+    if set(result.body_names) != set(model.case.bodies):
         raise CaseError(
             f"{name} has the bodies {', '.join(result.body_names)}, and the case "
-            f"{', '.join(model.bodies)}; name them alike",
+            f"{', '.join(model.case.bodies)}; name them alike",
             PLACE,
         )
     if (grid.size, grid.cells) != (model.grid.size, model.grid.cells):
@@ -97,7 +97,7 @@ def _check_alike(model: Model, result: Result) -> None:
     for body, surface in model.surfaces.items():
         was = result.case["bodies"][body].get("surface")
         # A file that a surface is read from may have changed since.
-        height = model.under(body, surface.height, len(model.cycle) // 2)
+        height = model.cycle.maps[body].see(surface.height, len(model.cycle) // 2)
         off = np.max(np.abs(height - result.body(body).height))
         if was != model.data["bodies"][body]["surface"] or off > SAME * np.ptp(height):
             raise CaseError(
@@ -109,9 +109,9 @@ def _check_alike(model: Model, result: Result) -> None:
 
 def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
     """Return what a result has of a body, on the rows that the body has in the case."""
-    nx, rows = model.grid.cells[0], model.exposures[name].rows
+    nx, rows = model.grid.cells[0], model.cycle.maps[name].rows
     body, track = result.body(name), _along_track(result, TRACK, name, save)
-    if body.swept != (name in model.swept):
+    if body.swept != (name in model.cycle.swept):
         ways = "passes through the contact", "stays in it"
         was, is_now = ways if body.swept else ways[::-1]
         raise CaseError(f"{name} {was} in {result.name}, and {is_now} in the case", PLACE)
@@ -130,7 +130,7 @@ def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
             "average both",
             PLACE,
         )
-    initial = model.laws[name].initial_state if name in model.laws else {}
+    initial = model.laws.wear[name].initial_state if name in model.laws.wear else {}
     law = {field: np.full_like(wear, value) for field, value in initial.items()}
     return BodyState(wear=wear, plastic=kept[1], law=law)
 
@@ -145,10 +145,10 @@ def _remembered(
     """
     found: dict[tuple[str | None, str], Array] = {}
     afresh, left = [], []
-    for place in (*model.bodies, None):
+    for place in (*model.case.bodies, None):
         where = "the contact" if place is None else place
         kept = _kept(result, place)
-        for field in model.kept_on(place):
+        for field in model.laws.kept_on(place):
             key = kept.get((field.name, field.unit))
             values = None if key is None else _read(result, key, save, place)
             laid = None if values is None else _laid(model, place, field, values)
@@ -178,7 +178,7 @@ def _read(result: Result, variable: str, save: int, place: str | None) -> Array 
 def _laid(model: Model, place: str | None, field: Field, values: Array) -> Array | None:
     """Return a state field as the case keeps it; None where it is of another shape."""
     if place is not None:
-        return _on_rows(values, model.exposures[place].rows, model.grid.cells[0])
+        return _on_rows(values, model.cycle.maps[place].rows, model.grid.cells[0])
     if field.uniform:
         return values.reshape(1, 1) if values.size == 1 else None
     return values if values.shape == model.grid.cells else None

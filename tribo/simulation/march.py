@@ -12,7 +12,6 @@ from tribo.core.measures import half_widths, reaches_border
 from tribo.core.state import State
 from tribo.simulation.beginning import first_state
 from tribo.simulation.doubt import doubting
-from tribo.simulation.model import Model
 from tribo.simulation.validity import (
     broken_period,
     check_stroke,
@@ -23,6 +22,7 @@ from tribo.simulation.validity import (
     short_of_a_lap,
 )
 from tribo.stepping.invariants import chattering_words, chatters, hold
+from tribo.stepping.model import Model
 from tribo.stepping.step import distance_until, start_sliding
 
 DEPTH_ACCURACY = 1e-6
@@ -46,7 +46,7 @@ def begin(model: Model) -> State:
     with doubting(model.case):
         state = hold(model, None, first_state(model))
         check_stroke(model, state)
-        model.stepping.check(model, state)
+        model.case.stepping.check(model, state)
     if model.chosen is not None:
         state = state.with_notice("positions", model.chosen)
     if _depth(model, state) >= _limit(model):
@@ -59,7 +59,7 @@ def begin(model: Model) -> State:
 
 def _stops(model: Model) -> list[float]:
     """Return the times (s) that steps end at: saves, and where the load or the speed jumps."""
-    edges = (*model.loads.edges, *model.motion.edges())
+    edges = (*model.contact.loads.edges, *model.motion.edges())
     return sorted(model.saves | {time for time in edges if 0 < time < model.end_time})
 
 
@@ -91,7 +91,7 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
 def _advanced(model: Model, state: State, until: float, limit: float) -> State:
     """Return the next state that holds, the wear depth up to its limit."""
     try:
-        after = model.stepping.advance(model, state, until)
+        after = model.case.stepping.advance(model, state, until)
         if _depth(model, after) > limit:
             after = _up_to_depth(model, state, after, limit)
     except PluginError as error:
@@ -117,7 +117,7 @@ def _up_to_depth(model: Model, state: State, after: State, limit: float) -> Stat
         width = high - low
         trial = low + (0.5 if slow else part) * width
         time = model.motion.time_at(state.distance + trial)
-        cut = model.stepping.step(model, state, trial, time)
+        cut = model.case.stepping.step(model, state, trial, time)
         depth = _depth(model, cut)
         if depth >= limit:
             kept = [n for n in after.notices if (n.distance or 0.0) <= cut.distance]
@@ -153,7 +153,7 @@ def _depth(model: Model, state: State) -> float:
 
 def _check_window(model: Model, state: State) -> None:
     reaching = [each for each in state.contacts if reaches_border(each.pressure)]
-    if model.may_reach_edge or not reaching:
+    if model.contact.may_reach_edge or not reaching:
         return
     width, breadth = half_widths(reaching[0], model.grid)
     raise OutOfWindow(

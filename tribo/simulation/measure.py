@@ -13,9 +13,9 @@ from tribo.core.measures import (
 )
 from tribo.core.state import State
 from tribo.lab.running_in import contact_roughness
-from tribo.simulation.model import Model
 from tribo.stepping.friction import friction_force
 from tribo.stepping.layers import caps
+from tribo.stepping.model import Model
 from tribo.stepping.quadrature import cycle_error
 
 
@@ -25,15 +25,15 @@ def measure(model: Model, state: State) -> Measures:
     extent = state.contact.extent
     touched = pressure[extent]
     own = caps(model, state.bodies)[len(model.cycle) // 2]
-    cap = model.system.cap if own is None else own[extent]
-    load = model.loads.over_cycle(model.loads.before(state.time))
+    cap = model.contact.system.cap if own is None else own[extent]
+    load = model.contact.loads.over_cycle(model.contact.loads.before(state.time))
     friction = friction_force(model, state)
     width, breadth = half_widths(state.contact, model.grid)
     bodies = {
         name: BodyMeasures(
             max_wear_depth=float(np.max(body.wear)),
             centre_wear_depth=centre(body.wear),
-            wear_volume=model.exposures[name].volume(body.wear),
+            wear_volume=model.cycle.maps[name].volume(body.wear),
             max_plastic_depth=float(np.max(body.plastic)),
             roughness=_roughness(model, name, state),
         )
@@ -53,7 +53,7 @@ def measure(model: Model, state: State) -> Measures:
         area=contact_area(touched, model.grid),
         # At the cap.
         plastic_area=0.0 if cap is None else contact_area(touched >= cap, model.grid),
-        approach=state.contact.approach - model.closest,
+        approach=state.contact.approach - model.contact.closest,
         residuals=state.contact.residuals,
         contact_solves=state.contact_solves,
         solver_iterations=state.solver_iterations,
@@ -69,5 +69,5 @@ def _roughness(model: Model, name: str, state: State) -> dict[str, float]:
         return {}
     body, middle = state.bodies[name], len(model.cycle) // 2
     own = model.surfaces[name].height, -body.wear, -body.plastic
-    surface = sum(model.under(name, part, middle) for part in own)
+    surface = sum(model.cycle.maps[name].see(part, middle) for part in own)
     return contact_roughness(np.asarray(surface), state.contact.pressure)._asdict()

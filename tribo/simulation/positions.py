@@ -18,9 +18,9 @@ from tribo.motion.reciprocating import Reciprocating
 from tribo.result.read import Result
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.coarse import smoothed
-from tribo.simulation.model import Model
 from tribo.simulation.validity import is_endless
 from tribo.stepping.explicit import Explicit
+from tribo.stepping.model import Model
 from tribo.stepping.step import first_contact
 
 LENGTHS = 20.0
@@ -190,7 +190,7 @@ def _first_half_width(model: Model) -> float | None:
     That of Hertz where the bodies have one, so that it does not follow the grid.
     """
     try:
-        hertz = hertz_half_width(model.system)
+        hertz = hertz_half_width(model.contact.system)
         return hertz or half_widths(first_contact(model).contact, model.grid)[0]
     except (CaseError, NumericalError):
         return None
@@ -204,7 +204,7 @@ def _spacing(model: Model, stroke: float, half_width: float) -> float:
     # A contact that wear does not widen, as a flat pin's, keeps its edge.
     with suppress(NumericalError):
         form = assemble(varied(smoothed(model.case)))
-        if form.system.curvature is None:
+        if form.contact.system.curvature is None:
             return min(apart, spacing_for(first_contact(form).contact.pressure, EVEN) * dx)
     return apart
 
@@ -212,7 +212,7 @@ def _spacing(model: Model, stroke: float, half_width: float) -> float:
 def _goes_round(model: Model, stroke: float, half_width: float) -> bool:
     """Whether a contact that repeats meets what passed its neighbour."""
     beyond = stroke > (1 + SAME) * model.grid.size[0]
-    return is_endless(model, half_width) or (model.contact.periodic and beyond)
+    return is_endless(model, half_width) or (model.case.contact.periodic and beyond)
 
 
 def _why(model: Model, stroke: float, half_width: float) -> str | None:

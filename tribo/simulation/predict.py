@@ -16,17 +16,16 @@ from tribo.core.measures import Measures
 from tribo.core.notices import worn_through
 from tribo.core.state import State
 from tribo.core.words import readable
+from tribo.guards.guard import Guard
+from tribo.guards.trial_time import limited
 from tribo.lab.first_contact import HertzContact, hertz_contact
 from tribo.result.provenance import stated_facts
 from tribo.simulation.beginning import first_state
 from tribo.simulation.coarse import MARGINS, coarsened
 from tribo.simulation.doubt import doubting, too_deep, unusual
-from tribo.simulation.guard import Guard
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed, size_of_fields
-from tribo.simulation.model import Model
-from tribo.simulation.trial_time import limited
 from tribo.simulation.validity import (
     broken_period,
     check_stroke,
@@ -37,6 +36,7 @@ from tribo.simulation.validity import (
     too_wide,
 )
 from tribo.stepping.implicit import Implicit
+from tribo.stepping.model import Model
 from tribo.stepping.step import start_sliding
 
 COARSE = 72
@@ -106,7 +106,7 @@ def predict(model: Model) -> Prediction:
         state = first_state(model)
         check_stroke(model, state)
     first = measure(model, state)
-    hertz = None if model.case.begin else hertz_contact(model.system)
+    hertz = None if model.case.begin else hertz_contact(model.contact.system)
     dx, dy = model.grid.spacing
     try:
         with limited():
@@ -114,7 +114,7 @@ def predict(model: Model) -> Prediction:
     except OverTime as error:
         coarse = CoarseRun(None, error=error)
     last = coarse.last
-    holds = None if last is None else _inside(model, last) or model.may_reach_edge
+    holds = None if last is None else _inside(model, last) or model.contact.may_reach_edge
     across = None if hertz is None else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
     stopping, warned = _stopping(model, state, coarse, window_holds=holds)
     doubts, ends = unusual(model.case), [(code, text) for code, text in stopping if code]
@@ -125,7 +125,7 @@ def predict(model: Model) -> Prediction:
         broken_period(model),
         warned,
         *(too_wide(model, first) or too_wide(model, last or first)),
-        *(too_deep(model.system, last.bodies) if last else ()),
+        *(too_deep(model.contact.system, last.bodies) if last else ()),
         coarse.limitation,
         short_of_a_lap(model),
     )
@@ -133,7 +133,9 @@ def predict(model: Model) -> Prediction:
     return Prediction(
         first=first,
         hertz=hertz,
-        hertz_bounds=_bounds(model.system) if hertz is None and not model.case.begin else None,
+        hertz_bounds=_bounds(model.contact.system)
+        if hertz is None and not model.case.begin
+        else None,
         cells_across=across,
         last=last,
         worn_through=coarse.worn_through,
@@ -141,8 +143,10 @@ def predict(model: Model) -> Prediction:
         limitation=coarse.limitation,
         positions=len(model.cycle),
         positions_for_1_percent=positions_for(model, state.contact),
-        memory=memory_needed(model.case, model.exposures, plastic=model.system.cap is not None),
-        file_size=BARE_FILE + size_of_fields(model.case, model.exposures),
+        memory=memory_needed(
+            model.case, model.cycle.maps, plastic=model.contact.system.cap is not None
+        ),
+        file_size=BARE_FILE + size_of_fields(model.case, model.cycle.maps),
         run_time=coarse.run_time,
         facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problem for problem in problems if problem is not None),
@@ -160,7 +164,7 @@ def _stopping(
     """
     stopping, warned = list[tuple[int, str]](), None
     try:
-        warned = model.stepping.check(model, state)
+        warned = model.case.stepping.check(model, state)
     except CaseError as error:
         stopping.append((error.exit_code, f"the run would stop at once: {error}"))
     try:
@@ -223,13 +227,13 @@ def _inside(model: Model, measures: Measures) -> bool:
 
 def _coarse_run(model: Model, first: Measures) -> CoarseRun:
     # What has worn on one grid is not known on another.
-    if not model.contact.accepts_wear_compliance or model.case.begin is not None:
+    if not model.case.contact.accepts_wear_compliance or model.case.begin is not None:
         return CoarseRun(None)
     failed: CaseError | NumericalError | None = None
     # Contacts that repeat keep their positions however long the path: for the average they end.
-    half_width = np.inf if model.contact.periodic else first.half_width_x
+    half_width = np.inf if model.case.contact.periodic else first.half_width_x
     # A body or a period that ends at the window has no more to give in a wider one.
-    for margin in (1.0,) if model.may_reach_edge else MARGINS:
+    for margin in (1.0,) if model.contact.may_reach_edge else MARGINS:
         try:
             coarse = coarsened(model.case, COARSE, margin, half_width)
             began = time.perf_counter()
@@ -252,7 +256,7 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             limitation(replace(coarse, motion=model.motion), state),
             tuple(worn_through(state.notices)),
             run_time=_run_time(model, coarse, took)
-            if isinstance(model.stepping, Implicit)
+            if isinstance(model.case.stepping, Implicit)
             else None,
         )
     return CoarseRun(None, error=failed, on_any_cells=isinstance(failed, PluginError))

@@ -18,6 +18,7 @@ from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
 from tribo.core.notices import Notice
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
 from tribo.core.writing import check_output
+from tribo.guards.guard import Guard
 from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
 from tribo.registry.plugins import Plugin
@@ -30,12 +31,11 @@ from tribo.simulation.audience import Audience
 from tribo.simulation.beginning import checksum
 from tribo.simulation.doubt import doubting
 from tribo.simulation.effects import MissingFieldError
-from tribo.simulation.guard import Guard
 from tribo.simulation.interrupt import interrupts_held
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
-from tribo.simulation.model import Model
 from tribo.simulation.positions import composed
+from tribo.stepping.model import Model
 from tribo.stepping.rates import effect_fields
 
 OTHERS = (".csv", ".json", ".pdf", ".png", ".svg", ".toml", ".txt", ".xls", ".xlsx")
@@ -296,25 +296,27 @@ class Simulation:
             begin = model.case.begin
             made["begun_with"] = {"result": begin.result, "sha256": checksum(begin)}
         return RunInfo(
-            system=model.system,
+            system=model.contact.system,
             bodies=tuple(
                 BodyInfo(
                     name=name,
-                    swept=name in model.swept,
+                    swept=name in model.cycle.swept,
                     density=body.material.density,
-                    height=model.under(name, model.surfaces[name].height, len(model.cycle) // 2),
-                    rows=model.exposures[name].rows,
-                    state_fields=model.kept_on(name),
+                    height=model.cycle.maps[name].see(
+                        model.surfaces[name].height, len(model.cycle) // 2
+                    ),
+                    rows=model.cycle.maps[name].rows,
+                    state_fields=model.laws.kept_on(name),
                     rough=name in model.rough,
                 )
-                for name, body in model.bodies.items()
+                for name, body in model.case.bodies.items()
             ),
             end_time=model.end_time,
             end_distance=model.end_distance,
             case=model.data,
             provenance=made,
-            effect_fields=tuple(f for effect in model.effects for f in effect.provides),
-            between_fields=model.kept_on(None),
+            effect_fields=tuple(f for effect in model.laws.effects for f in effect.provides),
+            between_fields=model.laws.kept_on(None),
             resumed_from=resumed_from,
             wall_time=wall_time,
         )

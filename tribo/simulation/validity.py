@@ -15,7 +15,7 @@ from tribo.core.state import State
 from tribo.core.words import readable
 from tribo.lab.first_contact import hertz_contact
 from tribo.motion.cycle import check_spacing, spacing_for
-from tribo.simulation.model import Model
+from tribo.stepping.model import Model
 from tribo.stepping.quadrature import cycle_error
 
 COARSE, FINE = 0.05, 0.01
@@ -36,7 +36,7 @@ FEW_CELLS = 8
 def few_cells(model: Model, first: ContactSolution) -> str | None:
     """Say so if the first contact is only a few cells wide, by Hertz where that is known."""
     dx, dy = model.grid.spacing
-    hertz = None if model.case.begin else hertz_contact(model.system)
+    hertz = None if model.case.begin else hertz_contact(model.contact.system)
     width, breadth = (
         half_widths(first, model.grid)
         if hertz is None
@@ -53,7 +53,7 @@ def few_cells(model: Model, first: ContactSolution) -> str | None:
 
 def broken_period(model: Model) -> str | None:
     """Say so if the contact repeats with the window, but the surface of a body does not."""
-    if not model.contact.periodic:
+    if not model.case.contact.periodic:
         return None
     for name, surface in model.surfaces.items():
         for axis, along in enumerate("xy"):
@@ -101,7 +101,7 @@ def too_wide(model: Model, measures: Measures) -> list[str]:
 def short_of_a_lap(model: Model) -> str | None:
     """Say so if the whole run slides over a part of a body's track only."""
     distance = model.end_distance
-    for name in [name for name in model.laws if name in model.swept]:
+    for name in [name for name in model.laws.wear if name in model.cycle.swept]:
         length = _track_length(model, name)
         if distance < WHOLE * length:
             return (
@@ -114,12 +114,12 @@ def short_of_a_lap(model: Model) -> str | None:
 
 
 def _track_length(model: Model, name: str) -> float:
-    starts = model.exposures[name].starts
+    starts = model.cycle.maps[name].starts
     if starts is not None:
         return (max(starts) - min(starts)) * model.grid.spacing[0]
     # What one metre of depth all along the track takes, over the breadth of the window.
     depth = np.ones((1, model.grid.cells[1]))
-    return model.exposures[name].volume(depth) / model.grid.size[1]
+    return model.cycle.maps[name].volume(depth) / model.grid.size[1]
 
 
 def check_stroke(model: Model, state: State) -> None:
@@ -128,12 +128,12 @@ def check_stroke(model: Model, state: State) -> None:
         return
     half_width = half_widths(state.contact, model.grid)[0]
     with located("kinematics"):
-        passes = any(e.starts is not None for e in model.exposures.values())
-        if not model.contact.periodic or not passes:
+        passes = any(e.starts is not None for e in model.cycle.maps.values())
+        if not model.case.contact.periodic or not passes:
             model.motion.check_contact(half_width)
-        elif not is_endless(model, half_width) and model.apart > model.grid.spacing[0]:
+        elif not is_endless(model, half_width) and model.cycle.apart > model.grid.spacing[0]:
             gaps = len(model.cycle) - 1
-            check_spacing(gaps * model.apart, gaps + 1, half_width)
+            check_spacing(gaps * model.cycle.apart, gaps + 1, half_width)
 
 
 def limitation(model: Model, state: State) -> str | None:
@@ -147,10 +147,10 @@ def limitation(model: Model, state: State) -> str | None:
 def _unlike_the_period(model: Model) -> str | None:
     """Say so if a body that meets a contact without an end is averaged over another length."""
     period = model.grid.size[0]
-    averaged = [name for name in model.changing if model.exposures[name].starts is None]
+    averaged = [name for name in model.changing if model.cycle.maps[name].starts is None]
     for name in averaged:
         length = _track_length(model, name)
-        if name in model.laws and abs(length - period) > UNLIKE * period:
+        if name in model.laws.wear and abs(length - period) > UNLIKE * period:
             return (
                 f"the contact repeats every {1e3 * period:.4g} mm without an end, but what one "
                 f"period wears off {name} is averaged over a track of {1e3 * length:.4g} mm: "
@@ -168,7 +168,7 @@ def track_average(model: Model, state: State) -> tuple[float, float, float, floa
     # Worn off the bodies that stay over that off those that are swept.
     lost = {True: 0.0, False: 0.0}
     for name, body in state.bodies.items():
-        lost[name in model.swept] += model.exposures[name].volume(body.wear)
+        lost[name in model.cycle.swept] += model.cycle.maps[name].volume(body.wear)
     stays, swept = lost[False], lost[True]
     ratio = stays / swept if swept else (np.inf if stays else 1.0)
     across = bool(np.all(np.any(contact.pressure > 0, axis=0)))
@@ -177,7 +177,7 @@ def track_average(model: Model, state: State) -> tuple[float, float, float, floa
 
 def is_endless(model: Model, half_width: float) -> bool:
     """Whether the contact goes on into the next period of what repeats along x."""
-    return model.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - 1e-9)
+    return model.case.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - 1e-9)
 
 
 def coarse_cycle(model: Model, state: State) -> str | None:
@@ -188,9 +188,9 @@ def coarse_cycle(model: Model, state: State) -> str | None:
     # The error goes with the square of the spacing.
     gaps = (len(model.cycle) - 1) * math.sqrt(error / FINE)
     return (
-        f"the {len(model.cycle)} positions of the cycle, {1e3 * model.apart:.3g} mm apart, leave "
-        f"the wear depth uncertain by about {100 * error:.2g} %, weighted with the load; raise "
-        f"kinematics.positions to {2 * math.ceil(0.5 * gaps) + 1} for 1 %"
+        f"the {len(model.cycle)} positions of the cycle, {1e3 * model.cycle.apart:.3g} mm apart, "
+        f"leave the wear depth uncertain by about {100 * error:.2g} %, weighted with the load; "
+        f"raise kinematics.positions to {2 * math.ceil(0.5 * gaps) + 1} for 1 %"
     )
 
 
@@ -213,9 +213,9 @@ def positions_for(model: Model, first: ContactSolution) -> int | None:
 
     None where the cycle is not resolved.
     """
-    starts = [e.starts for e in model.exposures.values() if e.starts is not None]
+    starts = [e.starts for e in model.cycle.maps.values() if e.starts is not None]
     if not starts:
         return None
     path = max(starts[0]) - min(starts[0])
-    spacing = spacing_for(first.pressure, FINE, repeats=model.contact.periodic)
+    spacing = spacing_for(first.pressure, FINE, repeats=model.case.contact.periodic)
     return 2 * math.ceil(0.5 * path / spacing) + 1

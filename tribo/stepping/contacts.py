@@ -16,7 +16,7 @@ from tribo.stepping.layers import caps
 from tribo.stepping.linear_wear import LinearWear
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 NUDGE = 1e-4
 """Part of the pressure by which it is varied to find what a wear rate makes of it."""
@@ -41,14 +41,14 @@ def solve_cycle(
     alone = [None] * len(loads) if wear is None else wear.alone
     coupling = None if wear is None else wear.coupling
     problems = [
-        ContactProblem(model.system, *given)
+        ContactProblem(model.contact.system, *given)
         for given in zip(gaps, loads, alone, caps(model, bodies), strict=True)
     ]
     if not (model.couples and _all_mirror(problems, coupling)):
-        return model.solver.solve_cycle(problems, starts, coupling)
+        return model.contact.solver.solve_cycle(problems, starts, coupling)
     half = len(problems) // 2 + 1
     one_side = None if coupling is None else _one_side(coupling, half)
-    *left, middle = model.solver.solve_cycle(problems[:half], starts[:half], one_side)
+    *left, middle = model.contact.solver.solve_cycle(problems[:half], starts[:half], one_side)
     return [*left, _symmetric(middle), *map(_mirrored, reversed(left))]
 
 

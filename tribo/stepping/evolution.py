@@ -20,7 +20,7 @@ from tribo.stepping.rates import CycleRates, Moment, wear_rates
 from tribo.stepping.relaxation import Limits, Rates, Values
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 
 COARSE = Plan(((0.25, True), (0.75, True)), np.inf)
@@ -79,7 +79,7 @@ def course(
     values, depths, taken = _followed(model, before, layered, of_model, increment, plan)
     each = iter(depths)
     mean = [
-        {name: WearRate(np.maximum(next(each), 0.0) / increment) for name in model.laws}
+        {name: WearRate(np.maximum(next(each), 0.0) / increment) for name in model.laws.wear}
         for _ in contacts
     ]
     return Course(mean, before.with_values(iter(values)), taken, begun if layered else None)
@@ -126,7 +126,7 @@ def sloped(
     if not before.values:
         return known.rates
     nudged, stripes = in_stripes(contacts)
-    layered = any(law.bottoms for law in model.laws.values())
+    layered = any(law.bottoms for law in model.laws.wear.values())
     # Slopes jump where points pass to the next layer: those over other parts mislead.
     if len(known.plan.parts) > len(COARSE.parts) and not layered:
         same, plan = course(model, before, contacts, increment, moment, COARSE), COARSE
@@ -163,7 +163,7 @@ def _rates(
     and so are those of models that know them.
     """
     moment = end.back((1 - passed) * increment)
-    if model.tells_length:
+    if model.laws.tells_length:
         moment = replace(moment, over=step * increment)
     contacts = loaded(model, contacts, end.back(0.5 * increment).time, end.time, passed)
     now = memory_with(before, layered, values)
@@ -172,12 +172,14 @@ def _rates(
     for position, rates in enumerate(found):
         share = model.cycle[position].share
         laws = (
-            model.average(name, rates.wear[name].state_rates[key], position)
+            model.cycle.maps[name].gather(rates.wear[name].state_rates[key], position)
             for name, of_law in before.laws.items()
             for key in of_law
         )
         effects = (laid(model, key, rates.between[key], position) for key in before.between)
-        depths = (model.average(name, rates.wear[name].depth_rate, position) for name in layered)
+        depths = (
+            model.cycle.maps[name].gather(rates.wear[name].depth_rate, position) for name in layered
+        )
         pairs = zip(total, (*laws, *effects, *depths), strict=True)
         total = [value + share * rate for value, rate in pairs]
     return total + [rate.depth_rate for rates in found for rate in rates.wear.values()]
@@ -192,7 +194,7 @@ def memory_with(before: Memory, layered: Sequence[str], values: Sequence[Array])
 
 def layered_bodies(model: Model) -> list[str]:
     """Return the bodies in layers, whose depths go along with what is remembered."""
-    return [name for name, law in model.laws.items() if law.bottoms]
+    return [name for name, law in model.laws.wear.items() if law.bottoms]
 
 
 def _followed(
@@ -210,9 +212,11 @@ def _followed(
         increment,
         limits_of(model, before),
         plan,
-        knows_means=model.advances,
+        knows_means=model.laws.advances,
         layered=[
-            model.tells_length and model.knows_mean(name) and model.laws[name].steady_above
+            model.laws.tells_length
+            and model.laws.knows_mean(name)
+            and model.laws.wear[name].steady_above
             for name in layered
         ],
     )
@@ -230,7 +234,7 @@ def loaded(
     Of an increment or a rest that has its `middle` and its `end` at these times, in s.
     """
     # A load that jumps as it begins is told apart in its middle.
-    if model.loads.before(middle) == model.loads.before(end):
+    if model.contact.loads.before(middle) == model.contact.loads.before(end):
         return contacts
     return with_loads(model, contacts, middle, end, passed)
 
@@ -243,7 +247,7 @@ def with_loads(
     passed: float,
 ) -> list[ContactSolution]:
     """Return contacts with pressures that carry the load where a part has passed, as `loaded`."""
-    halfway, last = model.loads.before(middle), model.loads.before(end)
+    halfway, last = model.contact.loads.before(middle), model.contact.loads.before(end)
     cell, found = model.grid.cell_area, []
     for contact, half, whole in zip(contacts, halfway, last, strict=True):
         load = whole + 2 * (1 - passed) * (half - whole)
@@ -255,13 +259,15 @@ def with_loads(
 def limits_of(model: Model, memory: Memory) -> list[Limits]:
     """Return the limits of `Memory.values`, and those of the depths of bodies in layers."""
     of_laws = [
-        (field, f"{model.laws[name]}")
+        (field, f"{model.laws.wear[name]}")
         for name, of_law in memory.laws.items()
         for key in of_law
-        for field in model.laws[name].state_fields
+        for field in model.laws.wear[name].state_fields
         if field.name == key
     ]
-    between = [(model.between[key][1], f"{model.between[key][0]}") for key in memory.between]
+    between = [
+        (model.laws.between[key][1], f"{model.laws.between[key][0]}") for key in memory.between
+    ]
     remembered = [
         Limits(
             -np.inf if field.at_least is None else field.at_least,

@@ -35,7 +35,7 @@ from tribo.stepping.step import (
 )
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 MOST_STEPS = 1e8
 PLACE = "stepping.time_step"
@@ -103,14 +103,14 @@ class Explicit(Scheme):
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
         """Return the state after one forward Euler step; see `Scheme.step`."""
         moment, memory = moment_after(state, increment, time), remembered(state)
-        if memory.values or any(law.bottoms for law in model.laws.values()):
+        if memory.values or any(law.bottoms for law in model.laws.wear.values()):
             slid = course(model, memory, state.contacts, increment, moment)
         else:
             slid = Course(rated(model, state, moment).rates, memory)
         depths = worn_depths(model, slid.rates, increment)
         model.tell(Worn(state.contacts, state.time, increment, moment, memory, slid.plan, True))
         after = worn_by(model, state, slid, depths, increment, moment)
-        loads = model.loads.before(time)
+        loads = model.contact.loads.before(time)
         contacts = solve_cycle(
             model, undeformed(model, after), loads, _extrapolated(state), after.bodies
         )
@@ -131,7 +131,7 @@ class Explicit(Scheme):
             if self.allow_unstable:
                 return None
             raise CaseError(
-                f"contact.type = {model.contact.type!r} does not state its smallest "
+                f"contact.type = {model.case.contact.type!r} does not state its smallest "
                 "compliance, so the stability of explicit steps cannot be checked; set "
                 "stepping.allow_unstable = true to go on without",
                 PLACE,
@@ -168,7 +168,7 @@ def largest_stable_increment(model: Model, state: State, moment: Moment) -> floa
     comes through fields that follow the pressure. None where the contact solver
     does not state its smallest compliance; infinity where nothing wears.
     """
-    smallest = model.solver.smallest_compliance(model.system)
+    smallest = model.contact.solver.smallest_compliance(model.contact.system)
     if smallest is None:
         return None
     rates = _steepened(model, state, rated(model, state, moment).rates, moment)
@@ -182,15 +182,15 @@ def _steepest(model: Model, rates: Mapping[str, WearRate], contact: ContactSolut
     compliance = wear_compliance(model, rates, contact.pressure, 1.0)
     touching = contact.pressure[near] > 0
     # A point of a body that passes wears in steps of the positions.
-    length = np.count_nonzero(touching, axis=0) * model.grid.spacing[0] + model.apart
+    length = np.count_nonzero(touching, axis=0) * model.grid.spacing[0] + model.cycle.apart
     local = float(np.max(compliance.local[near], where=touching, initial=0.0))
     return local + float((compliance.swept[near[1]] * length).max())
 
 
 def _steepened(model: Model, state: State, rates: CycleRates, moment: Moment) -> CycleRates:
     """Return `rates` with the derivative in all, where laws follow the fields of effects."""
-    following = [name for name, law in model.laws.items() if law.requires]
-    if not model.effects or not following:
+    following = [name for name, law in model.laws.wear.items() if law.requires]
+    if not model.laws.effects or not following:
         return rates
     nudged, stripes = in_stripes(state.contacts)
     others = wear_rates(model, nudged, remembered(state), moment)

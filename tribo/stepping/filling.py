@@ -18,7 +18,7 @@ from tribo.stepping.rates import Moment
 from tribo.stepping.step import worn_depths
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 PARTS = np.logspace(-6, 0, 7)
 """Parts of the path over which it is held against it."""
@@ -34,8 +34,8 @@ def check_filling(model: Model, state: State) -> None:
     smallest compliance: it grows as exp(a s/C), up to where what fills the gap is carried away as
     fast as it comes.
     """
-    compliance = model.solver.smallest_compliance(model.system)
-    if not model.filling or compliance is None:
+    compliance = model.contact.solver.smallest_compliance(model.contact.system)
+    if not model.laws.filling or compliance is None:
         return
     nudged, stripes = in_stripes(state.contacts)
     uneven = np.stack(stripes)
@@ -50,8 +50,8 @@ def check_filling(model: Model, state: State) -> None:
             break
     else:
         return
-    keys = ", ".join(repr(key) for _, key in model.filling)
-    passing = ", ".join(repr(name) for name in model.bodies if name in model.swept)
+    keys = ", ".join(repr(key) for _, key in model.laws.filling)
+    passing = ", ".join(repr(name) for name in model.case.bodies if name in model.cycle.swept)
     where = f"let it lie on the body that passes ({passing}), " if passing else ""
     raise CaseError(
         f"{keys} fills the gap faster than wear opens it where the pressure is higher, so that the "
@@ -70,5 +70,5 @@ def _lost(model: Model, state: State, contacts: Sequence[ContactSolution], part:
     heights = filling(model, slid.memory)
     for name, depth in worn_depths(model, slid.rates, increment).items():
         for position, height in enumerate(heights):
-            height -= model.under(name, depth, position)
+            height -= model.cycle.maps[name].see(depth, position)
     return heights

@@ -19,7 +19,7 @@ from tribo.stepping.memory import Memory, remembered, under
 from tribo.stepping.rates import Moment, local_fields
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 ACCURACY = 1e-6
 """Difference of two rules, of all work so far, above which parts of a step are halved. The finer of
@@ -42,12 +42,12 @@ def friction_force(model: Model, state: State) -> float:
 
     NaN where neither the case nor an effect gives a coefficient of friction.
     """
-    if not model.friction_varies and model.friction_coefficient is None:
+    if not model.laws.friction_varies and model.laws.friction_coefficient is None:
         return np.nan
     if state.speed == 0:
         return 0.0
     moment = Moment(state.time, state.distance, state.speed)
-    load = model.loads.over_cycle(model.loads.before(state.time))
+    load = model.contact.loads.over_cycle(model.contact.loads.before(state.time))
     return load * _mean(
         model, [each.pressure for each in state.contacts], remembered(state), moment
     )
@@ -55,8 +55,8 @@ def friction_force(model: Model, state: State) -> float:
 
 def _mean(model: Model, pressures: Sequence[Array], memory: Memory, moment: Moment) -> float:
     """Return the coefficient of friction at a moment, weighted with the load over a cycle."""
-    if not model.friction_varies:
-        return model.friction_coefficient or 0.0
+    if not model.laws.friction_varies:
+        return model.laws.friction_coefficient or 0.0
     force = load = 0.0
     for position, pressure in enumerate(pressures):
         place, here = model.cycle[position], under(model, memory, position)
@@ -80,10 +80,10 @@ def with_friction_work(
     of the load that it begins with, to before one that it ends with. What is remembered goes on
     under `contacts`, those that the bodies wear under, in the parts of `plan`.
     """
-    if model.friction_varies:
+    if model.laws.friction_varies:
         work = _varying_work(model, before, after, contacts, plan)
     else:
-        friction = model.friction_coefficient or 0.0
+        friction = model.laws.friction_coefficient or 0.0
         work = friction * (after.load_distance - before.load_distance)
     return replace(after, friction_energy=before.friction_energy + work)
 
@@ -94,8 +94,11 @@ def _varying_work(
     """Return the integral of what effects give, times the load, over a step, in J."""
     time, increment = after.time - before.time, after.distance - before.distance
     first, last = (
-        model.loads.over_cycle(loads)
-        for loads in (model.loads.after(before.time), model.loads.before(after.time))
+        model.contact.loads.over_cycle(loads)
+        for loads in (
+            model.contact.loads.after(before.time),
+            model.contact.loads.before(after.time),
+        )
     )
 
     def force(memory: Memory, passed: float) -> float:
@@ -108,7 +111,7 @@ def _varying_work(
         return _mean(model, between, memory, now) * ((1 - passed) * first + passed * last)
 
     memory = remembered(before)
-    if model.friction_remembers:
+    if model.laws.friction_remembers:
         end = Moment(after.time, after.distance, after.speed)
         return accumulated(model, memory, contacts, increment, end, plan, force)
     allowed = ACCURACY * before.friction_energy / increment

@@ -42,7 +42,7 @@ from tribo.stepping.step import (
 )
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 FIRST = 0.05
 VOLUME = 5.0
@@ -234,9 +234,9 @@ class Implicit(Scheme):
             slid = slide(contacts=state.contacts, moment=begin)
         height = filling(model, before)
         guess = _guess(model, height, state.contacts, slid, increment)
-        loads = model.loads.mean(state.time, time)
+        loads = model.contact.loads.mean(state.time, time)
         # What is remembered is integrated under the loads of the step already.
-        heavier = 1.0 if before.values else loads[0] / model.loads.after(state.time)[0]
+        heavier = 1.0 if before.values else loads[0] / model.contact.loads.after(state.time)[0]
         forward = {name: heavier * depth for name, depth in guess.worn.items()}
         solved, passes = state, 0
         mismatches: list[float] = []
@@ -312,12 +312,12 @@ class Implicit(Scheme):
             lag = np.abs(worn - forward)
             scale = float(np.max(after.bodies[name].wear)) + FIRST * after.reference_depth
             late = _loaded_mean(
-                model, contacts, [model.under(name, lag, m) for m in range(len(shares))]
+                model, contacts, [model.cycle.maps[name].see(lag, m) for m in range(len(shares))]
             )
             depth_error = max(depth_error, 0.5 * late / scale)
             own = 0.5 * (worn + forward)
             # What lags where points pass from layer to layer is mended too.
-            if np.any(own > 0) and not model.laws[name].bottoms:
+            if np.any(own > 0) and not model.laws.wear[name].bottoms:
                 share = min(1.0, float(np.max(own)) / (LATE * scale))
                 missed = 0.5 * abs(float(np.sum(worn)) - float(np.sum(forward)))
                 volume_error = max(volume_error, share * missed / float(np.sum(own)))
@@ -367,7 +367,7 @@ def _guess(
     depths = np.zeros((len(contacts), *model.grid.cells))
     for position, depth in enumerate(depths):
         for name, of_body in worn.items():
-            depth += model.under(name, of_body, position)
+            depth += model.cycle.maps[name].see(of_body, position)
     filled = filling(model, slid.memory) - height
     return Guess(contacts, slid, worn, depths, filled)
 

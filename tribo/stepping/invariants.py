@@ -1,7 +1,7 @@
 """Invariants checked after each step.
 
 The load balance, the sign and the cap of a pressure are checked at every solve,
-in `tribo.simulation.guards`.
+in `tribo.guards.parts`.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from tribo.core.state import State
 from tribo.stepping.rates import CycleRates
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 LOAD = 1e-6
 CONDITIONS = 1e-2
@@ -53,7 +53,7 @@ def wear_balance(
     """
     volumes, regrowths = [0.0], [0.0]
     for name, depth in worn.items():
-        exposure = model.exposures[name]
+        exposure = model.cycle.maps[name]
         each = zip(model.cycle, rates, strict=True)
         mean = sum(place.share * float(np.sum(of[name].depth_rate)) for place, of in each)
         asked = increment * model.grid.cell_area * mean
@@ -81,7 +81,7 @@ def hold(model: Model, before: State | None, after: State) -> State:
             share = max(map(_chattering, before.previous, before.contacts, after.contacts))
             after = replace(after, invariants=replace(after.invariants, chattering=share))
     broken = broken_by(after)
-    if broken is None and chatters(after) and not model.stepping.may_oscillate:
+    if broken is None and chatters(after) and not model.case.stepping.may_oscillate:
         broken = chattering_words(after)
     if broken is not None:
         raise NumericalError(

@@ -18,7 +18,7 @@ from tribo.stepping.memory import Memory, at_surface
 from tribo.stepping.rates import Moment, Rates, rates_at_each
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 REACHED = 1e-10
 """Part of a layer that may be left where it counts as worn through: rounding."""
@@ -37,7 +37,7 @@ def in_layers(
     layer's rate and goes on at the next one's: with the mean rates, weighted with the shares, the
     depth is exact however long the increment. On a track it is that of the mean rates along it.
     """
-    layered = {name: law.bottoms for name, law in model.laws.items() if law.bottoms}
+    layered = {name: law.bottoms for name, law in model.laws.wear.items() if law.bottoms}
 
     def shared(shares: Mapping[str, Mapping[str, Array]]) -> tuple[Memory, list[Rates]]:
         memory = replace(before, shares=shares)
@@ -68,7 +68,7 @@ def _depths(model: Model, names: Iterable[str], rates: Sequence[Rates]) -> dict[
     total = {}
     for name in names:
         depths = (
-            place.share * model.average(name, of_bodies.wear[name].depth_rate, position)
+            place.share * model.cycle.maps[name].gather(of_bodies.wear[name].depth_rate, position)
             for position, (place, of_bodies) in enumerate(zip(model.cycle, rates, strict=True))
         )
         total[name] = reduce(np.add, depths)
@@ -136,7 +136,7 @@ def over_increment(
 
 def caps(model: Model, bodies: Mapping[str, BodyState]) -> Sequence[Array | None]:
     """Return the largest pressure at each point, in Pa, at each position; None where it is one."""
-    if not model.hardness:
+    if not model.contact.hardness:
         return [None] * len(model.cycle)
     each = [_hardness(model, bodies, position) for position in range(len(model.cycle))]
     return [np.minimum(*found.values()) for found in each]
@@ -146,8 +146,8 @@ def plastic_share(
     model: Model, bodies: Mapping[str, BodyState], name: str, position: int
 ) -> Array | float:
     """Return a body's part of what yields at a position: all where it is the softer one."""
-    if not model.hardness:
-        return model.plastic_share[name]
+    if not model.contact.hardness:
+        return model.contact.plastic_share[name]
     found = _hardness(model, bodies, position)
     softest = np.minimum(*found.values())
     yielding = sum(np.asarray(each == softest, dtype=float) for each in found.values())
@@ -157,9 +157,11 @@ def plastic_share(
 def _hardness(model: Model, bodies: Mapping[str, BodyState], position: int) -> dict[str, Array]:
     """Return the hardness of what is at each body's surface, shape (nx, ny), in Pa."""
     found = {}
-    for name, hardness in model.hardness.items():
-        bottoms = model.laws[name].bottoms if name in model.laws else ()
-        worn = np.broadcast_to(model.under(name, bodies[name].wear, position), model.grid.cells)
+    for name, hardness in model.contact.hardness.items():
+        bottoms = model.laws.wear[name].bottoms if name in model.laws.wear else ()
+        worn = np.broadcast_to(
+            model.cycle.maps[name].see(bodies[name].wear, position), model.grid.cells
+        )
         found[name] = np.array(hardness)[np.searchsorted(bottoms, worn, side="right")]
     return found
 
@@ -176,7 +178,7 @@ def worn_through(
     It has the time and distance at which that is, under the pressures of the step: `depths` are
     those that bodies lose over its first metres, in m.
     """
-    for name, law in model.laws.items():
+    for name, law in model.laws.wear.items():
         was, worn = before.bodies[name].wear, after[name].wear
         for layer, bottom in enumerate(law.bottoms, start=1):
             reached = bottom * (1 - REACHED)

@@ -15,7 +15,7 @@ from tribo.core.fields import WearRate
 from tribo.stepping.rates import CycleRates
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ def wear_compliance(
     local = np.zeros(model.grid.cells)
     swept = np.zeros(model.grid.cells[1])
     for name, rate in rates.items():
-        part = model.exposures[name].compliance(rate.depth_slope, pressure)
+        part = model.cycle.maps[name].compliance(rate.depth_slope, pressure)
         if part is not None:
             local += increment * part.local
             swept += increment * part.swept
@@ -82,15 +82,15 @@ def _coupling(
     shares = np.array([position.share for position in model.cycle])
     bodies = []
     for name in rates[0]:
-        shape = (model.exposures[name].rows, model.grid.cells[1])
+        exposure = model.cycle.maps[name]
+        shape = (exposure.rows, model.grid.cells[1])
         weighed, load, nearby = np.zeros(shape), np.zeros(shape), np.zeros(shape[1])
         for position, (share, contact) in enumerate(zip(shares, contacts, strict=True)):
             pressure, slope = contact.pressure, rates[position][name].depth_slope
-            weighed = model.add_average(name, weighed, slope * pressure, position, share)
-            load += share * model.spread(name, pressure, position)
-            np.maximum(nearby, np.max(model.exposures[name].average(slope), axis=0), out=nearby)
+            weighed = exposure.gather(slope * pressure, position, share, weighed)
+            load += share * exposure.lay(pressure, position)
+            np.maximum(nearby, np.max(exposure.average(slope), axis=0), out=nearby)
         # A point that is yet to be touched has the slope that its law gives near it, on its row.
         slope = np.where(load > 0, weighed / np.where(load > 0, load, 1.0), nearby)
-        starts = model.exposures[name].starts or [0] * len(shares)
-        bodies.append((increment * slope, starts))
+        bodies.append((increment * slope, [*map(exposure.first_row, range(len(shares)))]))
     return CycleCompliance(shares, bodies, slice(0, model.grid.cells[0]))

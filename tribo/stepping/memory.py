@@ -15,7 +15,7 @@ from tribo.core.errors import CaseError
 from tribo.core.state import State
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 
 @dataclass(frozen=True)
@@ -67,10 +67,10 @@ def remembered(state: State) -> Memory:
 def first_memory(model: Model) -> dict[str, Array]:
     """Return the state fields of the effects before anything slides."""
     first = {}
-    for key, (effect, field) in model.between.items():
+    for key, (effect, field) in model.laws.between.items():
         rows, ny = model.grid.cells
         if effect.carrier is not None:
-            rows = model.exposures[effect.carrier].rows
+            rows = model.cycle.maps[effect.carrier].rows
         first[key] = np.full((1, 1) if field.uniform else (rows, ny), effect.initial_state[key])
     return first
 
@@ -79,25 +79,27 @@ def under(model: Model, memory: Memory, position: int) -> Memory:
     """Return what is remembered where the window is, at a position of the cycle."""
     laws, shares = (
         {
-            name: {key: model.under(name, values, position) for key, values in of.items()}
+            name: {key: model.cycle.maps[name].see(values, position) for key, values in of.items()}
             for name, of in each.items()
         }
         for each in (memory.laws, memory.shares)
     )
-    worn = {name: model.under(name, depth, position) for name, depth in memory.worn.items()}
+    worn = {
+        name: model.cycle.maps[name].see(depth, position) for name, depth in memory.worn.items()
+    }
     between = dict(memory.between)
-    for key, (effect, field) in model.between.items():
+    for key, (effect, field) in model.laws.between.items():
         if effect.carrier is not None and not field.uniform:
-            between[key] = model.under(effect.carrier, between[key], position)
+            between[key] = model.cycle.maps[effect.carrier].see(between[key], position)
     return Memory(laws, between, worn, shares)
 
 
 def filling(model: Model, memory: Memory) -> Array:
     """Return the height of what fills the gap at each position, (positions, nx, ny), in m."""
     heights = np.zeros((len(model.cycle), *model.grid.cells))
-    for position, height in enumerate(heights if model.filling else ()):
+    for position, height in enumerate(heights if model.laws.filling else ()):
         here = under(model, memory, position)
-        for body, key in model.filling:
+        for body, key in model.laws.filling:
             height += here.between[key] if body is None else here.laws[body][key]
     return heights
 
@@ -108,8 +110,8 @@ def state_of(model: Model, memory: Memory, name: str) -> dict[str, Array]:
     Of a body in layers without shares of an increment that is the layer at the surface.
     """
     shares = memory.shares.get(name, {})
-    if not shares and model.laws[name].bottoms:
-        shares = at_surface(model.laws[name].bottoms, memory.worn[name])
+    if not shares and model.laws.wear[name].bottoms:
+        shares = at_surface(model.laws.wear[name].bottoms, memory.worn[name])
     return {**memory.laws.get(name, {}), **shares}
 
 
@@ -123,10 +125,12 @@ def at_surface(bottoms: Sequence[float], worn: Array) -> dict[str, Array]:
 
 def laid(model: Model, key: str, rate: Array, position: int) -> Array:
     """Return what a rate in the window adds, by its share, to that of the state of an effect."""
-    effect, field = model.between[key]
+    effect, field = model.laws.between[key]
     if field.uniform:
         return np.asarray(np.mean(rate, keepdims=True))
-    return rate if effect.carrier is None else model.average(effect.carrier, rate, position)
+    return (
+        rate if effect.carrier is None else model.cycle.maps[effect.carrier].gather(rate, position)
+    )
 
 
 def fields_of(model: Model, memory: Memory) -> dict[str, dict[str, Array]]:
@@ -136,16 +140,16 @@ def fields_of(model: Model, memory: Memory) -> dict[str, dict[str, Array]]:
     """
     fields: dict[str, dict[str, Array]] = {}
     for name, of_law in memory.laws.items():
-        for key in of_law.keys() & model.required:
+        for key in of_law.keys() & model.laws.required:
             of_body = np.broadcast_to(of_law[key], model.grid.cells)
             fields.setdefault(key, OfLaws(key))[name] = of_body
-    for key in memory.between.keys() & model.required:
+    for key in memory.between.keys() & model.laws.required:
         everywhere = np.broadcast_to(memory.between[key], model.grid.cells)
-        fields[key] = dict.fromkeys(model.bodies, everywhere)
+        fields[key] = dict.fromkeys(model.case.bodies, everywhere)
     return fields
 
 
 def in_window(model: Model, key: str, values: Array) -> Array:
     """Return the state of an effect as it is told of it: (nx, ny), or (1, 1) if uniform."""
-    _, field = model.between[key]
+    _, field = model.laws.between[key]
     return readonly(values if field.uniform else np.broadcast_to(values, model.grid.cells))

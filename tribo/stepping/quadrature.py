@@ -9,7 +9,7 @@ import numpy as np
 from tribo.core.state import State
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 
 def cycle_error(model: Model, state: State) -> float:
@@ -26,7 +26,7 @@ def cycle_error(model: Model, state: State) -> float:
         off = load = 0.0
         for position, contact in enumerate(state.contacts):
             share = model.cycle[position].share
-            missed = np.abs(model.under(name, body.missed, position))
+            missed = np.abs(model.cycle.maps[name].see(body.missed, position))
             off += share * float(np.sum(contact.pressure * missed))
             load += share * float(np.sum(contact.pressure))
         worst = max(worst, off / load / deepest)

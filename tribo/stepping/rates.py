@@ -28,8 +28,8 @@ from tribo.motion.cycle import Speeds
 from tribo.stepping.memory import Memory, fields_of, in_window, remembered, state_of, under
 
 if TYPE_CHECKING:
-    from tribo.simulation.guards import GuardedEffect
-    from tribo.simulation.model import Model
+    from tribo.guards.parts import GuardedEffect
+    from tribo.stepping.model import Model
 
 # Cells around the contact where laws are asked too: what a step may newly touch.
 MARGIN = 8
@@ -107,7 +107,7 @@ def _rates_at_rest(
     still = readonly(np.zeros(model.grid.cells))
     wear = {
         name: WearRate(still, still, dict.fromkeys(law.initial_state, still))
-        for name, law in model.laws.items()
+        for name, law in model.laws.wear.items()
     }
     if any(place.rest > 0 for place in model.cycle):
         # The rests of a cycle are in its mean rates.
@@ -119,7 +119,7 @@ def _resting(
     model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
 ) -> dict[str, Array]:
     """Return what effects change per second at rest at a position, in the window."""
-    still = dict.fromkeys(model.bodies, readonly(np.zeros(model.grid.cells)))
+    still = dict.fromkeys(model.case.bodies, readonly(np.zeros(model.grid.cells)))
     fields = local_fields(model, contact.pressure, moment, position, memory)
     return _changes(model, position, contact, moment, memory, fields, still)
 
@@ -202,7 +202,7 @@ def _rates_of(
     near = around_region(contact.extent, model.grid.cells, MARGIN)
     rates = {}
     shares = fields.get(LOAD_SHARE.name)
-    for name, law in model.laws.items():
+    for name, law in model.laws.wear.items():
         # A law is pointwise, and leaves everything as it is where nothing touches.
         part = near.slices
         solid = None if shares is None else readonly(1.0 - shares[name][part])
@@ -217,7 +217,7 @@ def _rates_of(
                     for field, values in state_of(model, memory, name).items()
                 },
             ),
-            0.0 if name in model.swept else moment.over,
+            0.0 if name in model.cycle.swept else moment.over,
         )
         if solid is not None:
             rate = replace(rate, depth_slope=solid * rate.depth_slope)
@@ -229,7 +229,7 @@ def _rates_of(
         return Rates(rates, {})
     depths = {name: readonly(rate.depth_rate) for name, rate in rates.items()}
     still = readonly(np.zeros(model.grid.cells))
-    depths = {name: depths.get(name, still) for name in model.bodies}
+    depths = {name: depths.get(name, still) for name in model.case.bodies}
     changes = _changes(model, position, contact, moment, memory, fields, depths)
     slid = moment.speed if moment.speed > 0 else np.inf
     return Rates(rates, {key: change / slid for key, change in changes.items()})
@@ -260,11 +260,11 @@ def _changes(
         given = _conditions(model, pressure, moment, around, effect, memory)
         return effect.state_rates(replace(given, wear_rates=depths), seconds)
 
-    for effect in model.effects:
+    for effect in model.laws.effects:
         if not effect.initial_state:
             continue
         rates = of_effect(effect, contact.pressure, depths)
-        if effect.carrier is not None and effect.carrier in model.swept:
+        if effect.carrier is not None and effect.carrier in model.cycle.swept:
             bare = rates
             if np.any(contact.pressure[ENDS]):
                 free = {name: _without_ends(depth) for name, depth in depths.items()}
@@ -290,7 +290,7 @@ def _with_rest_of_track(
     the body has rows of its own each has its state, so that the rates beyond are not known.
     """
     assert effect.carrier is not None
-    exposure, cells = model.exposures[effect.carrier], model.grid.cells
+    exposure, cells = model.cycle.maps[effect.carrier], model.grid.cells
     completed = dict(rates)
     for field in effect.state_fields:
         if field.uniform:
@@ -322,7 +322,7 @@ def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
     moment = Moment(state.time, state.distance, speed)
     memory = under(model, remembered(state), middle)
     fields = local_fields(model, state.contact.pressure, moment, middle, memory)
-    return {field.name: fields[field.name] for e in model.effects for field in e.provides}
+    return {field.name: fields[field.name] for e in model.laws.effects for field in e.provides}
 
 
 def local_fields(
@@ -333,13 +333,13 @@ def local_fields(
     `memory` is that of the window at this position; what is remembered is among the fields.
     """
     fields = fields_of(model, memory)
-    if model.required & {PLACE_X.name, PLACE_Y.name}:
-        fields |= model.places(position)
-    friction = model.friction_coefficient
+    if model.laws.required & {PLACE_X.name, PLACE_Y.name}:
+        fields |= model.cycle.places(position)
+    friction = model.laws.friction_coefficient
     if friction is not None:
         uniform = readonly(np.full(pressure.shape, friction))
-        fields[FRICTION_COEFFICIENT.name] = dict.fromkeys(model.bodies, uniform)
-    for effect in model.effects:
+        fields[FRICTION_COEFFICIENT.name] = dict.fromkeys(model.case.bodies, uniform)
+    for effect in model.laws.effects:
         if effect.provides:
             conditions = _conditions(model, pressure, moment, fields, effect, memory)
             found, before = effect.fields(conditions), fields.get(LOAD_SHARE.name)
@@ -371,8 +371,8 @@ def _conditions(
         speed=moment.speed,
         time=moment.time,
         distance=moment.distance,
-        materials=dict(model.system.materials),
-        swept=model.swept,
+        materials=dict(model.contact.system.materials),
+        swept=model.cycle.swept,
         track=motion.track_extent,
         turns_back=motion.turns_back,
         fields={name: copy(of_bodies) for name, of_bodies in fields.items()},

@@ -14,7 +14,7 @@ from tribo.stepping.memory import remembered, under
 from tribo.stepping.rates import Moment, local_fields, rates_at_each
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 SAME = 1e-9
 """Relative difference that may be rounding; a tenth of what an implicit step settles to."""
@@ -40,12 +40,12 @@ def _answers(model: Model, state: State, moment: Moment) -> Iterator[tuple[Any, 
     middle, memory = len(model.cycle) // 2, remembered(state)
     here = under(model, memory, middle)
     fields = local_fields(model, state.contact.pressure, moment, middle, here)
-    for effect in model.effects:
+    for effect in model.laws.effects:
         for field in effect.provides:
             yield from ((effect, values) for values in fields[field.name].values())
     for rates in rates_at_each(model, state.contacts, memory, moment):
         for name, rate in rates.wear.items():
             for values in (rate.depth_rate, rate.depth_slope, *rate.state_rates.values()):
-                yield model.laws[name], values
+                yield model.laws.wear[name], values
         for key, values in rates.between.items():
-            yield model.between[key][0], values
+            yield model.laws.between[key][0], values

@@ -12,7 +12,7 @@ from tribo.core.table import Table
 from tribo.stepping.filling import check_filling
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 
 def _type_required(schema: dict[str, Any]) -> None:

@@ -25,7 +25,7 @@ from tribo.stepping.memory import filling, first_memory, remembered
 from tribo.stepping.rates import CycleRates, Moment
 
 if TYPE_CHECKING:
-    from tribo.simulation.model import Model
+    from tribo.stepping.model import Model
 
 # Each pass is one warm solve; a groove in a much softer body takes over a thousand.
 SETTLE_PASSES = 5000
@@ -69,17 +69,21 @@ def first_contact(
         between={**first_memory(model), **(between or {})},
     )
     # Kept in a list, so that each gap has an identity of its own.
-    gaps = list(undeformed(model, state) if worn is not None or model.filling else model.gaps)
+    gaps = list(
+        undeformed(model, state) if worn is not None or model.laws.filling else model.contact.gaps
+    )
     solutions: dict[tuple[int, float], ContactSolution] = {}
-    asked = [(id(gap), load) for gap, load in zip(gaps, model.loads.after(0.0), strict=True)]
+    asked = [
+        (id(gap), load) for gap, load in zip(gaps, model.contact.loads.after(0.0), strict=True)
+    ]
     for gap, key, cap in zip(gaps, asked, caps(model, state.bodies), strict=True):
         # Where nothing varies along the path, one solve serves all positions.
         if key not in solutions:
-            problem = ContactProblem(model.system, gap, key[1], cap=cap)
+            problem = ContactProblem(model.contact.system, gap, key[1], cap=cap)
             start = next(reversed(solutions.values()), None)
-            solutions[key] = model.solver.solve(problem, start)
+            solutions[key] = model.contact.solver.solve(problem, start)
     contacts = tuple(solutions[key] for key in asked)
-    if any(reaches_border(each.pressure) for each in contacts) and not model.may_reach_edge:
+    if any(reaches_border(each.pressure) for each in contacts) and not model.contact.may_reach_edge:
         size = f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm"
         remedy = "make it larger (or, for a body that ends there, set grid.ends_at_window = true)"
         forms = [surface.ask(surface.component.smoothed) for surface in model.surfaces.values()]
@@ -107,12 +111,12 @@ def first_contact(
 
 def _unworn(model: Model) -> dict[str, BodyState]:
     bodies = {}
-    for name in model.bodies:
-        wear = np.zeros((model.exposures[name].rows, model.grid.cells[1]))
-        initial = model.laws[name].initial_state if name in model.laws else {}
+    for name in model.case.bodies:
+        wear = np.zeros((model.cycle.maps[name].rows, model.grid.cells[1]))
+        initial = model.laws.wear[name].initial_state if name in model.laws.wear else {}
         bodies[name] = BodyState(
             wear=wear,
-            plastic=model.spread(name, np.zeros(model.grid.cells), len(model.cycle) // 2),
+            plastic=model.cycle.maps[name].lay(np.zeros(model.grid.cells), len(model.cycle) // 2),
             law={field: np.full_like(wear, value) for field, value in initial.items()},
         )
     return bodies
@@ -123,11 +127,11 @@ def undeformed(model: Model, state: State) -> Array:
 
     Shape (positions, nx, ny).
     """
-    gaps = np.stack(model.gaps) - filling(model, remembered(state))
+    gaps = np.stack(model.contact.gaps) - filling(model, remembered(state))
     for position, gap in enumerate(gaps):
         for name, body in state.bodies.items():
-            gap += model.under(name, body.wear, position)
-            gap += model.under(name, body.plastic, position)
+            gap += model.cycle.maps[name].see(body.wear, position)
+            gap += model.cycle.maps[name].see(body.plastic, position)
     return gaps
 
 
@@ -179,7 +183,7 @@ def time_at(model: Model, state: State, distance: float, until: float) -> float:
 
 def load_changes(model: Model, begin: float, end: float) -> bool:
     """Whether the load changes between two times (s), so that the pressure does."""
-    pairs = zip(model.loads.after(begin), model.loads.before(end), strict=True)
+    pairs = zip(model.contact.loads.after(begin), model.contact.loads.before(end), strict=True)
     return any(abs(last - first) > ONE_LOAD * first for first, last in pairs)
 
 
@@ -191,8 +195,10 @@ def rested(model: Model, state: State, time: float) -> State:
         after = course(model, memory, state.contacts, rest, moment)
         model.tell(Worn(state.contacts, state.time, rest, moment, memory, after.plan, ahead=True))
         state = replace(state, between=after.memory.between)
-    loads = model.loads.before(time)
-    anew = loads != model.loads.before(state.time) or any(body is None for body, _ in model.filling)
+    loads = model.contact.loads.before(time)
+    anew = loads != model.contact.loads.before(state.time) or any(
+        body is None for body, _ in model.laws.filling
+    )
     state = replace(state, speed=0.0)
     if anew:
         state = _under(model, state, loads)
@@ -206,8 +212,8 @@ def start_sliding(model: Model, state: State) -> State:
     the envelope along the track, and the contact in it is solved anew. So is one in which points
     have been worn down to a softer layer.
     """
-    loads = model.loads.after(state.time)
-    if loads != model.loads.before(state.time):
+    loads = model.contact.loads.after(state.time)
+    if loads != model.contact.loads.before(state.time):
         # How far a step may go under the load before says little.
         state = replace(_under(model, state, loads), increment=0.0)
     elif _too_soft(model, state):
@@ -235,7 +241,8 @@ def worn_depths(
         share = model.cycle[position].share if shares is None else float(shares[position])
         slid = increment * share
         for name, rate in of_bodies.items():
-            worn[name] = model.add_average(name, worn.get(name), rate.depth_rate, position, slid)
+            exposure = model.cycle.maps[name]
+            worn[name] = exposure.gather(rate.depth_rate, position, slid, worn.get(name))
     return worn
 
 
@@ -251,7 +258,7 @@ def worn_by(
 
     `depths` has what each body loses on it, on its own surface, in m.
     """
-    shares = model.missed_shares
+    shares = model.cycle.missed_shares
     between = {} if shares is None else worn_depths(model, slid.rates, increment, shares)
     bodies = dict(before.bodies)
     for name, depth in depths.items():
@@ -261,7 +268,7 @@ def worn_by(
         if name in between:
             missed = between[name] if body.missed is None else body.missed + between[name]
             bodies[name] = replace(body, missed=missed)
-    mean = model.loads.over_cycle(model.loads.mean(before.time, moment.time))
+    mean = model.contact.loads.over_cycle(model.contact.loads.mean(before.time, moment.time))
     passed: Iterable[Notice] = ()
     if (begun := slid.begun) is not None:
         passed = worn_through(
@@ -296,7 +303,7 @@ def accepted(
     where they do not belong to the bodies `exact`ly.
     """
     after = replace(after, contacts=tuple(contacts))
-    at_end = model.loads.before(after.time)
+    at_end = model.contact.loads.before(after.time)
     kept = exact and loads == at_end
     return _at_rest(model, after, loads) if kept else _under(model, after, at_end)
 
@@ -344,7 +351,7 @@ def _yielded(
             plastic_share(model, bodies, name, position) * contacts[position].overlap
             for position in places
         )
-        own = (model.spread(name, *each) for each in zip(overlaps, places, strict=True))
+        own = (model.cycle.maps[name].lay(*each) for each in zip(overlaps, places, strict=True))
         yielded[name] = replace(body, plastic=body.plastic + reduce(np.maximum, own))
     return yielded
 
@@ -352,7 +359,8 @@ def _yielded(
 def _settle(model: Model, state: State, loads: ByPosition) -> State:
     """Draw grooves out along the track and re-solve until nothing yields any more."""
     drawn_out = any(
-        name in model.swept and np.any(body.plastic > 0) for name, body in state.bodies.items()
+        name in model.cycle.swept and np.any(body.plastic > 0)
+        for name, body in state.bodies.items()
     )
     # What yields at one position alters the others, whichever body it is.
     if not drawn_out and not (len(model.cycle) > 1 and yields(state.contacts)):
@@ -361,7 +369,7 @@ def _settle(model: Model, state: State, loads: ByPosition) -> State:
         model.tell(Drawn({name: body.plastic for name, body in state.bodies.items()}))
         drawn = {}
         for name, body in state.bodies.items():
-            envelope = model.exposures[name].envelope(body.plastic)
+            envelope = model.cycle.maps[name].envelope(body.plastic)
             plastic = np.array(np.broadcast_to(envelope, body.plastic.shape))
             drawn[name] = replace(body, plastic=plastic)
         state = _solved_anew(model, replace(state, bodies=drawn), loads)
@@ -373,8 +381,7 @@ def _settle(model: Model, state: State, loads: ByPosition) -> State:
         state = replace(state, bodies=_yielded(model, drawn, state.contacts, everywhere))
     raise NumericalError(
         f"at {state.distance:.6g} m the groove still yields after {SETTLE_PASSES} passes of the "
-        f"contact, by {still:.2g} m a pass: sliding under "
-        f"{max(loads):g} N does not come to rest at a hardness of "
-        f"{1e-9 * (model.system.cap or 0):g} GPa; lower load.normal, or set contact.plasticity = "
-        "false"
+        f"contact, by {still:.2g} m a pass: sliding under {max(loads):g} N does not come to rest "
+        f"at a hardness of {1e-9 * (model.contact.system.cap or 0):g} GPa; lower load.normal, or "
+        "set contact.plasticity = false"
     )

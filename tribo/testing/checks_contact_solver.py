@@ -16,7 +16,7 @@ from tribo.core.contact import (
     WearCompliance,
 )
 from tribo.core.grid import Grid
-from tribo.simulation.guards import GuardedSolver
+from tribo.guards.parts import GuardedSolver
 from tribo.testing import samples
 from tribo.testing.checks import Checks
 from tribo.testing.compare import apply_if, expect_close, locked, require

@@ -12,7 +12,7 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.fields import ContactConditions, LocalConditions, WearRate
 from tribo.core.grid import Grid
-from tribo.simulation.guards import GuardedEffect
+from tribo.guards.parts import GuardedEffect
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
 from tribo.testing.checks_local import LocalChecks, rate_of

@@ -11,8 +11,8 @@ from tribo.case import Stop
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid, RepeatingGrid
+from tribo.guards.motion import GuardedMotion
 from tribo.motion.exposure import Exposure
-from tribo.simulation.guarded_motion import GuardedMotion
 from tribo.testing import samples
 from tribo.testing.checks import BODIES, Checks
 from tribo.testing.compare import apply_if, expect_close, require

@@ -10,7 +10,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.simulation.guards import GuardedSurface
+from tribo.guards.parts import GuardedSurface
 from tribo.testing.checks import Checks
 from tribo.testing.compare import apply_if, require
 

@@ -13,7 +13,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.fields import LocalConditions, WearRate
-from tribo.simulation.guards import GuardedLaw
+from tribo.guards.parts import GuardedLaw
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
 from tribo.testing.checks_local import LocalChecks, rate_of

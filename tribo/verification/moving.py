@@ -8,7 +8,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
-from tribo.simulation.model import Model
+from tribo.stepping.model import Model
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ def to_and_fro(
             slid = float(length * share[position])
             rows = slice(position, position + nx)
             image = slice(stroke - position, stroke - position + nx)
-            gap = model.gap + ball + flat[rows]
+            gap = model.contact.gap + ball + flat[rows]
             worn = (2 * ball_k + flat_k) * slid
             start = last.get(position, solution)
             solution = last[position] = _solve(model, gap, worn, start)
@@ -61,7 +61,7 @@ def to_and_fro(
             flat[rows] += flat_k * depth
             flat[image] += flat_k * depth[::-1]
     middle = last[stroke // 2]
-    gap = model.gap + ball + flat[stroke // 2 : stroke // 2 + nx]
+    gap = model.contact.gap + ball + flat[stroke // 2 : stroke // 2 + nx]
     return Worn(ball, flat, _solve(model, gap, 0.0, middle))
 
 
@@ -78,7 +78,7 @@ def round_a_ring(
     solution = None
     for position in range(passes * rows):
         under = (np.arange(nx) + position) % rows
-        gap = model.gap + ball + flat[under]
+        gap = model.contact.gap + ball + flat[under]
         solution = _solve(model, gap, (ball_k + flat_k) * slid, solution)
         ball += ball_k * slid * solution.pressure
         flat[under] += flat_k * slid * solution.pressure
@@ -89,4 +89,6 @@ def round_a_ring(
 def _solve(model: Model, gap: Array, worn: float, start: ContactSolution | None) -> ContactSolution:
     nx, ny = model.grid.cells
     wear = WearCompliance(np.full((nx, ny), worn), np.zeros(ny))
-    return model.contact.solve(ContactProblem(model.system, gap, model.load, wear), start)
+    return model.case.contact.solve(
+        ContactProblem(model.contact.system, gap, model.contact.system.load, wear), start
+    )

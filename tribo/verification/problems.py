@@ -20,9 +20,9 @@ from tribo.core.state import State
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
-from tribo.simulation.model import Model
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
+from tribo.stepping.model import Model
 from tribo.stepping.step import first_contact
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid

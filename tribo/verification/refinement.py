@@ -11,9 +11,9 @@ from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.measure import measure
-from tribo.simulation.model import Model
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
+from tribo.stepping.model import Model
 from tribo.verification.convergence import Convergence, convergence
 from tribo.verification.problems import run_to_end
 
@@ -79,7 +79,7 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
     NumericalError
         If one of the runs fails.
     """
-    cells, stepping = model.grid.cells, model.stepping
+    cells, stepping = model.grid.cells, model.case.stepping
     if min(cells) < FEWEST_CELLS:
         raise CaseError(
             f"{cells[0]} × {cells[1]} leave no coarser grid to compare with; "

@@ -23,8 +23,8 @@ from tribo.motion.averaging import groove_excess
 from tribo.motion.measured import Measured
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.assembly import assemble, varied
-from tribo.simulation.model import Model
 from tribo.stepping.implicit import Implicit
+from tribo.stepping.model import Model
 from tribo.stepping.step import first_contact
 from tribo.verification.moving import round_a_ring, to_and_fro
 from tribo.verification.problems import BALL, SPEED, WEAR_COEFFICIENT, Shape, on_flat, run_to_end
@@ -168,7 +168,7 @@ def _in_steps(steps: int) -> Array:
     model = _resolved(SHORT, 7, PATH, stepping=Implicit(cycle_tolerance=1e-7))
     state = first_contact(model)
     for step in range(1, steps + 1):
-        state = model.stepping.step(model, state, PATH / steps, PATH / SPEED * step / steps)
+        state = model.case.stepping.step(model, state, PATH / steps, PATH / SPEED * step / steps)
     return _worn(state)[0]
 
 
@@ -196,7 +196,7 @@ def _lopsided(cells: int, placement: float) -> list[Row]:
     path = tuple(zip(np.arange(5.0).tolist(), turns.tolist(), strict=True))
     moved = Measured(path=path, positions="cells", swept="ball")
     model = assemble(varied(still.case, kinematics=moved))
-    state = model.stepping.step(model, first_contact(model), moved.distance_at(4.0), 4.0)
+    state = model.case.stepping.step(model, first_contact(model), moved.distance_at(4.0), 4.0)
     passed = np.repeat([0.0, 2.0, 4.0, 0.0], [1, half, half, 1])
     shares = 0.5 * (passed[:-1] + passed[1:]) / np.sum(passed)
     x = grid.mesh[0]

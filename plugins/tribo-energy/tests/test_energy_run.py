@@ -77,7 +77,7 @@ def test_every_point_has_lost_alpha_times_its_energy(energy):
 def test_each_body_sees_all_the_energy_of_friction(energy):
     model, last, _ = energy
     for name, body in last.state.bodies.items():
-        total = model.exposures[name].volume(body.law["dissipated_energy"])
+        total = model.cycle.maps[name].volume(body.law["dissipated_energy"])
         assert total == pytest.approx(MU * LOAD * last.state.distance, rel=1e-10)
 
 

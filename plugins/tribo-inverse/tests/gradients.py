@@ -45,7 +45,7 @@ def repeated(model, base, steps, worn, until=None):
         else:
             state = start_sliding(model, state)
             increment = float(np.interp(distance, stops.distances, own.distances)) - state.distance
-            state = model.stepping.step(model, state, increment, then)
+            state = model.case.stepping.step(model, state, increment, then)
         found.append(state)
     return found
 
@@ -83,10 +83,10 @@ def difference(base, steps, objective, numbers, maps, part, depth=None):
                 case = changed(case, place, value * (1 + by * change))
         rates = {name: 1 + by * change for name, change in maps.get("wear_rate", {}).items()}
         model = localised(assemble(case), rates)
-        gaps = list(model.gaps)
+        gaps = list(model.contact.gaps)
         for name, change in maps.get("height", {}).items():
             for position in range(len(gaps)):
-                gaps[position] = gaps[position] - by * model.under(name, change, position)
+                gaps[position] = gaps[position] - by * model.cycle.maps[name].see(change, position)
         worn = {name: by * change for name, change in maps.get("worn_before", {}).items()}
         made = replace(model, gaps=tuple(gaps))
         ends = depth and depth + made.case.stop.depth - base.case.stop.depth
@@ -108,16 +108,16 @@ class Kind:
         """Random changes of all inputs, and the difference along them."""
         model, random = composed(self.case), np.random.default_rng(0)
         numbers = {path: random.uniform(0.5, 1.5) for path in self.paths}
-        own = {name: (each.rows, model.grid.cells[1]) for name, each in model.exposures.items()}
+        own = {name: (each.rows, model.grid.cells[1]) for name, each in model.cycle.maps.items()}
         sizes = {"wear_rate": 1.0, "height": 1e-8}
-        if model.system.cap is None:
+        if model.contact.system.cap is None:
             # What a run begins with would yield anew.
             sizes["worn_before"] = 1e-8
         maps = {
             which: {
                 name: size * random.uniform(0.5, 1.5, shape)
                 for name, shape in own.items()
-                if name in model.laws or which != "wear_rate"
+                if name in model.laws.wear or which != "wear_rate"
             }
             for which, size in sizes.items()
         }

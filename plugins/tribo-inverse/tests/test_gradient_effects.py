@@ -336,7 +336,7 @@ def unheard(method):
     """What an effect makes of the wear of bodies, left out."""
 
     def mutant(self, states, passed, found, reach):
-        depths = range(len(self.model.laws))
+        depths = range(len(self.model.laws.wear))
         return [
             [response.Response(rate * (at == i)) for i, rate in enumerate(found)] for at in depths
         ]

@@ -29,11 +29,11 @@ def solve(contact: str, load: float, width: float, cells: int) -> tuple[ContactS
             "stepping": {"type": "explicit", "time_step": "1 s"},
         }
     ).model
-    problem = ContactProblem(model.system, model.gap, model.load)
+    problem = ContactProblem(model.contact.system, model.contact.gap, model.contact.system.load)
     times = []
     for _ in range(3):
         begun = perf_counter()
-        solution = model.contact.solve(problem)
+        solution = model.case.contact.solve(problem)
         times.append(perf_counter() - begun)
     return solution, min(times)
 

@@ -45,8 +45,8 @@ def first_contact(contact, load, width):
         "stepping": {"type": "explicit", "time_step": "1 s"},
     }
     model = Simulation(case).model
-    problem = ContactProblem(model.system, model.gap, model.load)
-    return problem, model.contact.solve(problem)
+    problem = ContactProblem(model.contact.system, model.contact.gap, model.contact.system.load)
+    return problem, model.case.contact.solve(problem)
 
 
 def ball(cells=(48, 48), size=(0.7e-3, 0.7e-3), load=100.0, cap=None, modulus=MODULUS):

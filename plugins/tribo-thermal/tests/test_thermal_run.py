@@ -55,7 +55,7 @@ def faster(data, save):
         speed=0.1,
         time=300.0,
         distance=30.0,
-        materials={name: body.material for name, body in model.bodies.items()},
+        materials={name: body.material for name, body in model.case.bodies.items()},
         swept=frozenset({"disk"}),
         track=2e-3,
         turns_back=True,

@@ -51,7 +51,9 @@ def test_smooth_ball_from_a_file_has_the_contact_of_a_paraboloid(case):
 
 def test_rough_contact_is_smaller_and_harder_and_runs_in(case):
     model = Simulation(case()).model
-    solution = model.contact.solve(ContactProblem(model.system, model.gap, model.load))
+    solution = model.case.contact.solve(
+        ContactProblem(model.contact.system, model.contact.gap, model.contact.system.load)
+    )
     assert solution.residuals.worst <= 1e-8
     smooth, rough = Simulation(case(sq=0.0)).run().saves(), Simulation(case()).run().saves()
     assert rough[0]["contact_area_m2"] < 0.8 * smooth[0]["contact_area_m2"]

@@ -48,20 +48,25 @@ def covered(model: Model) -> Model:
         for effect in model.case.effects
         for field in (*effect.provides, *effect.state_fields)
     }
-    laws = model.laws.values()
+    laws = model.laws.wear.values()
     followed = LOAD_SHARE.name in given or any(set(law.requires) & given for law in laws)
-    followed = followed or any(field.fills for f in model.effects for field in f.state_fields)
-    if model.hardness:
+    followed = followed or any(field.fills for f in model.laws.effects for field in f.state_fields)
+    if model.contact.hardness:
         raise CaseError(
             "the largest pressure of a cell jumps in the step in which it is worn into a layer of "
             "another hardness, and so does all that follows; a gradient needs one hardness, leave "
             "that of layers out",
             "bodies",
         )
-    if model.contact.operator(model.system, model.gap <= np.min(model.gap)) is None:
-        raise CaseError(f"{model.contact.type!r} does not state its operator", "contact.type")
+    if (
+        model.case.contact.operator(
+            model.contact.system, model.contact.gap <= np.min(model.contact.gap)
+        )
+        is None
+    ):
+        raise CaseError(f"{model.case.contact.type!r} does not state its operator", "contact.type")
     # Explicit steps follow a load along themselves only where something is remembered.
-    if followed or not model.effects or isinstance(model.stepping, Explicit):
+    if followed or not model.laws.effects or isinstance(model.case.stepping, Explicit):
         return model
     return assemble(varied(model.case, effects=()))
 
@@ -134,8 +139,8 @@ class Backwards:
     """
 
     def __init__(self, model: Model, chains: Sequence[Chain], touched: Box) -> None:
-        self.laws = {name: WatchedLaw(law) for name, law in model.laws.items()}
-        self.model = model = replace(model, laws=self.laws)
+        self.laws = {name: WatchedLaw(law) for name, law in model.laws.wear.items()}
+        self.model = model = model.with_laws(self.laws)
         self.chains, self.touched = chains, touched
         cells, positions = model.grid.cells, len(model.cycle)
         self.shares = np.array([position.share for position in model.cycle])
@@ -143,21 +148,21 @@ class Backwards:
         own = {name: (carrier.rows, cells[1]) for name, carrier in self.carriers.items()}
         self.worn_before = {name: np.zeros(shape) for name, shape in own.items()}
         self.height = {name: np.zeros(shape) for name, shape in own.items()}
-        self.wear_rate = {name: np.zeros(own[name]) for name in model.laws}
+        self.wear_rate = {name: np.zeros(own[name]) for name in model.laws.wear}
         self.between = carriers_between(model, self.carriers)
         # An increment of each body alone, unless they share what lies between them.
-        self.together = bool(model.effects or model.filling)
+        self.together = bool(model.laws.effects or model.laws.filling)
         self.states = Memory(
             {
                 name: {key: np.zeros(own[name]) for key in law.initial_state}
-                for name, law in model.laws.items()
+                for name, law in model.laws.wear.items()
             },
             {key: np.zeros_like(first) for key, first in first_memory(model).items()},
         )
         self.plastic = {
             name: np.zeros(cells if self.carriers[name].weights is not None else own[name])
-            for name, share in model.plastic_share.items()
-            if model.system.cap is not None
+            for name, share in model.contact.plastic_share.items()
+            if model.contact.system.cap is not None
         }
         self.gap = np.zeros((positions, *cells))
         self.pressure: Array | None = None
@@ -218,14 +223,14 @@ class Backwards:
         """
         model = self.model
         touching = np.any(window > 0, axis=0)
-        found = model.contact.operator(model.system, touching)
+        found = model.case.contact.operator(model.contact.system, touching)
         assert found is not None
         box, operator = found
         here = (slice(None), *box.slices)
         pressure = window[here]
         full = np.zeros_like(pressure, dtype=bool)
-        if model.system.cap is not None:
-            full = pressure >= model.system.cap * (1 - JUST)
+        if model.contact.system.cap is not None:
+            full = pressure >= model.contact.system.cap * (1 - JUST)
         weights = over(np.where(self.shares > 0, self.shares, 1.0))
         fixed = np.zeros_like(pressure)
         if yielded and record.overlap is not None:
@@ -291,7 +296,7 @@ class Backwards:
             known = course(model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
             return [
                 plain(_of(model, name), self.carriers[name], contacts, slid, known)
-                for name in model.laws
+                for name in model.laws.wear
             ]
 
         def stages(box: Box, *names: str) -> Sloping:
@@ -303,16 +308,16 @@ class Backwards:
                 [_contact(each[box.slices]) for each in window],
                 replace(slid, before=replace(slid.before, laws=own)),
                 remembers,
-                model.tells_length,
+                model.laws.tells_length,
             )
 
         window_box = whole(model.grid.cells)
         if self.together:
-            together = Together(stages(self.touched, *model.laws))
+            together = Together(stages(self.touched, *model.laws.wear))
             if not (self.touched.is_window or together.is_pointwise):
                 # What is remembered elsewhere may come back into the contact.
                 self.touched = window_box
-                together = Together(stages(window_box, *model.laws))
+                together = Together(stages(window_box, *model.laws.wear))
             return [together]
         laws, pressed = self.states.laws, Box.of(record.region, model.grid.cells)
         return [
@@ -320,13 +325,13 @@ class Backwards:
                 stages(window_box if law.bottoms else pressed, name),
                 Memory({name: laws[name]}, {}),
             )
-            for name, law in model.laws.items()
+            for name, law in model.laws.wear.items()
         ]
 
     def _of_wear(self, increment: Together, box: Box, z: Array) -> Array:
         """Return what the wear and the filling that pressures make add to the adjoint of K."""
         y = over(self.shares) * z
-        wear = {name: self.carriers[name].gathered(y, box) for name in self.model.laws}
+        wear = {name: self.carriers[name].gathered(y, box) for name in self.model.laws.wear}
         zeros = [np.zeros_like(value) for value in self.states.values]
         states = self._filled(self.states.with_values(iter(zeros)), y, box)
         found: Array = increment.back(wear, states).pressure[(slice(None), *box.slices)]
@@ -334,7 +339,7 @@ class Backwards:
 
     def _filled(self, states: Memory, y: Array, box: Box) -> Memory:
         """Return derivatives in what is remembered, with those through what fills the gap."""
-        for name, key in self.model.filling:
+        for name, key in self.model.laws.filling:
             carrier = self.between[key] if name is None else self.carriers[name]
             of = states.between if name is None else states.laws[name]
             new = {**of, key: of[key] - carrier.gathered(y, box)}
@@ -364,14 +369,14 @@ class Backwards:
         assert record.overlap is not None
         overlap[(slice(None), *record.region)] = record.overlap
         found = np.zeros_like(overlap)
-        for name, share in model.plastic_share.items():
+        for name, share in model.contact.plastic_share.items():
             if share == 0:
                 continue
-            laid = np.stack([model.spread(name, overlap[m], m) for m in places])
+            laid = np.stack([model.cycle.maps[name].lay(overlap[m], m) for m in places])
             first = np.argmax(laid, axis=0)
             for at, m in enumerate(places):
                 deeper = np.where(first == at, self.plastic[name], 0.0)
-                found[m] += share * model.under(name, deeper, m)
+                found[m] += share * model.cycle.maps[name].see(deeper, m)
         return found
 
     @property
@@ -385,7 +390,7 @@ class Backwards:
 
 def _of(model: Model, *names: str) -> Model:
     """Return a model of which only some bodies wear."""
-    return replace(model, laws={name: model.laws[name] for name in names})
+    return model.with_laws({name: model.laws.wear[name] for name in names})
 
 
 def _contact(pressure: Array) -> ContactSolution:

@@ -78,7 +78,7 @@ class Plain:
     @property
     def name(self) -> str:
         """The body's name."""
-        return next(iter(self.model.laws))
+        return next(iter(self.model.laws.wear))
 
     @property
     def bodies(self) -> Sequence[tuple[Carrier, Array]]:
@@ -110,7 +110,7 @@ class Plain:
         rates, slid, total = self.known.rates, other.slid, 0.0
         if self.name in other.asks or self.known.memory.shares:
             laws = with_bottoms(other.model, self.model, [self.name])
-            model = replace(other.model, laws=laws)
+            model = other.model.with_laws(laws)
             before = replace(slid.before, laws={self.name: slid.before.laws[self.name]})
             rates = course(
                 model, before, self.contacts, slid.increment, slid.moment, slid.plan
@@ -127,7 +127,7 @@ def plain(
     model: Model, carrier: Carrier, contacts: Sequence[ContactSolution], slid: Slid, known: Course
 ) -> Plain:
     """Return an increment, which came to `known`, of a model with one body that wears."""
-    (name,) = model.laws
+    (name,) = model.laws.wear
     laws = {name: known.memory.laws[name]}
     memory, worn = _layers(replace(known.memory, laws=laws), name)
     depth, steep = (
@@ -168,7 +168,7 @@ def stacked(
 ) -> Arrays:
     """Return the rates of all depths, and of all that is remembered, at each position."""
     found = rates_at_each(model, contacts, memory, moment)
-    depths = [[rates.wear[name].depth_rate for rates in found] for name in model.laws]
+    depths = [[rates.wear[name].depth_rate for rates in found] for name in model.laws.wear]
     of_laws = [
         [rates.wear[name].state_rates[key] for rates in found]
         for name, of_law in memory.laws.items()

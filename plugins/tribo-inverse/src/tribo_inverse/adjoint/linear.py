@@ -86,7 +86,7 @@ def carriers_between(model: Model, of_bodies: Mapping[str, Carrier]) -> dict[str
     """Return where what effects remember lies, by its name."""
     found: dict[str, Carrier] = {}
     rows, starts = model.grid.cells[0], [0] * len(model.cycle)
-    for key, (effect, field) in model.between.items():
+    for key, (effect, field) in model.laws.between.items():
         if field.uniform:
             even = np.full(model.grid.cells, 1 / np.prod(model.grid.cells))
             found[key] = Uniform(1, starts, even)
@@ -99,7 +99,7 @@ def carriers_between(model: Model, of_bodies: Mapping[str, Carrier]) -> dict[str
 
 def carriers_of(model: Model) -> dict[str, Carrier]:
     """Return how the surfaces of bodies meet the window, by name."""
-    return {name: carrier_of(model, name) for name in model.bodies}
+    return {name: carrier_of(model, name) for name in model.case.bodies}
 
 
 def carrier_of(model: Model, name: str) -> Carrier:
@@ -110,7 +110,7 @@ def carrier_of(model: Model, name: str) -> Carrier:
     CaseError
         If the average over a track is not a weighted sum over its rows.
     """
-    exposure, cells = model.exposures[name], model.grid.cells
+    exposure, cells = model.cycle.maps[name], model.grid.cells
     starts = exposure.starts if exposure.starts is not None else [0] * len(model.cycle)
     trial = np.random.default_rng(0).random(cells)
     answer, expected, weights = exposure.average(trial), trial, None

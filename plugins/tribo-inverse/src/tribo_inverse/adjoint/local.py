@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -102,7 +102,7 @@ def localised(model: Model, factors: Mapping[str, Array]) -> Model:
     CaseError
         If a body does not wear, or a map does not have that shape, or is negative or not finite.
     """
-    laws = dict(model.laws)
+    laws = dict(model.laws.wear)
     for name, factor in factors.items():
         shape = factor_shape(model, name)
         if np.shape(factor) != shape:
@@ -110,14 +110,14 @@ def localised(model: Model, factors: Mapping[str, Array]) -> Model:
         if not np.all(np.isfinite(factor) & (factor >= 0)):
             raise CaseError(f"a factor on the wear rate of {name} is negative, NaN or infinite")
         laws[name] = LocalLaw(laws[name], factor, model.grid.spacing)
-    return replace(model, laws=laws)
+    return model.with_laws(laws)
 
 
 def factor_shape(model: Model, name: str) -> tuple[int, int]:
     """Return the shape of the factors on the wear rate of a body; `CaseError` if it has none."""
-    if name not in model.laws:
-        raise CaseError(f"there is no body {name!r} that wears: {', '.join(model.laws)}")
-    return model.exposures[name].rows, model.grid.cells[1]
+    if name not in model.laws.wear:
+        raise CaseError(f"there is no body {name!r} that wears: {', '.join(model.laws.wear)}")
+    return model.cycle.maps[name].rows, model.grid.cells[1]
 
 
 def unreached(model: Model, base: Model) -> Model:
@@ -126,11 +126,11 @@ def unreached(model: Model, base: Model) -> Model:
     A depth that ends the run exactly at the bottom of a layer has the derivative of a run that ends
     just above it. `base` is the case itself, and `model` may have another number.
     """
-    stop, laws = base.case.stop, dict(model.laws)
+    stop, laws = base.case.stop, dict(model.laws.wear)
     if stop.depth is None:
         return model
-    for name in stop.whose(model.laws):
-        bottoms = base.laws[name].bottoms if name in laws else ()
+    for name in stop.whose(model.laws.wear):
+        bottoms = base.laws.wear[name].bottoms if name in laws else ()
         if not bottoms or bottoms[-1] < stop.depth * (1 - DEPTH_ACCURACY):
             continue
         laws[name] = copy(laws[name])
@@ -138,4 +138,4 @@ def unreached(model: Model, base: Model) -> Model:
             own if bottom < stop.depth * (1 - DEPTH_ACCURACY) else own + stop.depth
             for own, bottom in zip(laws[name].bottoms, bottoms, strict=True)
         )
-    return replace(model, laws=laws)
+    return model.with_laws(laws)

@@ -53,7 +53,7 @@ class View:
 
     def volume(self, body: str) -> float:
         """Return the volume worn off a body, in m³."""
-        return self.model.exposures[body].volume(self.wear(body))
+        return self.model.cycle.maps[body].volume(self.wear(body))
 
     def cell(self, field: Array, x: float, y: float) -> tuple[int, int]:
         """Return the cell of a field, around the middle, that is nearest to a place, in m."""
@@ -157,7 +157,7 @@ class Volume:
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the volume, and the volume per depth of each cell."""
-        wear, volume = view.wear(self.body), view.model.exposures[self.body].volume
+        wear, volume = view.wear(self.body), view.model.cycle.maps[self.body].volume
         ones = np.ones_like(wear)
         if len(wear) == 1 < view.grid.cells[0]:
             # Rows of a track may be of different length.
@@ -346,7 +346,7 @@ def _check_ended(view: View) -> None:
     stop = model.case.stop
     if stop.depth is None:
         raise CaseError("is not given: without it no depth ends the run", "stop.depth")
-    most = max(float(np.max(view.wear(name))) for name in stop.whose(model.bodies))
+    most = max(float(np.max(view.wear(name))) for name in stop.whose(model.case.bodies))
     raise CaseError(
         f"is not reached: after {time:g} s the largest depth is {1e6 * most:.3g} µm of "
         f"{1e6 * stop.depth:.3g} µm; give the motion a longer duration, or a lower depth",

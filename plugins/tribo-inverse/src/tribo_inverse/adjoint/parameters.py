@@ -39,7 +39,7 @@ class Stops:
     @staticmethod
     def of(model: Model) -> Stops:
         """Return those of a model, 0 among them."""
-        edges = {*model.loads.edges, *model.motion.edges()}
+        edges = {*model.contact.loads.edges, *model.motion.edges()}
         within = {time for time in edges if 0 < time < model.end_time}
         return Stops.at(model, sorted({0.0, *model.saves, *within}))
 
@@ -110,7 +110,7 @@ class Chain:
         """Return what comes through the loads of a contact, given the derivative in each."""
         total = 0.0
         for each in self.variants:
-            loads = getattr(each.model.loads, record.load)
+            loads = getattr(each.model.contact.loads, record.load)
             times = [self._then(each, time) for time in record.times]
             total += each.weight * float(np.sum(by_load * np.array(loads(*times))))
         return total
@@ -165,16 +165,16 @@ class Chain:
         for each in self.variants:
             model = each.model
             through = sum(
-                float(np.sum(g * shape)) for g, shape in zip(gap, model.gaps, strict=True)
+                float(np.sum(g * shape)) for g, shape in zip(gap, model.contact.gaps, strict=True)
             )
             if not self.spreads:
                 through -= stiffness * np.log(softness(model) / softness(self.base))
-            if model.system.cap is not None:
-                through += cap * model.system.cap
-            for name, law in model.laws.items():
+            if model.contact.system.cap is not None:
+                through += cap * model.contact.system.cap
+            for name, law in model.laws.wear.items():
                 for key, first in law.initial_state.items():
                     through += first * float(np.sum(states.laws[name][key]))
-            for key, (effect, _) in model.between.items():
+            for key, (effect, _) in model.laws.between.items():
                 through += effect.initial_state[key] * float(np.sum(states.between[key]))
             total += each.weight * through
         return total
@@ -263,7 +263,7 @@ def of_length(model: Model, end: float) -> Chain:
         Variant(model, 0.5 * by / step, Stops.at(model, [*before, end + by * step]), None)
         for by in (1, -1)
     ]
-    wears = dict.fromkeys(model.laws, frozenset({LAW}))
+    wears = dict.fromkeys(model.laws.wear, frozenset({LAW}))
     own = Stops.at(model, [*before, end])
     return Chain("stop.depth", end, variants, model, own, wears, False)
 
@@ -277,12 +277,12 @@ def _varied(
         case = changed(case, place, number)
     model = unreached(localised(assemble(case), factors), base)
     ways, others = (
-        [(e.rows, None if e.starts is None else tuple(e.starts)) for e in each.exposures.values()]
+        [(e.rows, None if e.starts is None else tuple(e.starts)) for e in each.cycle.maps.values()]
         for each in (base, model)
     )
     if ways != others or len(base.cycle) != len(model.cycle):
         raise CaseError(MOVES)
-    if base.plastic_share != model.plastic_share:
+    if base.contact.plastic_share != model.contact.plastic_share:
         raise CaseError(
             "both bodies have the same hardness, and either may be the softer; name both, as "
             f"bodies.{ANY}.material.hardness"
@@ -290,7 +290,7 @@ def _varied(
     times, other_times = Stops.of(base).times, Stops.of(model).times
     if len(times) != len(other_times):
         moved = np.setxor1d(times, other_times)[0]
-        of_load, of_motion = set(base.loads.edges), set(base.motion.edges())
+        of_load, of_motion = set(base.contact.loads.edges), set(base.motion.edges())
         both = (of_load & of_motion) | ((of_load | of_motion) & base.saves)
         at = min(both, key=lambda time: abs(time - moved), default=moved)
         raise CaseError(
@@ -303,8 +303,8 @@ def _varied(
 def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
     """Return the bodies that wear otherwise under given contacts, and through what."""
     one, other = base.case, model.case
-    everything = dict.fromkeys(model.laws, frozenset({LAW}))
-    keeps = model.between or any(law.initial_state for law in model.laws.values())
+    everything = dict.fromkeys(model.laws.wear, frozenset({LAW}))
+    keeps = model.laws.between or any(law.initial_state for law in model.laws.wear.values())
     if one.load != other.load and keeps and not isinstance(one.load.normal, float):
         # What is remembered follows a load that changes along a step.
         return everything
@@ -314,17 +314,17 @@ def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
         Stops.of(base).times, Stops.of(model).times
     ):
         # Points that slide further wear more, whatever their law looks at.
-        if model.effects or any(position.reach is not None for position in model.cycle):
+        if model.laws.effects or any(position.reach is not None for position in model.cycle):
             return everything
-        return dict.fromkeys(model.laws, frozenset({SPEED}))
-    if model.effects and any(
+        return dict.fromkeys(model.laws.wear, frozenset({SPEED}))
+    if model.laws.effects and any(
         (was.wear, was.layers, was.material) != (now.wear, now.layers, now.material)
         for was, now in zip(one.bodies.values(), other.bodies.values(), strict=True)
     ):
         # An effect that a law follows may look at either body.
         return everything
     found = {}
-    for name in model.laws:
+    for name in model.laws.wear:
         was, now = one.bodies[name], other.bodies[name]
         if (was.wear, was.layers) != (now.wear, now.layers):
             found[name] = frozenset({LAW})
@@ -362,6 +362,6 @@ def _symbol(model: Model) -> Array:
 
 
 def _operator(model: Model, touching: Mask) -> Operator:
-    found = model.contact.operator(model.system, touching)
+    found = model.case.contact.operator(model.contact.system, touching)
     assert found is not None
     return found[1]

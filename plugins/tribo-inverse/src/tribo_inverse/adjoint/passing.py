@@ -71,7 +71,7 @@ def by_bottoms(shares: Mapping[str, Array]) -> list[Array]:
 
 def lowered(model: Model, base: Model, name: str) -> list[float]:
     """Return by how much the bottoms of a body's layers lie deeper in a model, in m."""
-    own, others = base.laws[name].bottoms, model.laws[name].bottoms
+    own, others = base.laws.wear[name].bottoms, model.laws.wear[name].bottoms
     return [other - bottom for bottom, other in zip(own, others, strict=True)]
 
 
@@ -79,6 +79,6 @@ def with_bottoms(model: Model, base: Model, names: Sequence[str]) -> dict[str, G
     """Return laws of a model whose layers end where those of the base do."""
     laws = {}
     for name in names:
-        laws[name] = copy(model.laws[name])
-        laws[name].bottoms = base.laws[name].bottoms
+        laws[name] = copy(model.laws.wear[name])
+        laws[name].bottoms = base.laws.wear[name].bottoms
     return laws

@@ -65,7 +65,8 @@ class _Along:
     def by_bottoms(self) -> dict[str, list[float]]:
         """The derivatives in the depths at which layers end, by body."""
         found = {
-            name: [0.0] * len(self.stages.model.laws[name].bottoms) for name in self.stages.layered
+            name: [0.0] * len(self.stages.model.laws.wear[name].bottoms)
+            for name in self.stages.layered
         }
         for rates, seeds in self.rates:
             for name, more in self.stages.by_bottoms(rates, seeds).items():
@@ -112,7 +113,9 @@ class Remembering:
         through = {
             name: wear[name] + seed for name, seed in zip(self.stages.layered, each, strict=True)
         }
-        factors = dict(zip(self.stages.model.laws, map(np.asarray, found.factors), strict=True))
+        factors = dict(
+            zip(self.stages.model.laws.wear, map(np.asarray, found.factors), strict=True)
+        )
         return Before(
             pressure,
             {**wear, **through},
@@ -122,12 +125,12 @@ class Remembering:
         )
 
     def _through(self, along: _Along, other: Other) -> float:
-        laws = self.stages.model.laws
+        laws = self.stages.model.laws.wear
         if not other.wears & laws.keys():
             return 0.0
         others = replace(
             self.stages,
-            model=replace(other.model, laws=with_bottoms(other.model, self.stages.model, [*laws])),
+            model=other.model.with_laws(with_bottoms(other.model, self.stages.model, [*laws])),
             carriers=other.carriers,
             slid=replace(other.slid, before=self.stages.slid.before),
         )
@@ -215,7 +218,7 @@ class Together(Remembering):
 
     def back(self, wear: Mapping[str, Array], states: Memory) -> Before:
         """Return derivatives before it from those in the depths and what is remembered after."""
-        laws = self.stages.model.laws
+        laws = self.stages.model.laws.wear
         # What the depths in layers come to within the increment counts as their wear.
         within = [0.0] * len(self.stages.layered)
         found = self._back([wear[name] for name in laws], [*states.values, *within])
@@ -229,7 +232,7 @@ class Together(Remembering):
         refused, as those that reach beyond a box.
         """
         model = self.stages.model
-        if len(model.cycle) > 1 or self.stages.layered or model.filling:
+        if len(model.cycle) > 1 or self.stages.layered or model.laws.filling:
             return False
         if any(kept.weights is not None for kept in self.stages.kept):
             return False
@@ -279,7 +282,7 @@ class Alone(Remembering):
 
     def back(self, wear: Mapping[str, Array]) -> Before:
         """Return derivatives before it from those in the depths after."""
-        (name,), (carrier,) = self.stages.model.laws, self.stages.own
+        (name,), (carrier,) = self.stages.model.laws.wear, self.stages.own
         one, other, by = self._of_states, self._of_depth, wear[name]
         cells = carrier.seen(by, self.stages.box)
         found = _Back(

@@ -116,7 +116,7 @@ def _rows(
     ones do under one load, one step is all.
     """
     own = len(increment.own)
-    exact = increment.advances and increment.model.advances and not increment.loads_change
+    exact = increment.advances and increment.model.laws.advances and not increment.loads_change
     rows: list[list[Stage]] = [[] for _ in (RELAXING if relaxes else PLAIN)]
     ends = [states] * len(rows)
     for taken in range(len(rows)):

@@ -80,19 +80,19 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
     NumericalError
         If the run on a coarse grid fails, or takes over 30 s.
     """
-    if not model.contact.accepts_wear_compliance:
+    if not model.case.contact.accepts_wear_compliance:
         raise CaseError(
-            f"{model.contact.type!r} takes explicit steps only, and a coarse run implicit ones",
+            f"{model.case.contact.type!r} takes explicit steps only, a coarse run implicit ones",
             "contact.type",
         )
     if model.case.begin is not None:
         raise CaseError("the wear that a run begins with is left out on a coarse grid", "begin")
-    resolved = np.inf if model.contact.periodic else half_width_x
-    wide = 1.0 if model.may_reach_edge else MARGINS[0]
+    resolved = np.inf if model.case.contact.periodic else half_width_x
+    wide = 1.0 if model.contact.may_reach_edge else MARGINS[0]
     failed: CaseError | NumericalError | None = None
     trials = (
         # The average of the stroke is the cheapest, but has not all surfaces.
-        (CELLS, wide, np.inf if model.contact.periodic else 0.0),
+        (CELLS, wide, np.inf if model.case.contact.periodic else 0.0),
         (2 * CELLS, 1.0, resolved),
     )
     try:
@@ -135,7 +135,7 @@ def _of_two(coarse: Model, fine: Model) -> Sensitivity:
 
 def _asked(view: View) -> tuple[str, Answer]:
     model, state = view.model, view.state
-    deepest = max(model.laws, key=lambda name: float(np.max(view.wear(name))))
+    deepest = max(model.laws.wear, key=lambda name: float(np.max(view.wear(name))))
     if state.time < model.end_time:
         return model.case.stop.body or deepest, "end_time"
     return deepest, "depth"

@@ -94,13 +94,13 @@ class Sloping(Stages):
         for pressure, within in ((ALONE, CERTAIN), (None, AGREES)):
             reach = Reach(pressure, alone)
             (slopes,) = self._sloped([self.start], reach)
-            if not self.model.effects or self._agrees(slopes, within):
+            if not self.model.laws.effects or self._agrees(slopes, within):
                 return slopes, reach
         reach = self._reached(slopes)
         (slopes,) = self._sloped([self.start], reach)
         if self._agrees(slopes, AGREES):
             return slopes, reach
-        who = ", ".join(repr(effect.component.type) for effect in self.model.effects)
+        who = ", ".join(repr(effect.component.type) for effect in self.model.laws.effects)
         raise CaseError(
             f"what {who} makes of a point follows points further than a few cells from it, or "
             "points beside it and the load or the area too, through which no gradient goes",
@@ -109,7 +109,7 @@ class Sloping(Stages):
 
     def sloped(self, stages: Sequence[Stage]) -> list[Slopes]:
         """Return stages with their derivatives."""
-        if not self.model.effects:
+        if not self.model.laws.effects:
             return self._sloped(stages, Reach(ALONE, [ALONE] * len(self.begin)))
         first, reach = self.first
         return [
@@ -154,7 +154,7 @@ class Sloping(Stages):
         if passing is None:
             return total, states
         of_layers: list[list[Field]] = [[0.0] * len(seeds) for _ in passing.of_layers]
-        for at, name in enumerate(self.model.laws):
+        for at, name in enumerate(self.model.laws.wear):
             if name in passing.bodies:
                 shares = [
                     self._gathered(self.own[at], seen, each) for each in passing.by_share[name]
@@ -176,7 +176,7 @@ class Sloping(Stages):
         if passing is None:
             return {}
         seen, found = self.seen(seeds), {}
-        for at, name in enumerate(self.model.laws):
+        for at, name in enumerate(self.model.laws.wear):
             if name in passing.bodies:
                 shares = [
                     self._gathered(self.own[at], seen, each) for each in passing.by_share[name]
@@ -222,7 +222,7 @@ class Sloping(Stages):
         shares = [share for of_body in place.shares.values() for share in of_body.values()]
         if not any(np.any((share > 0) & (share < 1)) for share in shares):
             return None
-        bottoms = {name: self.model.laws[name].bottoms for name in self.layered}
+        bottoms = {name: self.model.laws.wear[name].bottoms for name in self.layered}
         worn = self.memory(states).worn
         alone = [
             place._replace(shares=only(layer, bottoms, worn))
@@ -230,7 +230,7 @@ class Sloping(Stages):
         ]
         of_layers = self._sloped(self.at_shares([states] * len(alone), alone), reach)
         bodies, by_share = {}, {}
-        for at, name in enumerate(self.model.laws):
+        for at, name in enumerate(self.model.laws.wear):
             if name not in bottoms:
                 continue
             rates = [each.means[at] for each in of_layers[: 1 + len(bottoms[name])]]
@@ -264,7 +264,7 @@ class Sloping(Stages):
         pressure = np.broadcast_to(self.pressure, (len(places), *self.pressure.shape))
         if reach is None:
             return shared(rates, pressure)
-        if self.model.effects:
+        if self.model.laws.effects:
             return local(rates, found, pressure, reach)
         told = self.told(places)
         responses = local(lambda told: self.rates(states, places, told), found, told)
@@ -297,7 +297,7 @@ class Sloping(Stages):
     def _by_factor(
         self, states: Arrays, places: Sequence[Place], found: Arrays, reach: Offset
     ) -> Sequence[Sequence[Response]]:
-        names = list(self.model.laws)
+        names = list(self.model.laws.wear)
         if not self.slid.before.between:
             # The depths of bodies in layers come once more at the end.
             bodies = [*names, *[""] * (len(found) - len(names) - len(self.layered)), *self.layered]

@@ -97,7 +97,7 @@ class Stages:
     @cached_property
     def own(self) -> Sequence[Carrier]:
         """The carriers of the depths worn."""
-        return [self.carriers[name] for name in self.model.laws]
+        return [self.carriers[name] for name in self.model.laws.wear]
 
     @cached_property
     def kept(self) -> Sequence[Carrier]:
@@ -253,16 +253,16 @@ class Stages:
         if told is None:
             told = self.told(places)
         groups = [slice(i, i + 1) for i in range(len(places))]
-        if not model.effects:
+        if not model.laws.effects:
             groups = list(self._alike(places, max(1, AT_ONCE // told[0].size)))
-        ask, found = self._in_window if model.effects else self._of_laws, list[Arrays]()
+        ask, found = self._in_window if model.laws.effects else self._of_laws, list[Arrays]()
         for group in groups:
             own = [state[group] for state in states]
             found.append(ask(model, own, places[group], told[group]))
         rates = [
             each[0] if len(each) == 1 else np.concatenate(each) for each in zip(*found, strict=True)
         ]
-        return rates + [rates[at] for at, law in enumerate(model.laws.values()) if law.bottoms]
+        return rates + [rates[at] for at, law in enumerate(model.laws.wear.values()) if law.bottoms]
 
     def memory(self, states: Sequence[Array]) -> Memory:
         """Return these states, and the depths in layers, as laws and effects know them."""
@@ -321,7 +321,7 @@ class Stages:
         each = iter(states)
         laws = {n: {key: next(each) for key in of} for n, of in self.slid.before.laws.items()}
         worn = dict(zip(self.layered, each, strict=True))
-        for name, law in model.laws.items():
+        for name, law in model.laws.wear.items():
             own = {**laws.get(name, {}), **_shares_told(law.bottoms, name, worn, places)}
             seen = {key: self.carriers[name].seen(of, self.box) for key, of in own.items()}
             found = [
@@ -331,7 +331,7 @@ class Stages:
                     position,
                     told[:, position],
                     {key: of[:, position] for key, of in seen.items()},
-                    0.0 if name in model.swept else self._over(places[0]),
+                    0.0 if name in model.cycle.swept else self._over(places[0]),
                 )
                 for position in range(len(model.cycle))
             ]
@@ -353,7 +353,7 @@ class Stages:
         over: float,
     ) -> Arrays:
         """Return the rates of a law at a position: its depth's and its states'."""
-        law, place, mean = model.laws[name], model.cycle[position], self.slid.moment.speed
+        law, place, mean = model.laws.wear[name], model.cycle[position], self.slid.moment.speed
         keys = list(self.slid.before.laws.get(name, {}))
         if mean == 0:
             return [np.zeros(pressure.shape)] * (1 + len(keys))

@@ -172,16 +172,18 @@ def _written(event: Event, model: Model, load: str, time: float) -> Record:
     if isinstance(event, Yielded):
         return Gave(tuple(event.places))
     if isinstance(event, Drawn):
-        averaged = [name for name, exposure in model.exposures.items() if exposure.averaged]
+        averaged = [name for name, exposure in model.cycle.maps.items() if exposure.averaged]
         return Enveloped({name: np.argmax(event.before[name], axis=0) for name in averaged})
     times: tuple[float, ...] = (time,)
     slid = None
     if isinstance(event, Worn):
         load, times = "mean", (event.time, event.moment.time)
         # Only in layers a law depends on how deep its body is worn.
-        worn = {name: event.before.worn[name] for name, law in model.laws.items() if law.bottoms}
-        laws = {name: event.before.laws[name] for name in model.laws}
-        before = Memory(laws, event.before.between if model.effects else {}, worn)
+        worn = {
+            name: event.before.worn[name] for name, law in model.laws.wear.items() if law.bottoms
+        }
+        laws = {name: event.before.laws[name] for name in model.laws.wear}
+        before = Memory(laws, event.before.between if model.laws.effects else {}, worn)
         plan = replace(event.plan, accuracy=np.inf)
         slid = Slid(event.time, event.increment, event.moment, before, plan, event.ahead)
     contacts = event.contacts

@@ -31,7 +31,7 @@ def read_map(file: str, pitch: float | None, place: str) -> Heights:
 
 def surface_shape(model: Model, body: str) -> tuple[int, int]:
     """Return the number of cells along and across a body's own surface."""
-    return model.exposures[body].rows, model.grid.cells[1]
+    return model.cycle.maps[body].rows, model.grid.cells[1]
 
 
 def block_means(depth: Array, noise: Array, spacing: tuple[float, float]) -> pd.DataFrame:

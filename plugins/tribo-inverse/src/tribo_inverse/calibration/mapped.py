@@ -48,12 +48,12 @@ def calibrate_maps(
     *_, last = march(model, begin(model))
     clean = View(model, last.state)
     for place, entry in mapped.items():
-        if entry.body not in model.exposures:
-            raise unknown_body(entry.body, model.bodies, f"{place}.body")
+        if entry.body not in model.cycle.maps:
+            raise unknown_body(entry.body, model.case.bodies, f"{place}.body")
         if entry.body in depths:
             raise CaseError(f"{entry.body!r} has two maps; give one", place)
         spacing, worn = model.grid.spacing, clean.wear(entry.body)
-        if entry.body not in model.laws or not np.any(worn):
+        if entry.body not in model.laws.wear or not np.any(worn):
             raise CaseError(f"{entry.body!r} does not wear in this case", f"{place}.body")
         deepest = float(np.max(worn))
         if entry.uncertainty > REFUSED * deepest:

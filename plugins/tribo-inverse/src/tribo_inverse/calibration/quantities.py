@@ -205,7 +205,7 @@ def _crown(result: Result, body: BodyResult, save: int) -> tuple[float, float]:
 
 def unavailable(model: Model, body: str, name: str) -> str:
     """Return why a model does not give a quantity of a body; empty if it does."""
-    found, swept, of = model.bodies[body], body in model.swept, QUANTITIES[name].of
+    found, swept, of = model.case.bodies[body], body in model.cycle.swept, QUANTITIES[name].of
     if found.wear is None:
         return f"body {body!r} does not wear in this case; give it a wear law, bodies.{body}.wear"
     if name == "mass" and found.material.density is None:

@@ -113,7 +113,7 @@ def unmeasured(setups: Sequence[Setup], data: pd.DataFrame) -> pd.DataFrame:
     rows = [
         (i, setup.name, body, quantity, math.nan, math.nan)
         for i, setup in enumerate(setups)
-        for body in setup.model.bodies
+        for body in setup.model.case.bodies
         for quantity in QUANTITIES
         if quantity not in FIELDS
         and (i, body, quantity) not in known
@@ -147,8 +147,8 @@ def make_run(
 
 
 def _check_entry(model: Model, entry: MeasuredEntry, place: str) -> None:
-    if entry.body not in model.bodies:
-        raise unknown_body(entry.body, model.bodies, f"{place}.body")
+    if entry.body not in model.case.bodies:
+        raise unknown_body(entry.body, model.case.bodies, f"{place}.body")
     reason = unavailable(model, entry.body, entry.quantity)
     if reason:
         raise CaseError(reason, f"{place}.quantity")

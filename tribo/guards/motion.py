@@ -11,10 +11,10 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import WearCompliance
 from tribo.core.errors import BadValues, PluginError
 from tribo.core.grid import Grid
+from tribo.guards.guard import Guard
 from tribo.motion.cycle import Position, Speeds
 from tribo.motion.exposure import Exposure, Passing, Stationary, Track
 from tribo.motion.kinematics import Kinematics
-from tribo.simulation.guard import Guard
 
 SAMPLES = 8
 INVERSE = 1e-6

@@ -15,7 +15,7 @@ from tribo.component import Component
 from tribo.core.arrays import Array
 from tribo.core.errors import BadValues, NumericalError, PluginError, TriboError
 from tribo.core.words import said
-from tribo.simulation.trial_time import check_time
+from tribo.guards.trial_time import check_time
 
 REAL = "fiub"
 """Kinds of a dtype that are real numbers."""

@@ -30,7 +30,7 @@ from tribo.core.fields import (
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.effects.effect import Effect
-from tribo.simulation.guard import Guard
+from tribo.guards.guard import Guard
 from tribo.surfaces.surface import Surface
 from tribo.wear.law import WearLaw
 
@@ -59,7 +59,7 @@ class GuardedLaw(Guard[WearLaw]):
     """A wear law that suits its body's material, and the initial values of its state fields."""
 
     bottoms: tuple[float, ...] = ()
-    """Depths at which layers end, in m, where a body has any (`tribo.simulation.layers`)."""
+    """Depths at which layers end, in m, where a body has any (`tribo.guards.layers`)."""
     steady_above = False
     """Whether layers above the last remember nothing, so that points pass them at even rates."""
     advances = False

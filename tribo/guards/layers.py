@@ -11,8 +11,8 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, PluginError
 from tribo.core.fields import Field, LocalConditions, WearRate
-from tribo.simulation.guard import Guard
-from tribo.simulation.guards import GuardedLaw
+from tribo.guards.guard import Guard
+from tribo.guards.parts import GuardedLaw
 
 
 class LayeredLaw(GuardedLaw):

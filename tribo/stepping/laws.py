@@ -1,0 +1,119 @@
+"""The wear laws and interfacial effects of a case, and the fields that they need and keep."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, Field
+from tribo.guards.parts import GuardedEffect, GuardedLaw
+from tribo.stepping.cycle import Cycle
+
+
+@dataclass(frozen=True)
+class Laws:
+    """Laws by body, and effects, each after those that provide what it requires.
+
+    Parameters
+    ----------
+    wear : Mapping of GuardedLaw
+        The laws of the bodies that wear, by body.
+    effects : tuple of GuardedEffect
+        Those between the bodies.
+    cycle : Cycle
+        The positions at which they are asked.
+    friction_coefficient : float or None
+        That of the case, if it has one.
+    """
+
+    wear: Mapping[str, GuardedLaw]
+    effects: tuple[GuardedEffect, ...]
+    cycle: Cycle
+    friction_coefficient: float | None = None
+
+    @cached_property
+    def between(self) -> Mapping[str, tuple[GuardedEffect, Field]]:
+        """The state fields of the effects, by name, each with its effect."""
+        return {f.name: (effect, f) for effect in self.effects for f in effect.state_fields}
+
+    @cached_property
+    def advances(self) -> bool:
+        """Whether all that remember know the mean of their rates over an increment.
+
+        At points that stay (one that is swept sees many pressures, of which a closed form knows
+        one) and where nothing follows an effect, as a closed form does not see what that comes to
+        within the increment.
+        """
+        if not self._leaves_means:
+            return False
+        known = [self.knows_mean(name) for name, law in self.wear.items() if law.initial_state] + [
+            effect.advances and effect.carrier not in self.cycle.swept
+            for effect in self.effects
+            if effect.initial_state
+        ]
+        return bool(known) and all(known) and not any(body is None for body, _ in self.filling)
+
+    @cached_property
+    def tells_length(self) -> bool:
+        """Whether laws that know the mean of their rate are asked for that over a part.
+
+        Where not all know it that spares parts only if points of one that does pass layers.
+        """
+        if self.advances or self.between or not self._leaves_means:
+            return self.advances
+        return any(
+            bool(law.bottoms and law.initial_state) and self.knows_mean(name)
+            for name, law in self.wear.items()
+        )
+
+    def knows_mean(self, name: str) -> bool:
+        """Whether the law of a body knows the mean of its rate at points that stay, as all do."""
+        return self.wear[name].advances and name not in self.cycle.swept
+
+    @cached_property
+    def _leaves_means(self) -> bool:
+        """Whether closed forms are right at points that stay, as far as effects go."""
+        given = {f.name for each in self.effects for f in (*each.state_fields, *each.provides)}
+        followed = {LOAD_SHARE.name, FRICTION_COEFFICIENT.name, *self.required}
+        return len(self.cycle) == 1 and not given & followed
+
+    @cached_property
+    def filling(self) -> tuple[tuple[str | None, str], ...]:
+        """The state fields that fill the gap, with the body whose law has them; None of effects."""
+        of_laws = ((name, f) for name, law in self.wear.items() for f in law.state_fields)
+        of_effects = ((None, f) for effect in self.effects for f in effect.state_fields)
+        return tuple((body, f.name) for body, f in (*of_laws, *of_effects) if f.fills)
+
+    @cached_property
+    def required(self) -> frozenset[str]:
+        """Names of the fields that laws and effects need."""
+        of_laws = (name for law in self.wear.values() for name in law.requires)
+        return frozenset((*of_laws, *(n for effect in self.effects for n in effect.requires)))
+
+    def kept_on(self, body: str | None) -> tuple[Field, ...]:
+        """Return the state fields on a body's surface; None for those of the contact as a whole."""
+        law = self.wear.get(body) if body is not None else None
+        carried = (
+            field
+            for effect, field in self.between.values()
+            if (None if field.uniform else effect.carrier) == body
+        )
+        return (*(law.state_fields if law else ()), *carried)
+
+    @cached_property
+    def friction_varies(self) -> bool:
+        """Whether an effect provides the coefficient of friction."""
+        provided = (field.name for effect in self.effects for field in effect.provides)
+        return FRICTION_COEFFICIENT.name in provided
+
+    @cached_property
+    def friction_remembers(self) -> bool:
+        """Whether the coefficient of friction follows what laws or effects remember."""
+        following = {field.name for law in self.wear.values() for field in law.state_fields}
+        following.update(self.between)
+        # In the order in which they are asked.
+        for effect in self.effects:
+            if effect.state_fields or following & set(effect.requires):
+                following.update(field.name for field in effect.provides)
+        return FRICTION_COEFFICIENT.name in following

@@ -1,0 +1,91 @@
+"""What a run needs of a case, derived from it once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from tribo.case import Case
+from tribo.component import components
+from tribo.core.arrays import Array
+from tribo.core.grid import Grid
+from tribo.guards.guard import Guard
+from tribo.guards.motion import GuardedMotion
+from tribo.guards.parts import GuardedLaw, GuardedSurface
+from tribo.lab.roughness import is_rough
+from tribo.stepping.contact_setup import ContactSetup
+from tribo.stepping.cycle import Cycle
+from tribo.stepping.events import Listener, unheard
+from tribo.stepping.laws import Laws
+
+
+@dataclass(frozen=True)
+class Model:
+    """A case, and what a run derives from it once; made by `assemble`.
+
+    The parts of the case are guarded: what goes wrong in one names it, and what it answers is
+    checked. `chosen` says which positions were taken where the case left them open. `tell` hears
+    what happens in each step, rejected ones too.
+    """
+
+    case: Case
+    motion: GuardedMotion
+    surfaces: Mapping[str, GuardedSurface]
+    cycle: Cycle
+    contact: ContactSetup
+    laws: Laws
+    end_time: float
+    chosen: str | None = None
+    tell: Listener = unheard
+
+    @property
+    def grid(self) -> Grid:
+        """The window."""
+        return self.cycle.grid
+
+    @cached_property
+    def changing(self) -> tuple[str, ...]:
+        """Names of the swept bodies that change their shape."""
+        yielding = (name for name, share in self.contact.plastic_share.items() if share > 0)
+        alter = {*self.laws.wear, *yielding}
+        return tuple(name for name in self.case.bodies if name in self.cycle.swept & alter)
+
+    @property
+    def couples(self) -> bool:
+        """Whether the positions of the cycle are solved together, with the wear they share."""
+        return self.case.contact.couples and self.cycle.shares_points
+
+    @cached_property
+    def rough(self) -> frozenset[str]:
+        """Names of the bodies that are more than a smooth form at first."""
+        unsure = [name for name, body in self.case.bodies.items() if not body.surface.smooth]
+        return frozenset(name for name in unsure if is_rough(self.height(name)))
+
+    def with_laws(self, wear: Mapping[str, GuardedLaw]) -> Model:
+        """Return the same with other wear laws, by body."""
+        return replace(self, laws=replace(self.laws, wear=wear))
+
+    def height(self, name: str) -> Array:
+        """Return what lies in the window of a body's initial height, in the middle of the cycle."""
+        return self.cycle.maps[name].see(self.surfaces[name].height, self.cycle.middle)
+
+    @cached_property
+    def saves(self) -> frozenset[float]:
+        """Times after t = 0 at which all fields are saved, in s."""
+        times = self.case.output.save_times
+        return frozenset({*(t for t in times if 0 < t < self.end_time), self.end_time})
+
+    @cached_property
+    def end_distance(self) -> float:
+        """Sliding distance at the end of the run, in m."""
+        return self.motion.distance_at(self.end_time)
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The case as plain data, in SI units, ready for JSON."""
+        for _, component in components(self.case):
+            # Of the whole case an error would not tell which component it is from.
+            Guard(component).ask(component.model_dump, mode="json")
+        return self.case.model_dump(mode="json")
