@@ -35,7 +35,7 @@ _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u20
 """All but tab and line feed, and the marks that change the direction of text."""
 
 
-class Output(io.FileIO):
+class GuardedStream(io.FileIO):
     """Standard output; the command ends where it cannot be written."""
 
     number = 1
@@ -77,7 +77,7 @@ def say(what: str, colour: str, text: str) -> None:
     click.echo(label + harmless(text), file=sys.stderr)
 
 
-def over(stream: TextIO | None, kind: type[Output | Remarks]) -> TextIO:
+def over(stream: TextIO | None, kind: type[GuardedStream | Remarks]) -> TextIO:
     """Return a stream to the same file that fails as `kind` does and replaces signs it lacks.
 
     None stands for one that is closed.

@@ -26,7 +26,7 @@ WORN = 0.1
 """Part of the largest depth from which a cell is in the scar: its edge is form."""
 
 
-class Worn(NamedTuple, Generic[T]):
+class BeforeAndAfter(NamedTuple, Generic[T]):
     """What is measured of a worn body in three places.
 
     `scar` is of the surface in the scar, or in the contact where nothing is worn; `unworn` of what
@@ -38,18 +38,18 @@ class Worn(NamedTuple, Generic[T]):
     beside: T
 
 
-def worn_roughness(result: Result, body: BodyResult, save: int) -> Worn[Roughness]:
+def worn_roughness(result: Result, body: BodyResult, save: int) -> BeforeAndAfter[Roughness]:
     """Return the roughness of a body at a save; NaN where there are too few cells."""
-    return Worn(*map(parameters, reliefs(result, body, save)))
+    return BeforeAndAfter(*map(parameters, reliefs(result, body, save)))
 
 
-def reliefs(result: Result, body: BodyResult, save: int) -> Worn[Array]:
+def reliefs(result: Result, body: BodyResult, save: int) -> BeforeAndAfter[Array]:
     """Return the heights of a body at a save, form removed and NaN elsewhere, in m."""
     scar, surface = scar_cells(result, body, save), body.surface(save)
     gone = body.wear_depth[save] + body.plastic_depth[save]
     beside = ~outlined(scar | (gone > 0))
     places = (scar, surface), (scar, body.height), (beside, surface)
-    return Worn(*(without_form(np.where(cells, z, np.nan), FORM) for cells, z in places))
+    return BeforeAndAfter(*(without_form(np.where(cells, z, np.nan), FORM) for cells, z in places))
 
 
 def contact_roughness(surface: Array, pressure: Array) -> Roughness:

@@ -23,7 +23,7 @@ NOTE = "difference of the two codes, both at their tolerance"
 Solve = Callable[[Array, Grid, float], Array]
 
 
-class Other(ContactSolver):
+class OtherCode(ContactSolver):
     """A contact solver from a function that knows only pressures."""
 
     type = "verification.other"
@@ -110,7 +110,7 @@ def _rough(solve: Solve, level: int, placement: float) -> list[Row]:
 def _history(solve: Solve, level: int, placement: float) -> list[Row]:
     distance, k, grid = 4.0, paper.WEAR_COEFFICIENT, paper.square(WIDTH, CELLS)
     worn = []
-    for contact in (paper.HALF_SPACE, Other(pressure=solve)):
+    for contact in (paper.HALF_SPACE, OtherCode(pressure=solve)):
         model = paper.on_flat(paper.BALL, grid, contact, flat_k=k, distance=distance)
         worn.append(paper.slide(model, distance, 20, explicit=True)[1].bodies)
     ours, theirs = worn

@@ -12,7 +12,7 @@ from tribo.stepping.model import Model
 
 
 @dataclass(frozen=True)
-class Worn:
+class MovedWear:
     """What a moving contact has worn, in m: the ball, and the flat along its track.
 
     `contact` is the one at mid-stroke in the last pass; on a ring, the last one.
@@ -25,7 +25,7 @@ class Worn:
 
 def to_and_fro(
     model: Model, ball_k: float, flat_k: float, *, stroke: int, distance: float, passes: int
-) -> Worn:
+) -> MovedWear:
     """Move the ball to and fro, and wear both bodies by Archard's law.
 
     A pass stands for many strokes, the more the longer it goes on: the path grows as the square of
@@ -62,12 +62,12 @@ def to_and_fro(
             flat[image] += flat_k * depth[::-1]
     middle = last[stroke // 2]
     gap = model.contact.gap + ball + flat[stroke // 2 : stroke // 2 + nx]
-    return Worn(ball, flat, _solve(model, gap, 0.0, middle))
+    return MovedWear(ball, flat, _solve(model, gap, 0.0, middle))
 
 
 def round_a_ring(
     model: Model, ball_k: float, flat_k: float, *, rows: int, distance: float, passes: int
-) -> Worn:
+) -> MovedWear:
     """Move the ball round a track of `rows` rows of cells that closes on itself.
 
     Parameters and result are those of `to_and_fro`; each pass slides as far.
@@ -83,7 +83,7 @@ def round_a_ring(
         ball += ball_k * slid * solution.pressure
         flat[under] += flat_k * slid * solution.pressure
     assert solution is not None
-    return Worn(ball, flat, solution)
+    return MovedWear(ball, flat, solution)
 
 
 def _solve(model: Model, gap: Array, worn: float, start: ContactSolution | None) -> ContactSolution:

@@ -33,7 +33,7 @@ STRETCHED = " Along and across are drawn to different scales."
 
 
 @dataclass(frozen=True)
-class Part:
+class FieldPart:
     """The part of a field that is shown: a window, or the whole track of a swept body."""
 
     x: slice
@@ -112,7 +112,7 @@ def pressure_maps(results: Mapping[str, Result], times: Sequence[float]) -> list
     """Return a map of the pressure of each result, by label, at times that all have saved, in s."""
     most = int(np.sqrt(NUMBERS / (len(results) * len(times))))
     maps: list[dict[str, Any]] = []
-    shown: dict[str, tuple[list[Array], Part]] = {}
+    shown: dict[str, tuple[list[Array], FieldPart]] = {}
     for label, result in results.items():
         saves = [result.save_at(time) for time in times]
         window = _window(result, saves, min(max(most, FEWEST_CELLS), MOST_CELLS))
@@ -139,7 +139,7 @@ def _track(result: Result, body: BodyResult, saves: Sequence[int]) -> list[Array
     return None if np.all(np.isnan(depths)) else depths
 
 
-def _window(result: Result, saves: Sequence[int], most: int) -> Part:
+def _window(result: Result, saves: Sequence[int], most: int) -> FieldPart:
     """Return the part of the window in which there is contact or wear."""
     grid, marked = result.grid, touched(result, saves)
     shown, blocks = [], []
@@ -148,19 +148,21 @@ def _window(result: Result, saves: Sequence[int], most: int) -> Part:
         index = np.flatnonzero((low <= position) & (position <= high))
         shown.append(slice(int(index[0]), int(index[-1]) + 1))
         blocks.append(Blocks.of(position[shown[-1]], most))
-    return Part(shown[0], shown[1], (blocks[0], blocks[1]))
+    return FieldPart(shown[0], shown[1], (blocks[0], blocks[1]))
 
 
-def _whole_track(result: Result, depths: Sequence[Array], window: Part, most: int) -> Part:
+def _whole_track(
+    result: Result, depths: Sequence[Array], window: FieldPart, most: int
+) -> FieldPart:
     known = np.flatnonzero(np.isfinite(depths).all(axis=(0, 2)))
     length = depths[0].shape[0]
     x = (np.arange(length) - 0.5 * (length - 1)) * result.grid.spacing[0]
     along = slice(int(known[0]), int(known[-1]) + 1)
-    return Part(along, window.y, (Blocks.of(x[along], most), window.blocks[1]))
+    return FieldPart(along, window.y, (Blocks.of(x[along], most), window.blocks[1]))
 
 
 def _map(
-    name: str, unit: str, body: str, fields: Sequence[Array], part: Part, highest: float = 0.0
+    name: str, unit: str, body: str, fields: Sequence[Array], part: FieldPart, highest: float = 0.0
 ) -> dict[str, Any]:
     """Return a map at each save, with the largest value of all its cells.
 

@@ -16,18 +16,18 @@ Rise = Literal["mean", "maximum"]
 
 
 @dataclass(frozen=True)
-class Limits:
+class SpeedLimits:
     """ΔT K/(q a) of a resting source, and ΔT K √Pe/(q a) of a fast one."""
 
     static: float
     fast: float
 
 
-LIMITS: dict[tuple[Profile, Rise], Limits] = {
-    ("uniform", "maximum"): Limits(1.0, 2 / math.sqrt(math.pi)),
-    ("uniform", "mean"): Limits(8 / (3 * math.pi), 0.688546),
-    ("parabolic", "maximum"): Limits(3 * math.pi / 8, 1.309512),
-    ("parabolic", "mean"): Limits(9 * math.pi / 32, 0.717543),
+LIMITS: dict[tuple[Profile, Rise], SpeedLimits] = {
+    ("uniform", "maximum"): SpeedLimits(1.0, 2 / math.sqrt(math.pi)),
+    ("uniform", "mean"): SpeedLimits(8 / (3 * math.pi), 0.688546),
+    ("parabolic", "maximum"): SpeedLimits(3 * math.pi / 8, 1.309512),
+    ("parabolic", "mean"): SpeedLimits(9 * math.pi / 32, 0.717543),
 }
 """Exact limits after Jaeger. The fast means are 8 B(1/2, 7/4)/(3 π^1.5) and
 3.2 B(1/2, 9/4)/π^1.5; the fast parabolic maximum was integrated numerically."""

@@ -10,7 +10,7 @@ from tribo import CaseError
 
 from tribo_topography.config import MeasuredFile
 from tribo_topography.form import detrended
-from tribo_topography.read import Map, read
+from tribo_topography.read import StoredMap, read
 
 WIDEST, NARROWEST = 0.1, 1e-6
 _FORM = {"none": "", "mean": "", "tilt": ", tilt removed", "curvature": ", form removed"}
@@ -94,7 +94,7 @@ def describe(what: MeasuredFile | str | Path) -> Facts:
     return facts(read(config), config)
 
 
-def facts(found: Map, config: MeasuredFile) -> Facts:
+def facts(found: StoredMap, config: MeasuredFile) -> Facts:
     """Return the scale of a map; its form is taken off here."""
     heights = detrended(found.heights, config.detrend)
     nx, ny = heights.shape

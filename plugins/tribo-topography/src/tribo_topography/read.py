@@ -37,7 +37,7 @@ class Unreadable(CaseError):
 
 
 @dataclass(frozen=True)
-class Map:
+class StoredMap:
     """A height map as its file and the configuration give it.
 
     Parameters
@@ -62,7 +62,7 @@ class Map:
     sha256: str
 
 
-def read(config: MeasuredFile) -> Map:
+def read(config: MeasuredFile) -> StoredMap:
     """Read the map that `config` names, without changing its form.
 
     Raises
@@ -90,7 +90,7 @@ def read(config: MeasuredFile) -> Map:
         raise CaseError(f"{path} holds no height at all: every pixel is missing")
     size = config.size or (metre * sizes[0], metre * sizes[1])
     names = tuple(str(each.name) for each in channels)
-    return Map(heights, size, str(reader.format()), names[index], names, sha256)
+    return StoredMap(heights, size, str(reader.format()), names[index], names, sha256)
 
 
 @contextmanager
