@@ -54,7 +54,7 @@ SCHEMES = [Implicit(), Explicit(time_step=1.0)]
 
 @pytest.mark.parametrize("step", [scheme.step for scheme in SCHEMES], ids=["implicit", "explicit"])
 def test_a_sinusoid_decays_at_the_exact_rate_with_first_order(step):
-    k_hat = compliance(2 * np.pi / WAVELENGTH, model().system.modulus)
+    k_hat = compliance(2 * np.pi / WAVELENGTH, model().contact.system.modulus)
     distance = k_hat / K  # one decay length
     exact = 1e-8 * worn_amplitude(distance, K, k_hat)
     errors = np.array([amplitude_after(step, n, distance) / exact - 1 for n in (20, 40, 80)])

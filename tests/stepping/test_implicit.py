@@ -58,11 +58,11 @@ def test_halving_tolerances_changes_the_answer_within_them(paper_small):
     )
     coarse = paper_small[-1]
     for name in ("ball", "disk"):
-        assert coarse.case.bodies[name].wear.max() == pytest.approx(
+        assert coarse.bodies[name].wear.max() == pytest.approx(
             fine.bodies[name].wear.max(), rel=5e-3
         )
     middle = slice(23, 25)
-    assert coarse.case.contact.pressure[middle, middle].mean() == pytest.approx(
+    assert coarse.contact.pressure[middle, middle].mean() == pytest.approx(
         fine.contact.pressure[middle, middle].mean(), rel=0.02
     )
 

@@ -427,8 +427,8 @@ def test_laws_that_know_their_means_are_asked_as_rarely_below_a_layer():
     case["bodies"]["pin"]["layers"][0]["thickness"] = "0.1 um"
     made = Case.model_validate({**case, "stepping": LONG})
     law = Counted(factor=4.0, over="100 MPa m", law=Archard(k=10 * K))
-    pin = made.case.bodies["pin"].model_copy(update={"wear": law})
-    made = made.model_copy(update={"bodies": {**made.case.bodies, "pin": pin}})
+    pin = made.bodies["pin"].model_copy(update={"wear": law})
+    made = made.model_copy(update={"bodies": {**made.bodies, "pin": pin}})
     _, notices, totals = ended(made)
     assert any("layer 1 of pin" in told for told in notices)
     # Where parts of steps were tried until they agreed, some 150 times a solve.

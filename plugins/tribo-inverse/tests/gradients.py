@@ -88,7 +88,7 @@ def difference(base, steps, objective, numbers, maps, part, depth=None):
             for position in range(len(gaps)):
                 gaps[position] = gaps[position] - by * model.cycle.maps[name].see(change, position)
         worn = {name: by * change for name, change in maps.get("worn_before", {}).items()}
-        made = replace(model, gaps=tuple(gaps))
+        made = replace(model, contact=replace(model.contact, gaps=tuple(gaps)))
         ends = depth and depth + made.case.stop.depth - base.case.stop.depth
         found.append(sought(made, base, steps, objective, worn, ends))
     return (found[0] - found[1]) / (2 * part)

@@ -412,7 +412,7 @@ def test_scipy_finds_what_made_a_scar():
     last = states(composed(made))[-1]
     looks = Misfit("disk", last.bodies["disk"].wear, 1e-8)
     paths = ["bodies.ball.wear.k", "bodies.disk.wear.k"]
-    fit = value_and_gradient(run(stepping=made.case.stepping), looks, paths)
+    fit = value_and_gradient(run(stepping=made.stepping), looks, paths)
     value, slope = fit(fit.start)
     ahead = fit(fit.start + 1e-5)[0]
     assert (ahead - value) / 1e-5 == pytest.approx(sum(slope), rel=1e-2)
