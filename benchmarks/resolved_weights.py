@@ -35,7 +35,7 @@ def measure(options: argparse.Namespace) -> Tables:
     settings = [f"grid.cells={options.cells}", f"kinematics.positions={options.positions}"]
     templates = files("tribo.templates")
     case = apply_settings(read_toml(templates / "weighed_split.toml"), settings)
-    weighed = read_toml(templates / "weighed.toml")
+    weighed = read_toml(files("tribo_inverse") / "templates/weighed.toml")
     intervals, fits = [], []
     for data, more in (("weights alone", []), ("with a crown of 10 ± 1 µm", [CROWN])):
         found = calibrate(case, weighed | {"measured": weighed["measured"] + more})

@@ -79,5 +79,5 @@ def test_a_legend_reads_row_by_row_and_names_the_ends_of_many():
 
 def test_drawing_needs_no_pyplot():
     assert not any(
-        "pyplot" in path.read_text() for path in Path(plotting.__file__).parent.glob("*")
+        "pyplot" in path.read_text() for path in Path(plotting.__file__).parent.glob("*.py")
     )
