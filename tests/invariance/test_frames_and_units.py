@@ -150,9 +150,10 @@ def test_other_moduli_in_explicit_steps(test, modulus):
 @few
 @given(test=wear_tests())
 def test_the_contact_alone_turned_by_a_right_angle(test):
-    straight, turned = model(test), model({**test, "heights": test["heights"].T})
+    models = model(test), model({**test, "heights": test["heights"].T})
+    straight, turned = (each.contact for each in models)
     pressures = [
-        each.contact.solve(ContactProblem(each.system, gap, each.load)).pressure
+        each.solver.solve(ContactProblem(each.system, gap, each.system.load)).pressure
         for each, gap in ((straight, straight.gap), (turned, straight.gap.T))
     ]
     agree([pressures[1].T], [pressures[0]])

@@ -93,7 +93,7 @@ def test_what_is_uniform_is_one_number_and_relaxes_as_it_should(bath, law, exact
         effects=[bath],
         kinematics=Unidirectional(speed=stages, track_length="2 mm", duration=70),
     )
-    assert case.advances == (exact < 1e-6)
+    assert case.laws.advances == (exact < 1e-6)
     seen = {state.time: state.between["warm"] for state in states(case)}
     assert {values.shape for values in seen.values()} == {(1, 1)}
     rise = 0.0

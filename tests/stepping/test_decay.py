@@ -44,9 +44,9 @@ def amplitude_after(step, steps, distance):
     for i in range(steps):
         s = distance * (i + 1) / steps
         state = step(wavy, state, distance / steps, s / 0.1)
-    surface = wavy.bodies["wavy"].surface.height(GRID) - state.bodies["wavy"].wear
+    surface = wavy.case.bodies["wavy"].surface.height(GRID) - state.bodies["wavy"].wear
     # The wave is sampled beside its crests; relative to its start that cancels.
-    return 1e-8 * np.ptp(surface) / np.ptp(wavy.bodies["wavy"].surface.height(GRID))
+    return 1e-8 * np.ptp(surface) / np.ptp(wavy.case.bodies["wavy"].surface.height(GRID))
 
 
 SCHEMES = [Implicit(), Explicit(time_step=1.0)]

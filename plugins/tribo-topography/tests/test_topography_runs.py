@@ -44,7 +44,7 @@ def test_smooth_ball_from_a_file_has_the_contact_of_a_paraboloid(case):
     measured = case(sq=0.0)
     exact = case(sq=0.0)
     exact["bodies"]["ball"]["surface"] = {"type": "paraboloid", "radius": "5 mm"}
-    first, second = (Simulation(each).model for each in (measured, exact))
+    first, second = (Simulation(each).model.contact for each in (measured, exact))
     # The spline through the pixels is a parabola too, but for what x3p rounds.
     np.testing.assert_allclose(first.gap, second.gap, rtol=0, atol=1e-14)
 
