@@ -6,8 +6,10 @@ used, so that ``import tribo`` stays fast; ``__init__.pyi`` lists them.
 """
 
 from tribo.core.lazy import lazy
+from tribo.methods import bind
 from tribo.packages import NAMES, how_to_install
 
+bind()
 _get = lazy(__name__, __file__)
 
 

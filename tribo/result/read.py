@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 import h5py
 import numpy as np
 
-from tribo import above
+from tribo.core import shorthand
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError
@@ -329,15 +329,15 @@ class Result:
 
     def report(self) -> LabReport:
         """Return what a laboratory would measure of the result."""
-        return above.report(self)
+        return shorthand.report(self)
 
     def plot(self, folder: str | Path, suffix: str = "png") -> list[Path]:
         """Write every picture that makes sense for the result, as ``tribo plot`` does."""
-        return above.plot(self, Path(folder), suffix)
+        return shorthand.plot(self, Path(folder), suffix)
 
     def _repr_html_(self) -> str:
         """Show the lab table and the pressure in a notebook."""
-        return above.html(self)
+        return shorthand.html(self)
 
     def _ranges(self, kind: str, save: int, body: str | None = None) -> dict[str, Any]:
         """Return the least and the largest value of fields at a save; None where one failed."""

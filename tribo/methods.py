@@ -1,20 +1,31 @@
-"""What models, cases and results call of the layers above them: the one place that imports upwards.
+"""What ``case.run()``, ``result.plot()`` and other shorthands of lower layers do.
 
-``case.run()``, a name given without a registry, ``result.report()``, ``result.plot()`` and a result
-in a notebook are short for functions of higher layers, which are imported when first called. All
-other imports go one way.
+The package binds them as it is imported; the functions that they call are imported when first
+called.
 """
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from tribo.core import shorthand
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from pathlib import Path
+    from typing import Any
+
     from tribo.case import Case
     from tribo.lab.report import LabReport
     from tribo.registry.registry import Registry
     from tribo.result.read import Result
+
+
+def bind() -> None:
+    """Give each shorthand its function."""
+    shorthand.run = run
+    shorthand.registry = registry
+    shorthand.report = report
+    shorthand.plot = plot
+    shorthand.html = html
 
 
 def run(case: Case, output: str | Path | None, **options: Any) -> Result:
@@ -24,7 +35,7 @@ def run(case: Case, output: str | Path | None, **options: Any) -> Result:
     return Simulation(case).run(output, **options)
 
 
-def installed() -> Registry:
+def registry() -> Registry:
     """Return the registry of the built-in and the installed plugins."""
     from tribo.registry.registry import default_registry
 
@@ -47,6 +58,6 @@ def plot(result: Result, folder: Path, suffix: str) -> list[Path]:
 
 def html(result: Result) -> str:
     """Return the lab table of a result and a picture of its pressure, for a notebook."""
-    from tribo.cli.notebook import html as shown
+    from tribo.cli.notebook import html
 
-    return shown(result)
+    return html(result)
