@@ -4,8 +4,6 @@ The package binds them as it is imported; the functions that they call are impor
 called.
 """
 
-from __future__ import annotations
-
 from tribo.core import shorthand
 
 TYPE_CHECKING = False
@@ -28,35 +26,35 @@ def bind() -> None:
     shorthand.html = html
 
 
-def run(case: Case, output: str | Path | None, **options: Any) -> Result:
+def run(case: "Case", output: "str | Path | None", **options: "Any") -> "Result":
     """Run a case from the beginning."""
     from tribo.simulation.run import Simulation
 
     return Simulation(case).run(output, **options)
 
 
-def registry() -> Registry:
+def registry() -> "Registry":
     """Return the registry of the built-in and the installed plugins."""
     from tribo.registry.registry import default_registry
 
     return default_registry()
 
 
-def report(result: Result) -> LabReport:
+def report(result: "Result") -> "LabReport":
     """Return what a laboratory would measure of a result."""
     from tribo.lab.report import lab_report
 
     return lab_report(result)
 
 
-def plot(result: Result, folder: Path, suffix: str) -> list[Path]:
+def plot(result: "Result", folder: "Path", suffix: str) -> "list[Path]":
     """Write every picture that makes sense for a result."""
     from tribo.plotting.figures import save_figures
 
     return save_figures(result, folder, suffix)
 
 
-def html(result: Result) -> str:
+def html(result: "Result") -> str:
     """Return the lab table of a result and a picture of its pressure, for a notebook."""
     from tribo.cli.notebook import html
 

@@ -3,8 +3,6 @@
 `tribo.methods` gives them, so that no module imports what lies above it.
 """
 
-from __future__ import annotations
-
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -14,13 +12,13 @@ if TYPE_CHECKING:
     from tribo.registry.registry import Registry
     from tribo.result.read import Result
 
-run: Callable[..., Result]
+run: "Callable[..., Result]"
 """Run a case."""
-registry: Callable[[], Registry]
+registry: "Callable[[], Registry]"
 """Return the registry of the built-in and the installed plugins."""
-report: Callable[[Result], LabReport]
+report: "Callable[[Result], LabReport]"
 """Return what a laboratory would measure of a result."""
-plot: Callable[[Result, Path, str], list[Path]]
+plot: "Callable[[Result, Path, str], list[Path]]"
 """Write the pictures of a result."""
-html: Callable[[Result], str]
+html: "Callable[[Result], str]"
 """Show a result in a notebook."""
