@@ -11,12 +11,12 @@ import tribo
 ROOT = Path(tribo.__file__).parent
 PLUGINS = ROOT.parent / "plugins"
 
-# A package may import those of its own rank or below.
+# A package, or a module beside them, may import those of its own rank or below.
 RANK = {
     "core": 0,
-    "above": 0,
     "packages": 0,
     "templates": 0,
+    "units": 1,
     "closed_forms": 1,
     "component": 1,
     "result": 2,
@@ -40,17 +40,20 @@ RANK = {
     "scaffold": 7,
     "cli": 9,
     "kernel_api": 10,
+    "methods": 10,
+    "__init__": 10,
+    "__main__": 10,
 }
 MODELS = {"contact", "wear", "motion", "surfaces", "effects", "observers"}
 
 
-def imports(path: Path) -> set[str]:
-    """Modules of tribo that a file imports, those for type checking left out."""
+def imports(path: Path, *, types: bool = False) -> set[str]:
+    """Modules of tribo that a file imports, those for type checking only with `types`."""
     tree = ast.parse(path.read_text())
     skipped = {
         id(node)
         for block in ast.walk(tree)
-        if isinstance(block, ast.If) and ast.unparse(block.test) == "TYPE_CHECKING"
+        if not types and isinstance(block, ast.If) and ast.unparse(block.test) == "TYPE_CHECKING"
         for node in ast.walk(block)
     }
     found = set()
@@ -63,19 +66,16 @@ def imports(path: Path) -> set[str]:
     return {name for name in found if name.startswith("tribo.")}
 
 
-def packages(path: Path) -> set[str]:
+def packages(path: Path, *, types: bool = False) -> set[str]:
     """Packages of tribo that a file imports, and modules beside them."""
-    return {name.split(".")[1] for name in imports(path)}
+    return {name.split(".")[1] for name in imports(path, types=types)}
 
 
 MODULES = {
     ".".join(path.relative_to(ROOT.parent).with_suffix("").parts): path
     for path in ROOT.rglob("*.py")
 }
-FILES = sorted(p for p in ROOT.rglob("*.py") if p.parent != ROOT or p.stem in RANK)
-# Methods of cases and results that are short for functions of higher layers call it, once called.
-UPWARDS = ROOT / "above.py"
-FILES.remove(UPWARDS)
+FILES = sorted(MODULES.values())
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
@@ -83,6 +83,11 @@ def test_imports_go_one_way(path):
     package = path.relative_to(ROOT).parts[0].removesuffix(".py")
     for other in packages(path):
         assert RANK[other] <= RANK[package], f"{package} imports {other}"
+
+
+@pytest.mark.parametrize("path", (ROOT / "stepping").glob("*.py"), ids=lambda p: p.stem)
+def test_a_step_names_nothing_above_it_even_as_a_type(path):
+    assert all(RANK[other] <= RANK["stepping"] for other in packages(path, types=True))
 
 
 @pytest.mark.parametrize(
@@ -105,11 +110,9 @@ def test_packages_use_what_the_kernel_hands_out(path):
 
 
 def test_every_package_has_a_rank():
-    found = {p.name for p in ROOT.iterdir() if p.is_dir() and p.name != "__pycache__"}
-    assert found | {"above", "packages", "component", "case", "kernel_api"} == set(RANK)
+    assert {path.relative_to(ROOT).parts[0].removesuffix(".py") for path in FILES} == set(RANK)
 
 
 def test_no_module_imports_what_imports_it():
     # Types may name one another: what happens as modules run counts, within functions too.
-    found = {name: imports(path) for name, path in MODULES.items() if path != UPWARDS}
-    list(TopologicalSorter(found).static_order())
+    list(TopologicalSorter({name: imports(path) for name, path in MODULES.items()}).static_order())

@@ -1,4 +1,4 @@
-"""Run, resume and sweep where `fcntl` and `resource` cannot be imported, as on Windows.
+"""Run, resume and sweep without `fcntl` and `resource`, as on Windows, and without psutil.
 
 python tests/without_posix.py FOLDER
 """
@@ -8,10 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-# On Linux psutil itself needs `resource`. The workers of a sweep begin with this too.
+# The workers of a sweep begin with this too.
 BLOCK = """
-import sys, psutil
-sys.modules["fcntl"] = sys.modules["resource"] = None
+import sys
+sys.modules["fcntl"] = sys.modules["resource"] = sys.modules["psutil"] = None
 """
 STUDY = """
 case = "case.toml"
@@ -40,7 +40,7 @@ class StopAt(Observer):
 
 
 if __name__ == "__main__":
-    assert sys.modules["fcntl"] is sys.modules["resource"] is None
+    assert sys.modules["fcntl"] is sys.modules["psutil"] is None
     Path("case.toml").write_text(template("ball_on_disk"), encoding="utf-8")
     _, case = load_study("study.toml")
     whole = Simulation(case).run("whole.h5")

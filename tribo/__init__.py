@@ -5,9 +5,13 @@ lies in its modules is not part of the contract. Names are imported when first
 used, so that ``import tribo`` stays fast; ``__init__.pyi`` lists them.
 """
 
+# `python -m tribo` begins here, and a folder that it was started in may have modules of the names
+# of Python's, even a `__future__`: these import only what Python starts with.
 from tribo.core.lazy import lazy
+from tribo.methods import bind
 from tribo.packages import NAMES, how_to_install
 
+bind()
 _get = lazy(__name__, __file__)
 
 

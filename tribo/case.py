@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 from packaging.requirements import InvalidRequirement, Requirement
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
-from tribo import above
 from tribo.contact.dcfft import DcFft
 from tribo.contact.solver import ContactSolver
+from tribo.core import shorthand
 from tribo.core.grid import Grid
 from tribo.core.loads import Load, Stage
 from tribo.core.material import Material, Poisson
@@ -220,4 +220,4 @@ class Case(Table):
 
     def run(self, output: str | Path | None = None, **options: Any) -> Result:
         """Run from the beginning, as ``Simulation(case).run(output, …)``."""
-        return above.run(self, output, **options)
+        return shorthand.run(self, output, **options)

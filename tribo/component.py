@@ -20,7 +20,7 @@ from pydantic import (
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from tribo import above
+from tribo.core import shorthand
 from tribo.core.errors import CaseError
 from tribo.core.explain import refused_at, told
 from tribo.core.fields import check_declared
@@ -171,4 +171,4 @@ def _snake_case(name: str) -> str:
 
 
 def _registry(info: ValidationInfo) -> Registry:
-    return (info.context or {}).get("registry") or above.installed()
+    return (info.context or {}).get("registry") or shorthand.registry()

@@ -58,6 +58,7 @@ from tribo.core.words import readable as readable
 from tribo.core.words import shown as shown
 from tribo.core.words import signed as signed
 from tribo.core.words import suggestion as suggestion
+from tribo.core.writing import check_new as check_new
 from tribo.core.writing import check_output as check_output
 from tribo.core.writing import make_folder as make_folder
 from tribo.core.writing import write_file as write_file

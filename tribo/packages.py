@@ -1,7 +1,5 @@
 """What the packages beside the kernel add, so that who asks for it is told what to install."""
 
-from __future__ import annotations
-
 COMMANDS = {
     "calibrate": ("tribo-inverse", "Fit a case to measured wear."),
     "report": ("tribo-report", "Write a result as one HTML file to hand on."),

@@ -12,7 +12,7 @@ FORGOTTEN = {
     "bodies.ball.surface.radius=5": "bodies.ball.surface.radius is 5 m",
     "bodies.ball.material.young=210": "bodies.ball.material.young is 210 Pa",
     "grid.size=2": "grid.size is 2 m",
-    "load.normal=1e8": "load.normal is 1e+08 N",
+    "load.normal=1e8": "load.normal is 100 MN",
 }
 
 
@@ -30,7 +30,7 @@ def test_a_failure_names_the_quantity_out_of_its_usual_range(folder, command, se
     failed = tribo(command, "my.toml", *options, cwd=folder)
     assert failed.returncode == 2
     *warnings, error = failed.stderr.partition("error: ")[::2]
-    assert error.count("a unit forgotten") == 1
+    assert error.count("usual are") == 1
     assert error.startswith(f"{FORGOTTEN[setting]}, usual are ")
     assert [FORGOTTEN[setting] in warning for warning in warnings] == [command == "run"]
 
@@ -52,6 +52,8 @@ CASE = {
     ("changes", "friction", "places"),
     [
         ({"young": "210 MPa", "hardness": "7 GPa"}, 0.6, ["bodies.ball.material.hardness"]),
+        ({"young": "210 GPa", "hardness": 7}, 0.6, ["bodies.ball.material.hardness"]),
+        ({"young": 210, "hardness": "7 GPa"}, 0.6, ["bodies.ball.material.young"]),
         ({"young": "210 GPa", "hardness": "7 MPa"}, 0.6, ["bodies.ball.material.hardness"]),
         ({"young": "400 GPa", "hardness": "20 MPa"}, 0.6, ["bodies.ball.material.hardness"]),
         ({"poisson": -0.3}, 0.6, ["bodies.ball.material.poisson"]),
@@ -69,9 +71,7 @@ def test_a_material_and_a_friction_unlike_any_are_asked_about(changes, friction,
     ball = body_of("210 GPa")
     ball["material"] |= changes
     case["bodies"] = {"ball": ball, "disk": body_of("210 GPa")}
-    assert [
-        asked.split(" is ")[0].split(",")[0] for asked in unusual(validate_case(case))
-    ] == places
+    assert [asked.split(" is ")[0] for asked in unusual(validate_case(case))] == places
 
 
 @pytest.mark.parametrize(
@@ -119,7 +119,7 @@ def test_the_hardness_of_a_layer_is_asked_about():
         "layers": [{"thickness": 2e-6, "hardness": "20 MPa"}],
     }
     (doubt,) = unusual(validate_case({**CASE, "bodies": {**CASE["bodies"], "ball": ball}}))
-    assert doubt.startswith("bodies.ball.layers.0.hardness, 20 MPa, is ")
+    assert doubt.startswith("bodies.ball.layers.0.hardness is 20 MPa, ")
 
 
 @pytest.mark.parametrize("k", ["0", "'1e-6 mm^3/(N m)'"])
@@ -145,7 +145,7 @@ PATH = {"length": "5 mm", "area": "28 mm^2"}
         (FILM, {"viscosity": 100}, "viscosity is 100 Pa s"),
         (FILM, {"pressure_viscosity": 20}, "pressure_viscosity is 20 1/Pa"),
         (FILM, {"radius": 5}, "radius is 5 m"),
-        (FILM, {"roughness": 0.2}, "roughness is 0.2 m"),
+        (FILM, {"roughness": 0.2}, "roughness is 200 mm"),
         (FLASH, {"ambient": 23}, "ambient is 23 K"),
         (FLASH, {"heat_paths": {"ball": {**PATH, "length": 5}}}, "heat_paths.ball.length is 5 m"),
         (FLASH, {"heat_paths": {"ball": {**PATH, "area": 28}}}, "heat_paths.ball.area is 28 m^2"),

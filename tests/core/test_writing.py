@@ -8,7 +8,7 @@ import pytest
 
 from tribo.core import writing
 from tribo.core.errors import CaseError, OutputError
-from tribo.core.writing import make_folder, open_lock, remove, write_file
+from tribo.core.writing import check_new, make_folder, open_lock, remove, write_file
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such files")
 
@@ -76,6 +76,23 @@ def test_what_is_no_regular_file_is_left_alone(tmp_path, kind, act):
     assert path.lstat().st_ino == before.st_ino
     assert there.exists() == (kind == "link")
     assert kind != "link" or there.read_text() == "mine"
+
+
+@posix
+@pytest.mark.parametrize("kind", ["folder", "pipe", "link", "device"])
+def test_what_force_would_not_replace_is_refused_without_advising_it(tmp_path, kind):
+    special(kind, tmp_path / "a", tmp_path / "there")
+    with pytest.raises(CaseError) as caught:
+        check_new(tmp_path / "a", replace=False)
+    assert "--force" not in str(caught.value)
+
+
+def test_a_file_is_replaced_only_where_that_is_asked_for(tmp_path):
+    (tmp_path / "a").touch()
+    check_new(tmp_path / "a", replace=True)
+    check_new(tmp_path / "b", replace=False)
+    with pytest.raises(CaseError, match="--force"):
+        check_new(tmp_path / "a", replace=False)
 
 
 @posix

@@ -99,10 +99,17 @@ def test_far_from_the_axis_it_is_a_straight_track():
 
 @pytest.mark.parametrize("motion", [Rotating, Unidirectional])
 def test_an_axis_in_the_window_is_refused(motion):
-    beyond = motion(speed=0.1, track_radius="0.5 mm", distance=1)
-    with pytest.raises(CaseError, match=r"0\.5 mm .*0\.5 mm") as refused:
-        small(grid=GRID, kinematics=beyond)
+    near = motion(speed=0.1, track_radius="0.4 mm", distance=1)
+    with pytest.raises(CaseError, match=r"0\.4 mm .*0\.5 mm .*0\.8 mm") as refused:
+        small(grid=GRID, kinematics=near)
     assert refused.value.path == "kinematics.track_radius"
+
+
+@pytest.mark.parametrize("motion", [Rotating, Unidirectional])
+@pytest.mark.parametrize(("radius", "breadth"), [("0.501 mm", 1e-3), ("0.4 mm", 0.79e-3)])
+def test_an_axis_beside_the_window_is_not(motion, radius, breadth):
+    grid = Grid((0.75e-3, breadth), (20, 25))
+    small(grid=grid, kinematics=motion(speed=0.1, track_radius=radius, distance=1))
 
 
 def over_a_disc(radii, pressure):

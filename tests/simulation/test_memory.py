@@ -117,18 +117,6 @@ def test_commands_refuse_it_under_a_limit_of_the_process(command, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["big.toml"]
 
 
-def test_the_limits_of_control_groups_are_read(tmp_path):
-    first, second = tmp_path / "sys/fs/cgroup/a/b", tmp_path / "sys/fs/cgroup/memory/c"
-    for folder in (first, second, tmp_path / "proc/self"):
-        folder.mkdir(parents=True)
-    (tmp_path / "proc/self/cgroup").write_text("2:cpu:/x\n1:memory,x:/c\n0::/a/b\n")
-    (first / "memory.max").write_text("max\n")
-    (first.parent / "memory.max").write_text("1000\n")
-    (second / "memory.limit_in_bytes").write_text("2000\n")
-    assert sorted(memory._control_groups(tmp_path)) == [1000, 2000]
-    assert list(memory._control_groups(tmp_path / "nothing")) == []
-
-
 def test_running_out_of_memory_all_the_same_is_one_message():
     class Huge(Sphere):
         def height(self, grid):

@@ -155,7 +155,7 @@ def test_a_track_that_does_not_wear_is_averaged():
 def test_the_choice_is_told_once_and_kept():
     # A stroke in which the contact is resolved at a few positions.
     given = left_open("0.3 mm", grid=Grid((0.7e-3, 0.7e-3), (20, 20)), distance="0.03 m")
-    with pytest.warns(TriboWarning, match="resolved at 11 positions, as the stroke is 1.01 lengths"):
+    with pytest.warns(TriboWarning, match="at 11 positions, as the stroke is 1.01 lengths"):
         result = Simulation(given).run()
     with result:
         assert result.case["kinematics"]["positions"] == 11

@@ -15,6 +15,7 @@ from trust.trial import start, whole
 from tribo import CaseError, Result
 from tribo.cli.show import show
 from tribo.lab.report import lab_report
+from tribo.result.summary import summary
 
 PAGE = 4096
 REFUSED, HARMLESS, WRONG = 2, 10, 11
@@ -121,7 +122,7 @@ def everything(path):
             body = result.body(name)
             fields += [body.height, body.wear_depth, body.plastic_depth, *body.state.values()]
         table = {name: list(values) for name, values in result.table("history").items()}
-        return repr((result.summary(), lab, table)), [bytes(memoryview(f)) for f in fields]
+        return repr((summary(result), lab, table)), [bytes(memoryview(f)) for f in fields]
 
 
 def judge(path, expected, _):

@@ -54,8 +54,7 @@ def demo(directory: Path, force: bool) -> None:
     from tribo.cli.console import Console
     from tribo.cli.tables import print_report
     from tribo.config.load import load_case
-    from tribo.core.errors import CaseError
-    from tribo.core.writing import make_folder, write_file, writing
+    from tribo.core.writing import check_new, make_folder, write_file
     from tribo.observers.progress import Progress
     from tribo.plotting.figures import save_figures
     from tribo.simulation.run import Simulation
@@ -64,11 +63,9 @@ def demo(directory: Path, force: bool) -> None:
     case, output, followed = (
         directory / name for name in ("ball_on_disk.toml", "ball_on_disk.h5", "resolved.h5")
     )
-    with writing(directory):
-        for path in (case, output, followed):
-            if path.exists() and not force:
-                raise CaseError(f"{path} exists; choose another folder with -d, or use --force")
     make_folder(directory)
+    for path in (case, output, followed):
+        check_new(path, force, "choose another folder with -d, or replace it with --force")
     write_file(case, template("ball_on_disk"))
     click.echo("One hour of a steel ball rubbing on a steel disk: 100 N, 25 Hz, 360 m.")
     averaged = Simulation(load_case(case))

@@ -80,7 +80,8 @@ def tribo(no_plugin: tuple[str, ...], only: str | None) -> None:
       tribo run my.toml
 
     Exit codes: 0 done, 2 bad input, 3 numerical failure, a failing plugin or
-    output that cannot be written, 130 interrupted, 141 standard output closed.
+    output that cannot be written, as to a closed standard output, 130
+    interrupted, 141 the reader of a pipe has gone.
     """
     if not no_plugin and only is None:
         return

@@ -35,8 +35,7 @@ def new(name: str | None, file: Path | None, force: bool) -> None:
     """Write a template to a file."""
     if name is None:
         raise click.UsageError(f"Missing argument 'TEMPLATE'. Templates:\n{_LISTED}")
-    from tribo.core.errors import CaseError
-    from tribo.core.writing import write_file, writing
+    from tribo.core.writing import check_new, write_file
     from tribo.registry.registry import choose
 
     plugged = None if name in TEMPLATES else choose(HOOK, name, "template", TEMPLATES)
@@ -46,9 +45,7 @@ def new(name: str | None, file: Path | None, force: bool) -> None:
     if file == Path("-"):
         click.echo(text, nl=False)
         return
-    with writing(file):
-        if file.exists() and not force:
-            raise CaseError(f"{file} exists; choose another name, or replace it with --force")
+    check_new(file, force)
     write_file(file, text)
     click.echo(f"Wrote {file}; look it over, then: {_next(text, file)}")
 

@@ -21,6 +21,7 @@ def resume(output: Path, allow_changed: bool) -> None:
     Example:
       tribo resume my.h5
     """
+    from tribo.cli.streams import printing
     from tribo.cli.tables import print_report
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
@@ -34,5 +35,6 @@ def resume(output: Path, allow_changed: bool) -> None:
     except CaseError as error:
         makers = sorted({f"{o['distribution']} {o['version']}" for o in origins})
         raise CaseError(f"{error} (the run was begun with {', '.join(makers)})") from error
-    with simulation.resume(output, observers=[Progress()], allow_changed=allow_changed) as result:
+    resumed = simulation.resume(output, observers=[Progress()], allow_changed=allow_changed)
+    with resumed as result, printing(output):
         print_report(result)

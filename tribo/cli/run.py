@@ -26,6 +26,7 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     input, 3 numerical failure or output that cannot be written, 130
     interrupted.
     """
+    from tribo.cli.streams import printing
     from tribo.cli.tables import print_report
     from tribo.config.load import load_case
     from tribo.core.errors import CaseError
@@ -44,7 +45,7 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
         raise CaseError(f"{path} is the case itself; choose another file with -o")
     if force and (aside := RunFolder(path).set_aside()):
         click.echo(f"The run that was stopped is now {aside}, and can be resumed.", err=True)
-    with simulation.run(path, observers=[Progress()], overwrite=force) as result:
+    with simulation.run(path, observers=[Progress()], overwrite=force) as result, printing(path):
         # The choice of positions was told as the run began.
         print_report(result, told="positions")
-    click.echo(f"Saved {path}; see it with: tribo plot {path}")
+        click.echo(f"Saved {path}; see it with: tribo plot {path}")

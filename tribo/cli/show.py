@@ -24,14 +24,15 @@ def show(output: Path, as_json: bool) -> None:
     from tribo.lab.report import lab_report
     from tribo.lab.running_in import worn_surfaces
     from tribo.result.read import Result
+    from tribo.result.summary import summary
 
     with Result.open(output) as result:
         if as_json:
-            summary = result.summary()
+            printed = summary(result)
             for name in result.body_names:
-                for save, more in zip(summary["saves"], worn_surfaces(result, name), strict=True):
+                for save, more in zip(printed["saves"], worn_surfaces(result, name), strict=True):
                     save["bodies"][name] |= more
-            echo_json({**summary, "lab": lab_report(result).as_json()})
+            echo_json({**printed, "lab": lab_report(result).as_json()})
         else:
             print_report(result)
             print_provenance(result)

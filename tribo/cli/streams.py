@@ -7,6 +7,9 @@ import io
 import os
 import re
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 import click
@@ -63,6 +66,16 @@ class Remarks(io.FileIO):
             return super().write(data)
         except OSError:
             return memoryview(data).nbytes
+
+
+@contextmanager
+def printing(path: Path) -> Iterator[None]:
+    """Say which file has the result where standard output cannot be written."""
+    try:
+        yield
+    except OutputError as error:
+        error.add_note(f"The run is done: {path} has its result.")
+        raise
 
 
 def harmless(text: str) -> str:

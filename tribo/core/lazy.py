@@ -1,7 +1,5 @@
 """Names of a package that are imported when first used, listed in its stub."""
 
-from __future__ import annotations
-
 from functools import cache
 from importlib import import_module
 
@@ -11,7 +9,7 @@ if TYPE_CHECKING:
     from typing import Any
 
 
-def lazy(module: str, file: str) -> Callable[[str], Any]:
+def lazy(module: str, file: str) -> "Callable[[str], Any]":
     """Return ``__getattr__`` of a module whose stub (.pyi) says where each of its names is.
 
     Parameters
@@ -22,14 +20,14 @@ def lazy(module: str, file: str) -> Callable[[str], Any]:
 
     @cache
     def homes() -> dict[str, str]:
-        # `python -m tribo` begins here, and a folder that it was started in may have other modules.
+        # As `python -m tribo` begins, these might come from the folder that it was started in.
         import re
         from pathlib import Path
 
         stub = Path(file).with_suffix(".pyi").read_text(encoding="utf-8")
         return {name: home for home, name in re.findall(r"from (\S+) import (\w+) as", stub)}
 
-    def get(name: str) -> Any:
+    def get(name: str) -> "Any":
         if name == "__all__":
             return [*homes()]
         if name in homes():

@@ -192,13 +192,10 @@ class Quantity:
         """Return a question about `value` (in `unit`) if it is out of the usual range."""
         if self.usual is None or value == 0 or self.usual[0] <= value <= self.usual[1]:
             return None
-        low, high = self.usual
-        if self.unit == "1":
-            return f"{value:g}, usual are {low:g} to {high:g}: is that meant?"
-        return (
-            f"{value:g} {self.unit}, usual are {stated(low, self.unit)} to "
-            f"{stated(high, self.unit)}: a unit forgotten, as in '{_example(self.unit)}'?"
-        )
+        given, low, high = (stated(each, self.unit) for each in (value, *self.usual))
+        written = f", written as in '{_example(self.unit)}': is the unit wrong or missing?"
+        asked = ": is that meant?" if self.unit == "1" else written
+        return f"{given}, usual are {low} to {high}{asked}"
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler

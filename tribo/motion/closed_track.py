@@ -32,9 +32,9 @@ def check_axis(radius: float, grid: Grid) -> None:
     half = 0.5 * grid.size[1]
     if radius <= half:
         raise CaseError(
-            f"{1e3 * radius:.4g} mm must be more than half the window's breadth, "
-            f"{1e3 * half:.4g} mm, or the axis of the track lies in the window; give a larger "
-            "radius, or a window (grid.size) that is less broad",
+            f"with {1e3 * radius:.4g} mm the axis of the track lies in the window; give more than "
+            f"{1e3 * half:.4g} mm or, if the contact stays within it, a window (grid.size) less "
+            f"than {2e3 * radius:.4g} mm broad",
             "kinematics.track_radius",
         )
 

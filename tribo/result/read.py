@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from contextlib import ExitStack
 from io import BytesIO
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Self
 import h5py
 import numpy as np
 
-from tribo import above
+from tribo.core import shorthand
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError
@@ -21,9 +20,9 @@ from tribo.core.grid import Grid
 from tribo.core.words import did_you_mean, suggestion
 from tribo.result import checks
 from tribo.result.body import BodyResult, checked_save
-from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS, labelled
+from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
 from tribo.result.header import read_header
-from tribo.result.layout import BETWEEN, EFFECT, STATE
+from tribo.result.layout import EFFECT, STATE
 from tribo.result.opening import source_of
 from tribo.result.sealed import write_sealed
 
@@ -304,51 +303,17 @@ class Result:
             for i in range(len(self.times))
         ]
 
-    def summary(self) -> dict[str, Any]:
-        """Return the whole result but its fields, as plain data.
-
-        ``tribo show --json`` prints it, with what a lab would report added.
-        """
-        rows = self.saves()
-        for save, row in enumerate(rows):
-            for body in self.body_names:
-                for what, kind in (("effects", EFFECT), ("state", STATE)):
-                    if found := self._ranges(kind, save, body):
-                        row["bodies"][body][what] = found
-            if found := self._ranges(BETWEEN, save):
-                row[BETWEEN] = found
-        return {
-            "case": self.case,
-            "status": self.status,
-            "provenance": self.provenance,
-            "notices": list(self.notices),
-            "totals": dict(self.totals()),
-            "invariants": dict(self.worst()),
-            "saves": rows,
-        }
-
     def report(self) -> LabReport:
         """Return what a laboratory would measure of the result."""
-        return above.report(self)
+        return shorthand.report(self)
 
     def plot(self, folder: str | Path, suffix: str = "png") -> list[Path]:
         """Write every picture that makes sense for the result, as ``tribo plot`` does."""
-        return above.plot(self, Path(folder), suffix)
+        return shorthand.plot(self, Path(folder), suffix)
 
     def _repr_html_(self) -> str:
         """Show the lab table and the pressure in a notebook."""
-        return above.html(self)
-
-    def _ranges(self, kind: str, save: int, body: str | None = None) -> dict[str, Any]:
-        """Return the least and the largest value of fields at a save; None where one failed."""
-        ranges = {}
-        for key, field in self.fields_of(kind, body).items():
-            values = self.field(key, save, body)
-            ends = {"min": float(np.min(values)), "max": float(np.max(values))}
-            ranges[labelled(field.name, field.unit)] = {
-                name: None if math.isnan(end) else end for name, end in ends.items()
-            }
-        return ranges
+        return shorthand.html(self)
 
     def totals(self) -> Mapping[str, Any]:
         """Return what the run cost: solves, iterations, steps and `wall_time`."""

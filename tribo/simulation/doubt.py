@@ -1,4 +1,4 @@
-"""Values so far from the usual that a forgotten unit is likely."""
+"""Values so far from the usual that a wrong or missing unit is likely."""
 
 from __future__ import annotations
 
@@ -21,26 +21,27 @@ HARDNESSES = (3e-4, 0.2)
 
 def unusual(case: Case) -> list[str]:
     """Ask about each quantity of a case that is out of its usual range, by place."""
-    found = []
+    found: dict[str, str] = {}
     for place, value, mark in leaves(case):
         doubt = mark.doubt(value) if mark and isinstance(value, float) else None
         if doubt is not None:
             while isinstance(place[-1], int):
                 # A pair may be written as one value.
                 place = place[:-1]
-            found.append(f"{path(place)} is {doubt}")
+            found[path(place)] = f"is {doubt}"
     for name, body in case.bodies.items():
         (low, high), layers = HARDNESSES, range(len(body.layers))
         parts = [*(f"layers.{i}" for i in layers), "material"]
         for part, material in zip(parts, body.materials(), strict=True):
-            young, hardness = material.young, material.hardness
-            if hardness is not None and not low <= hardness / young <= high:
-                found.append(
-                    f"bodies.{name}.{part}.hardness, {stated(hardness, 'Pa')}, is "
-                    f"{hardness / young:.2g} of young, {stated(young, 'Pa')}, usual are {low:g} to "
-                    f"{high:g}: is the unit of one wrong, as MPa for GPa?"
+            young, hardness, at = material.young, material.hardness, f"bodies.{name}.{part}"
+            if hardness is None or {f"{at}.young", f"{at}.hardness"} & found.keys():
+                continue
+            if not low <= hardness / young <= high:
+                found[f"{at}.hardness"] = (
+                    f"is {stated(hardness, 'Pa')}, {hardness / young:.2g} of young "
+                    f"({stated(young, 'Pa')}), usual are {low:g} to {high:g}: is a unit wrong?"
                 )
-    return list(dict.fromkeys(found))
+    return [f"{place} {doubt}" for place, doubt in found.items()]
 
 
 @contextmanager
@@ -53,7 +54,7 @@ def doubting(case: Case) -> Iterator[None]:
     except (CaseError, NumericalError) as error:
         doubts = unusual(case)
         if doubts:
-            # First: what follows from a forgotten unit has remedies that mislead.
+            # First: what follows from a wrong unit has remedies that mislead.
             error.args = (f"{' '.join(doubts)} {error}",)
         raise
 

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from pathlib import Path
-
-import psutil
+import math
+from collections.abc import Mapping
 
 from tribo.case import Case
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.motion.exposure import Exposure
+
+try:
+    import psutil
+except ImportError:
+    psutil = None
 
 Exposures = Mapping[str, Exposure]
 
@@ -65,12 +68,15 @@ def size_of_fields(case: Case, exposures: Exposures) -> float:
 
 
 def memory_left() -> tuple[float, str]:
-    """Return the bytes that this process may still take, and what sets the limit."""
+    """Return the bytes that this process may still take, and what sets the limit.
+
+    Without psutil nothing is known of a limit.
+    """
+    if psutil is None:
+        return math.inf, "no known limit"
     process = psutil.Process()
     size = process.memory_info()
     least = float(psutil.virtual_memory().total - size.rss), "this machine"
-    for limit in _control_groups():
-        least = min(least, (float(limit - size.rss), "the control group of this process"))
     # Linux and FreeBSD tell it.
     if hasattr(process, "rlimit"):
         soft, _ = process.rlimit(psutil.RLIMIT_AS)
@@ -93,26 +99,3 @@ def check_memory(grid: Grid, needed: float) -> None:
 
 def _size(memory: float) -> str:
     return f"{memory / 2**30:.3g} GiB" if memory >= 2**30 else f"{memory / 2**20:.0f} MiB"
-
-
-def _control_groups(root: Path = Path("/")) -> Iterator[int]:
-    """Yield the limits of the groups that the process is in, of either version, in bytes."""
-    try:
-        lines = (root / "proc/self/cgroup").read_text(encoding="utf-8").splitlines()
-    except OSError:
-        return
-    for line in lines:
-        _, controllers, path = line.split(":", 2)
-        if controllers == "":
-            top, name = root / "sys/fs/cgroup", "memory.max"
-        elif "memory" in controllers.split(","):
-            top, name = root / "sys/fs/cgroup/memory", "memory.limit_in_bytes"
-        else:
-            continue
-        group = top / path.lstrip("/")
-        # A limit of a group above holds too; in a container the path may begin outside of it.
-        for folder in (group, *group.parents):
-            try:
-                yield int((folder / name).read_text(encoding="ascii"))
-            except (OSError, ValueError):
-                continue

@@ -17,7 +17,7 @@ from tribo.config.load import load_case, validate_case
 from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
 from tribo.core.notices import Notice
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
-from tribo.core.writing import check_output
+from tribo.core.writing import check_new
 from tribo.guards.guard import Guard
 from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
@@ -351,11 +351,6 @@ def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
             f"{path.with_suffix('.h5')}, which 'tribo export' turns into CSV and 'tribo plot' into "
             "pictures"
         )
-    # Unlike Path.exists it does not raise where a name is too long.
-    if os.path.exists(path) and not overwrite:
-        raise CaseError(
-            f"{path} {_held(path)}; choose another with -o, or replace it with --force (in Python "
-            "overwrite=True)"
-        )
-    check_output(path)
+    remedy = "choose another with -o, or replace it with --force (in Python overwrite=True)"
+    check_new(path, overwrite, remedy, _held)
     return path

@@ -18,7 +18,7 @@ from tribo.kernel_api import (
     PATH,
     SET,
     apply_settings,
-    check_output,
+    check_new,
     echo_json,
     file_names,
     read_toml,
@@ -188,7 +188,6 @@ class _Files:
     @classmethod
     def beside(cls, output: Path, measurements: Measurements, force: bool) -> _Files:
         """Return files named after `output`; CaseError if one exists."""
-        check_output(output)
         names = list(dict.fromkeys(test.name for test in measurements.tests.values()))
         cases = {
             name: output.with_name(f"{output.stem}-{Path(file).stem}.toml") if name else output
@@ -196,8 +195,7 @@ class _Files:
         }
         found = cls(cases, output.with_name(f"{output.stem}-fit.png"))
         for path in (*cases.values(), found.picture):
-            if path.exists() and not force:
-                raise CaseError(f"{path} exists; choose another name, or replace it with --force")
+            check_new(path, force)
         return found
 
     def write(self, found: Calibration) -> None:

@@ -12,7 +12,7 @@ import click
 import numpy as np
 from rich.table import Table
 from tribo import CaseError
-from tribo.kernel_api import Console, check_output, titled, write_file
+from tribo.kernel_api import Console, check_new, titled, write_file
 
 from tribo_inverse.calibration.maps import SILENT, FittedMaps, LocalMap
 from tribo_inverse.calibration.quantities import p_words
@@ -128,9 +128,7 @@ def check_free(output: Path | None, force: bool) -> None:
         return
     if output.suffix != ".npz":
         raise CaseError(f"{output}: maps are written as a NumPy archive; name it {output.stem}.npz")
-    if output.exists() and not force:
-        raise CaseError(f"{output} exists; choose another name, or replace it with --force")
-    check_output(output)
+    check_new(output, force)
 
 
 def write_maps(found: FittedMaps, level: float, output: Path) -> None:

@@ -1,52 +1,61 @@
-"""What models, cases and results call of the layers above them: the one place that imports upwards.
+"""What ``case.run()``, ``result.plot()`` and other shorthands of lower layers do.
 
-``case.run()``, a name given without a registry, ``result.report()``, ``result.plot()`` and a result
-in a notebook are short for functions of higher layers, which are imported when first called. All
-other imports go one way.
+The package binds them as it is imported; the functions that they call are imported when first
+called.
 """
 
-from __future__ import annotations
+from tribo.core import shorthand
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from pathlib import Path
+    from typing import Any
+
     from tribo.case import Case
     from tribo.lab.report import LabReport
     from tribo.registry.registry import Registry
     from tribo.result.read import Result
 
 
-def run(case: Case, output: str | Path | None, **options: Any) -> Result:
+def bind() -> None:
+    """Give each shorthand its function."""
+    shorthand.run = run
+    shorthand.registry = registry
+    shorthand.report = report
+    shorthand.plot = plot
+    shorthand.html = html
+
+
+def run(case: "Case", output: "str | Path | None", **options: "Any") -> "Result":
     """Run a case from the beginning."""
     from tribo.simulation.run import Simulation
 
     return Simulation(case).run(output, **options)
 
 
-def installed() -> Registry:
+def registry() -> "Registry":
     """Return the registry of the built-in and the installed plugins."""
     from tribo.registry.registry import default_registry
 
     return default_registry()
 
 
-def report(result: Result) -> LabReport:
+def report(result: "Result") -> "LabReport":
     """Return what a laboratory would measure of a result."""
     from tribo.lab.report import lab_report
 
     return lab_report(result)
 
 
-def plot(result: Result, folder: Path, suffix: str) -> list[Path]:
+def plot(result: "Result", folder: "Path", suffix: str) -> "list[Path]":
     """Write every picture that makes sense for a result."""
     from tribo.plotting.figures import save_figures
 
     return save_figures(result, folder, suffix)
 
 
-def html(result: Result) -> str:
+def html(result: "Result") -> str:
     """Return the lab table of a result and a picture of its pressure, for a notebook."""
-    from tribo.cli.notebook import html as shown
+    from tribo.cli.notebook import html
 
-    return shown(result)
+    return html(result)

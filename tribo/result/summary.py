@@ -1,0 +1,45 @@
+"""A result but its fields, as the plain data that ``tribo show --json`` prints."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from tribo.result.columns import labelled
+from tribo.result.layout import BETWEEN, EFFECT, STATE
+from tribo.result.read import Result
+
+
+def summary(result: Result) -> dict[str, Any]:
+    """Return what is known of a result, with the scalars of each save."""
+    rows = result.saves()
+    for save, row in enumerate(rows):
+        for body in result.body_names:
+            for what, kind in (("effects", EFFECT), ("state", STATE)):
+                if found := _ranges(result, kind, save, body):
+                    row["bodies"][body][what] = found
+        if found := _ranges(result, BETWEEN, save):
+            row[BETWEEN] = found
+    return {
+        "case": result.case,
+        "status": result.status,
+        "provenance": result.provenance,
+        "notices": list(result.notices),
+        "totals": dict(result.totals()),
+        "invariants": dict(result.worst()),
+        "saves": rows,
+    }
+
+
+def _ranges(result: Result, kind: str, save: int, body: str | None = None) -> dict[str, Any]:
+    """Return the least and the largest value of fields at a save; None where one failed."""
+    ranges = {}
+    for key, field in result.fields_of(kind, body).items():
+        values = result.field(key, save, body)
+        ends = {"min": float(np.min(values)), "max": float(np.max(values))}
+        ranges[labelled(field.name, field.unit)] = {
+            name: None if math.isnan(end) else end for name, end in ends.items()
+        }
+    return ranges
