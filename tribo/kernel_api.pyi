@@ -39,7 +39,6 @@ from tribo.core.box import whole as whole
 from tribo.core.dimensions import scale as scale
 from tribo.core.errors import OutOfWindow as OutOfWindow
 from tribo.core.errors import OverTime as OverTime
-from tribo.core.errors import PluginError as PluginError
 from tribo.core.errors import about as about
 from tribo.core.errors import located as located
 from tribo.core.explain import case_error as case_error

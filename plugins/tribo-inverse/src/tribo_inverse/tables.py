@@ -105,8 +105,6 @@ def estimates_table(found: Calibration) -> Table:
     """Return the parameters with their intervals."""
     names, level = list(found.parameters["path"]), f"{100 * found.level:g} % interval"
     columns = ["estimate", level, "relative"]
-    if is_sampled := "sampled_lower" in found.parameters:
-        columns.append("sampled interval")
     table = _table(f"Fitted in {found.runs} runs", names, *columns)
     for each in found.parameters.itertuples():
         digits = digits_of(each.lower, each.upper)
@@ -118,10 +116,7 @@ def estimates_table(found: Calibration) -> Table:
             value, ends = f"below {in_si(each.upper, each.unit)}", "upper bound"
         if each.held or each.limited or math.isinf(each.upper):
             relative = ""
-        more = []
-        if is_sampled:
-            more = [f"{each.sampled_lower:.{digits}g} to {each.sampled_upper:.{digits}g}"]
-        table.add_row(each.path, value, ends, relative, *more)
+        table.add_row(each.path, value, ends, relative)
     return table
 
 

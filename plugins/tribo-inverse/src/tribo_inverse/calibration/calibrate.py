@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +34,6 @@ from tribo_inverse.calibration.quantities import (
     FIELDS,
     plain,
 )
-from tribo_inverse.calibration.sample import check_sampling, sampled
 from tribo_inverse.calibration.unfitted import explanations, odd_numbers
 
 DATA = ["test", "body", "quantity", "time_s", "position_m", "place", "unit"]
@@ -62,8 +61,7 @@ class Calibration:
     variance due to the resolution of instruments; `resolution_limit`, its largest error due to the
     resolution, relative to `value`; `held`, whether it lies on one of its bounds, which are then
     `lower` and `upper`; `limited`, whether only limits of detection depend on it, so that only
-    `upper` is known; `sampled_lower` and `sampled_upper`, if the intervals were sampled.
-    """
+    `upper` is known."""
     data: pd.DataFrame
     """One row per measured value: `test`, empty for the case as it is; `body`, `quantity`,
     `time_s`, `position_m` on a profile, `place`, its entry in the file, `unit`, `measured`,
@@ -140,8 +138,6 @@ def calibrate(
     measured: Measurements | Mapping[str, Any] | str | Path,
     *,
     level: float = 0.95,
-    sample: int = 0,
-    on_fit: Callable[[Calibration], object] = lambda fit: None,
     on_run: Callable[[int, float], object] = lambda run, misfit: None,
 ) -> Calibration:
     """Fit parameters of a case to wear measured in one or more tests.
@@ -157,11 +153,6 @@ def calibrate(
         Measured values of the case or of other tests, and the parameters to fit; or a TOML file.
     level : float, optional
         Confidence level of the intervals.
-    sample : int, optional
-        Number of further runs of each test's case that sample the posterior, with emcee, to check
-        the intervals.
-    on_fit : callable, optional
-        Called with the fit before sampling, which takes long and may be interrupted.
     on_run : callable, optional
         Called after each round of runs with the number of runs and their χ²; NaN where it is not
         the least so far.
@@ -191,8 +182,6 @@ def calibrate(
             f"{len(experiment.parameters)} parameters cannot be fitted to {count} measured "
             f"value{'' if count == 1 else 's'}: measure more, or leave parameters out of fit"
         )
-    if sample:
-        check_sampling(sample, len(experiment.parameters))
     try:
         experiment = experiment.centred(experiment.start)
         first = experiment.run(experiment.start).responses
@@ -232,14 +221,7 @@ def calibrate(
         if len(words) == 1:
             raise
         raise type(error)("; ".join(words)) from error
-    found = _outcome(fitted, experiment, level)
-    if not sample:
-        return found
-    on_fit(found)
-    parameters, note = sampled(responses, fitted, found.parameters, sample, level)
-    return replace(
-        found, runs=experiment.run_count, parameters=parameters, notes=(*found.notes, note)
-    )
+    return _outcome(fitted, experiment, level)
 
 
 def _first_fit(
