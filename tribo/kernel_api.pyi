@@ -122,7 +122,6 @@ from tribo.simulation.assembly import assemble as assemble
 from tribo.simulation.assembly import varied as varied
 from tribo.simulation.coarse import MARGINS as MARGINS
 from tribo.simulation.coarse import coarsened as coarsened
-from tribo.simulation.doubt import unusual as unusual
 from tribo.simulation.guards import GuardedLaw as GuardedLaw
 from tribo.simulation.march import DEPTH_ACCURACY as DEPTH_ACCURACY
 from tribo.simulation.march import begin as begin

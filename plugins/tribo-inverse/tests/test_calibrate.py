@@ -97,6 +97,7 @@ def test_wide_tables_break_no_value_at_80_columns(capsys):
 def test_json_is_finite_and_in_si_units(asked):
     data = json.loads(asked("--json").stdout, parse_constant=pytest.fail)
     keys = "level runs parameters data predictions chi_square degrees_of_freedom p_value notes bic "
+    keys += "findings "
     keys += "repeatability repeatability_estimated correlation singular_values left_out fitted"
     assert sorted(data) == sorted(keys.split())
     ball, _ = data["parameters"]

@@ -14,9 +14,9 @@ from tribo.kernel_api import Console, digits_of, signed, titled
 
 from tribo_inverse.calibration.calibrate import Calibration
 from tribo_inverse.calibration.choice import Choice
-from tribo_inverse.calibration.notes import bound
 from tribo_inverse.calibration.plan import Plan
 from tribo_inverse.calibration.quantities import in_si, in_words, p_words, percent
+from tribo_inverse.findings import bound
 
 FAR = 10.0
 """Ratio of an interval's end to the value above which no percentage is printed."""

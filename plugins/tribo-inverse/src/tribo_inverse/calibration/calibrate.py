@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from scipy.special import chdtrc
-from tribo import Array, Case, CaseError, NumericalError
+from tribo import Array, Case, CaseError, Finding, NumericalError
 from tribo.kernel_api import OutOfWindow, apply_settings, to_toml
 
-from tribo_inverse.calibration.doubts import doubts, far_off
+from tribo_inverse.calibration.exactness import check_sizes
 from tribo_inverse.calibration.experiment import Experiment
 from tribo_inverse.calibration.fit import (
     NO_EFFECT,
@@ -25,16 +25,14 @@ from tribo_inverse.calibration.fit import (
     steps,
 )
 from tribo_inverse.calibration.linearised import Linearised, Problem, Weights, root_covariance
-from tribo_inverse.calibration.map_notes import map_notes
 from tribo_inverse.calibration.measured import Measurements
-from tribo_inverse.calibration.notes import disagrees, notes
 from tribo_inverse.calibration.predictions import predicted
 from tribo_inverse.calibration.quantities import (
     DEPTH_MAP,
     FIELDS,
     plain,
 )
-from tribo_inverse.calibration.unfitted import explanations, odd_numbers
+from tribo_inverse.findings import named, of_fit, off_level, off_middle
 
 DATA = ["test", "body", "quantity", "time_s", "position_m", "place", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
@@ -95,13 +93,18 @@ class Calibration:
     left_out: Array
     """Log-likelihood of each test predicted from all others; NaN if these do not determine a
     parameter."""
-    notes: tuple[str, ...]
-    """Notes on the data, the fit and the model."""
+    findings: tuple[Finding, ...]
+    """What is to be known of the data, the fit and the model."""
 
     @property
     def settings(self) -> dict[str, float]:
         """The estimates by path, as `tribo.config.overrides.apply_settings` takes them."""
         return {each.path: each.value for each in self.parameters.itertuples()}
+
+    @property
+    def notes(self) -> list[str]:
+        """The findings in words."""
+        return [each.words for each in self.findings]
 
     @property
     def brief(self) -> pd.DataFrame:
@@ -130,7 +133,9 @@ class Calibration:
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data in SI units, the fitted cases as TOML; NaN stands for none."""
         fitted = {name: to_toml(tables) for name, tables in self.fitted.items()}
-        return plain(self) | {"p_value": self.p_value, "fitted": fitted}
+        findings = [each._asdict() for each in self.findings]
+        more = {"p_value": self.p_value, "fitted": fitted, "notes": self.notes}
+        return plain(self) | more | {"findings": findings}
 
 
 def calibrate(
@@ -188,7 +193,7 @@ def calibrate(
     except OutOfWindow as error:
         paths = " and ".join(p.path for p in experiment.parameters)
         raise NumericalError(f"give a start of {paths} in fit that is nearer; {error}") from error
-    far = far_off(experiment.data, first, experiment.parameters)
+    check_sizes(experiment.data, first, experiment.parameters)
     # Correlated errors of a map scale with its depth, which is known near the estimate only.
     problem = experiment.problem(experiment.start).without_common()
 
@@ -215,12 +220,12 @@ def calibrate(
         elif unsettled:
             raise unsettled
     except (CaseError, NumericalError) as error:
-        words = [*doubts(experiment, error), str(error)]
-        if far:
-            words.append(f"or is a measured value off? {'; '.join(far)}")
-        if len(words) == 1:
+        if all(setup.model.case.stop.depth is None for setup in experiment.setups):
             raise
-        raise type(error)("; ".join(words)) from error
+        words = (
+            "leave out stop.depth: it ends the run at different times for different coefficients"
+        )
+        raise type(error)(f"{words}; {error}") from error
     return _outcome(fitted, experiment, level)
 
 
@@ -263,11 +268,9 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
     freedom = max(int(np.sum(~problem.below)) - int(np.sum(determined & ~held)) - moved, 0)
     predictions = predicted(fitted, experiment, estimates, level)
     scatters = problem.repeatability is None
-    disagree = not scatters and disagrees(chi_square, freedom)
-    tried, explained = explanations(fitted, experiment, freedom) if disagree else (0, "")
     return Calibration(
         level=level,
-        runs=experiment.run_count + tried,
+        runs=experiment.run_count,
         parameters=estimates,
         data=data[DATA + PLACE if "x_m" in data else DATA],
         predictions=predictions,
@@ -280,20 +283,25 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
         bic=fitted.deviance(fitted.point) + (len(held) + scatters) * math.log(len(data)),
         left_out=fitted.left_out(),
-        notes=(
-            *map_notes(fitted, experiment),
-            *notes(
-                estimates,
-                data,
-                jacobian,
-                None if scatters else freedom,
-                min(setup.model.grid.cells[1] for setup in experiment.setups),
-                explained,
-            ),
-            *(odd_numbers(experiment) if disagree else ()),
-            *last.notices,
+        findings=(
+            *_of_places(experiment, last.maps),
+            *of_fit(estimates, data, jacobian, None if scatters else freedom),
+            *(Finding("run", notice) for notice in last.notices),
         ),
     )
+
+
+def _of_places(experiment: Experiment, depths: Mapping[int, Array]) -> Iterator[Finding]:
+    """Report maps off their middle or not levelled."""
+    for reading, depth in depths.items():
+        row, found = experiment.table.loc[reading], experiment.shifts[reading]
+        where = named(row), row["place"]
+        for axis, (shift, sigma) in enumerate(zip(*found, strict=True)):
+            if shift:
+                yield off_middle(*where, axis, shift, sigma)
+        yield from off_level(
+            *where, experiment.on_cells(reading, found.shift)[0], depth, row["sigma"]
+        )
 
 
 def _estimates(

@@ -16,9 +16,9 @@ from tribo.kernel_api import about, case_tables, validate_case
 from tribo_inverse.calibration.calibrate import Calibration, calibrate
 from tribo_inverse.calibration.experiment import Experiment
 from tribo_inverse.calibration.measured import Measurements, read_measurements
-from tribo_inverse.calibration.notes import UNLIKELY
 from tribo_inverse.calibration.parameters import is_number
 from tribo_inverse.calibration.quantities import in_words, p_words, percent
+from tribo_inverse.findings import UNLIKELY
 
 STRONG = 6.0
 """Difference of the criterion from which on evidence is strong (Kass & Raftery)."""

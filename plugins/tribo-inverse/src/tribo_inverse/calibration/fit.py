@@ -256,11 +256,6 @@ def check_effect(here: Linearised) -> None:
     sigma = here.problem.sigma[:, None]
     effects = np.max(np.abs(here.effects(here.point) / sigma), axis=0)
     for name, effect in zip(here.problem.names, effects, strict=True):
-        if effect == 0:
-            raise CaseError(
-                f"the measured values do not depend on {name}; leave it out of fit, or measure "
-                "something that depends on it"
-            )
         if effect < NO_EFFECT:
             raise CaseError(
                 f"a change of {name} by a factor e changes the measured values by {effect:.1g} of "

@@ -9,26 +9,21 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from tribo import Array, Case, CaseError, NumericalError, Simulation
+from tribo import Array, Case, CaseError, Finding, NumericalError, Simulation
 from tribo.kernel_api import begin, case_tables, located, march, unknown_body, validate_case
 
 from tribo_inverse.adjoint.objective import View
 from tribo_inverse.calibration.cells import on_cells, read_map
-from tribo_inverse.calibration.doubts import REFUSED
-from tribo_inverse.calibration.exactness import data_error
-from tribo_inverse.calibration.map_notes import SIGNIFICANT, off_level, off_middle, off_turn
+from tribo_inverse.calibration.exactness import REFUSED, data_error
 from tribo_inverse.calibration.maps import FittedMaps, fit_maps
 from tribo_inverse.calibration.measured import MapEntry
 from tribo_inverse.calibration.prior import Prior
 from tribo_inverse.calibration.quantities import DEPTH_MAP, in_si
 from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes
+from tribo_inverse.findings import SIGNIFICANT, off_level, off_middle
 
 FAR = 2.0
 """Standard deviations of the prior by which the mean coefficient may be off."""
-BY_GRID = 0.1
-"""Relative difference of volumes that the grid may make."""
-LEAST = 0.7
-"""Part of the case's largest depth where it was measured, below which volumes are not compared."""
 LONGEST = 20.0
 """Correlation length over the window from which on the coefficient would be one number."""
 
@@ -86,23 +81,20 @@ def calibrate_maps(
         depths[entry.body], placed[entry.body] = (depth, entry.uncertainty * noise), far
         priors[entry.body] = Prior(entry.spread, entry.length)
         read.append(_Read(place, entry, depth, worn, shift.shift))
-    doubts = [doubt for each in read for doubt in each.doubts()]
     for each in read:
         each.check_volume()
     try:
         found = fit_maps(model, depths, priors, placed=placed, on_run=on_run)
     except NumericalError as error:
-        words = "check the maps' pitch, level and uncertainty, and the coefficients of the case"
         raise type(error)(
-            "the fit went too far from the case to be computed: "
-            f"{'; '.join(doubts) if doubts else words}; {error}"
+            "the fit went too far from the case to be computed: check the maps' pitch, level and "
+            f"uncertainty, and the coefficients of the case; {error}"
         ) from error
-    places = [
-        place
-        for each in read
-        for place in each.off_middle(found.maps[each.entry.body].off, model.grid.spacing)
-    ]
-    return replace(found, remarks=(*places, *doubts, *map(str, last.state.notices)))
+    more = [Finding("run", str(notice)) for notice in last.state.notices]
+    for each in read:
+        more += each.off_middle(found.maps[each.entry.body].off, model.grid.spacing)
+        more += each.off_level()
+    return replace(found, findings=(*found.findings, *more))
 
 
 def _check(depths: Array, sigma: float, worn: float) -> None:
@@ -126,42 +118,37 @@ class _Read(NamedTuple):
     worn: Array
     shift: tuple[float, float]
 
-    @property
-    def name(self) -> str:
-        """The map in words."""
-        return f"the map of {self.entry.body!r}"
-
-    def off_middle(self, off: Sequence[float], spacing: tuple[float, float]) -> Iterator[str]:
-        """Name a map that is off the middle of the contact, further `off` in m."""
-        along, shift = slopes(self.worn, spacing), [0.0, 0.0]
+    def off_middle(self, off: Sequence[float], spacing: tuple[float, float]) -> Iterator[Finding]:
+        """Report a map further `off` the contact's middle, in m, than its noise hides."""
+        along, shift = slopes(self.worn, spacing), [*self.shift]
         for axis, further in zip(along, off, strict=True):
-            shift[axis] = self.shift[axis] + further
+            shift[axis] += further
         moved = sum(shift[axis] * slope for axis, slope in along.items())
         if np.std(np.asarray(moved)[self.worn > 0]) > self.entry.uncertainty:
-            for note in off_middle(self.name, ScarShift((shift[0], shift[1]))):
-                yield f"{note}, as far as a coefficient that differs from side to side lets it tell"
+            but = ", as far as a coefficient that differs from side to side lets it tell"
+            for axis in along:
+                yield off_middle(self._name, self.place, axis, shift[axis], but=but)
 
-    def doubts(self) -> Iterator[str]:
-        """Name a map that is not levelled or turned."""
-        yield from off_level(self.name, self.depth, self.worn, self.entry.uncertainty)
-        yield from off_turn(self.name, self.depth, self.worn)
+    def off_level(self) -> Iterator[Finding]:
+        """Report a map that is not levelled."""
+        given = self.depth, self.worn, self.entry.uncertainty
+        return off_level(self._name, self.place, *given)
+
+    @property
+    def _name(self) -> str:
+        return f"map of {self.entry.body!r}"
 
     def check_volume(self) -> None:
-        """Refuse a loss that is far from the case's, where the prior has the coefficient.
-
-        Not that of a scar's rim alone, which follows its width.
-        """
+        """Refuse a loss further from the case's than two standard deviations of the prior."""
         known = np.isfinite(self.depth) & (self.worn > 0)
         lost, own = float(np.sum(self.depth[known])), float(np.sum(self.worn[known]))
         noise = SIGNIFICANT * self.entry.uncertainty * float(np.sum(known)) ** 0.5
-        far = math.exp(FAR * self.entry.spread + BY_GRID)
-        if np.max(self.worn[known], initial=0.0) < LEAST * np.max(self.worn):
-            return
+        far = math.exp(FAR * self.entry.spread)
         if not (lost + noise > own / far and lost - noise < own * far):
-            fit = "check the map, or first fit the case's k to it, as a depth_map in [[measured]]"
             times = f"{lost / own:.3g} times" if lost > noise else "none of"
             raise CaseError(
                 f"it has {times} the volume that the case wears there, which a spread of "
-                f"{self.entry.spread:g} does not allow for: {'; '.join([*self.doubts(), fit])}",
+                f"{self.entry.spread:g} does not allow for: check the map, or first fit the "
+                "case's k to it, as a depth_map in [[measured]]",
                 f"{self.place}.depth",
             )
