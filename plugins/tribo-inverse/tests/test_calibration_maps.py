@@ -143,12 +143,6 @@ def test_a_groove_off_the_middle_of_its_map_has_no_other_coefficient(tmp_path):
     assert np.all(firm.maps["disk"].deviation <= found.maps["disk"].deviation + 1e-6)
 
 
-def test_a_length_without_its_unit_is_refused():
-    entry = MapEntry(body="disk", depth="d.npy", pitch=1e-6, uncertainty=1e-8, length=0.1)
-    with pytest.raises(CaseError, match=r"map\.0\.length: 0\.1 m is over 20 times the window"):
-        calibrate_maps(CASE, {"map.0": entry})
-
-
 def test_a_length_below_a_cell_is_refused():
     entry = MapEntry(body="disk", depth="map.npy", uncertainty=NOISE, length="1 um")
     with pytest.raises(CaseError, match=r"map\.0\.length: 1 µm is less than a cell, 62\.5 µm"):
@@ -177,28 +171,34 @@ def test_a_dip_of_a_coefficient_is_found_where_the_depth_tells_it(done, truth, d
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("placed", [{}, {"disk": (0.0, 0.25e-3)}])
-def test_a_standard_deviation_is_that_of_the_profile_likelihood(depth, placed):
-    """Held that far off at a cell, the most probable map is less so by a factor of exp(-1/2)."""
+@pytest.mark.parametrize(
+    ("placed", "cell", "sign"), [({}, 6, -1), ({"disk": (0.0, 0.25e-3)}, 11, 1)]
+)
+def test_a_standard_deviation_is_that_of_the_profile_likelihood(depth, placed, cell, sign):
+    """Held that far off at a cell, the most probable map is less so by a factor of exp(-1/2).
+
+    In the groove, and at its edge where the map may be off its middle.
+    """
     given = {"disk": (depth, NOISE)}, {"disk": Prior(0.4, 0.1e-3)}
     found = fit_maps(CASE, *given, placed=placed).maps["disk"]
     waves = _Posterior(Simulation(validate_case(CASE)).model, *given, lambda misfit: None, placed)
     each = np.array([waves.logs(z) for z in np.eye(16)])
-    waves.weigh(np.linalg.solve(each.T, found.logs[0]))
+    near = np.linalg.solve(each.T, found.logs[0])
+    waves.weigh(near)
     waves.errors["disk"] = replace(waves.errors["disk"], sigma=found.uncertainty)
 
     def surprise(z):
         value, slope = waves.gradient(waves.logs(z))
         return value + 0.5 * z @ z, waves.adjoint(slope) + z
 
-    best = minimize(surprise, np.zeros(16), jac=True, method="BFGS", options={"gtol": 1e-4})
-    # In the groove, and at its edge.
-    for cell, sign in ((6, -1), (11, 1)):
-        held = found.logs[0, cell] + sign * found.deviation[0, cell]
-        along = waves.adjoint(np.eye(16)[cell])
-        off = {"type": "eq", "fun": lambda z: along @ z - held, "jac": lambda z: along}  # noqa: B023
-        beside = minimize(surprise, best.x, jac=True, method="SLSQP", constraints=[off])
-        assert beside.fun - best.fun == pytest.approx(0.5, abs=0.03 if placed else 0.01)
+    best = minimize(surprise, near, jac=True, method="BFGS", options={"gtol": 1e-3})
+    held = found.logs[0, cell] + sign * found.deviation[0, cell]
+    along = waves.adjoint(np.eye(16)[cell])
+    off = {"type": "eq", "fun": lambda z: along @ z - held, "jac": lambda z: along}
+    beside = minimize(
+        surprise, best.x, jac=True, method="SLSQP", constraints=[off], options={"ftol": 1e-4}
+    )
+    assert beside.fun - best.fun == pytest.approx(0.5, abs=0.03 if placed else 0.01)
 
 
 @pytest.mark.slow
@@ -210,11 +210,11 @@ def test_depths_that_no_smooth_map_explains_are_noticed(depth):
 
 
 def test_an_even_coefficient_is_found_even_from_a_map_that_no_coarse_run_gives():
-    """Made on four times as many cells, whose means and whose edge are others."""
+    """Made on three times as many cells, whose means and whose edge are others."""
     ball = apply_settings(cheap(60), {"grid.cells": 24})
-    with Simulation(apply_settings(ball, {"grid.cells": 96})).run() as result:
+    with Simulation(apply_settings(ball, {"grid.cells": 72})).run() as result:
         fine = result.body("ball").wear_depth[-1]
-    depth = fine.reshape(24, 4, 24, 4).mean(axis=(1, 3))
+    depth = fine.reshape(24, 3, 24, 3).mean(axis=(1, 3))
     depth += NOISE * np.random.default_rng(6).standard_normal(depth.shape)
     found = fit_maps(ball, {"ball": (depth, NOISE)}, {"ball": Prior(0.3, 0.2e-3)})
     assert found.p_value > 0.01

@@ -93,7 +93,7 @@ def test_a_map_in_its_middle_is_left_there(fitted):
 @pytest.mark.slow
 def test_intervals_cover_the_coefficient_wherever_the_map_has_its_scar(fitted):
     """The noise puts the coefficient off by as much as the grid does."""
-    random, draws = np.random.default_rng(1), 6
+    random, draws = np.random.default_rng(1), 4
     covered = sum(
         covers(fitted(random.uniform(-60e-6, 60e-6, 2), noise=200e-9, seed=i)) for i in range(draws)
     )
@@ -131,23 +131,16 @@ def test_uncertainties_that_are_too_large_are_told(worn, tmp_path, cells, factor
     assert bool(of_kind(found, "overstated")) == (factor > 1)
 
 
-def profile_fitted(worn, cells, shift=0.0, seed=None):
-    """What is found from a line across the ball's scar."""
-    at = np.arange(-0.36e-3, 0.37e-3, 30e-6)
-    middle = 0.5 * (worn[PIXELS // 2 - 1] + worn[PIXELS // 2])
-    depths = np.interp(at - shift, PITCH * (np.arange(PIXELS) - 0.5 * (PIXELS - 1)), middle)
-    if seed is not None:
-        depths += NOISE * np.random.default_rng(seed).standard_normal(len(at))
-    entry = {"body": "ball", "quantity": "profile_across", "uncertainty": NOISE}
-    entry |= {"position": at.tolist(), "value": depths.tolist()}
-    coarse = apply_settings(CASE, {"grid.cells": cells})
-    return calibrate(coarse, {"measured": [entry], "fit": [{"path": K}]})
-
-
 @pytest.mark.parametrize("cells", [16, 20, 32])
 def test_a_profile_is_met_on_a_coarse_grid(worn, cells):
     """To the noise, though its points and the cells lie apart."""
-    found = profile_fitted(worn, cells)
+    at = np.arange(-0.36e-3, 0.37e-3, 30e-6)
+    middle = 0.5 * (worn[PIXELS // 2 - 1] + worn[PIXELS // 2])
+    depths = np.interp(at, PITCH * (np.arange(PIXELS) - 0.5 * (PIXELS - 1)), middle)
+    entry = {"body": "ball", "quantity": "profile_across", "uncertainty": NOISE}
+    entry |= {"position": at.tolist(), "value": depths.tolist()}
+    coarse = apply_settings(CASE, {"grid.cells": cells})
+    found = calibrate(coarse, {"measured": [entry], "fit": [{"path": K}]})
     assert covers(found)
     assert found.p_value > 0.01
     assert found.settings[K] == pytest.approx(TRUE, rel=0.005, abs=0)
@@ -155,17 +148,17 @@ def test_a_profile_is_met_on_a_coarse_grid(worn, cells):
 
 @pytest.mark.parametrize("cells", [16, 24])
 def test_an_exact_map_is_met_on_coarse_grids(cells, tmp_path):
-    """Of another test, on a half-space, made on 160 cells across the window."""
+    """Of another test, on a half-space, made on 96 cells across the window."""
     case = on_springs("pin_on_disk", {"grid": {"size": "1.4 mm", "cells": cells}})
     case = apply_settings(case, {"contact.type": "dcfft", "load.normal": 15, PIN_K: 1e-15})
     case = apply_settings(case, {"kinematics.distance": 700, "bodies.disk.wear.k": 1e-14})
-    with Simulation(validate_case(apply_settings(case, {"grid.cells": 160}))).run() as result:
+    with Simulation(validate_case(apply_settings(case, {"grid.cells": 96}))).run() as result:
         depths = {name: result.body(name).wear_depth[-1].copy() for name in ("pin", "disk")}
     entries = []
     for body, depth in depths.items():
         np.save(tmp_path / f"{body}.npy", depth)
         entry = {"body": body, "quantity": "depth_map", "depth": str(tmp_path / f"{body}.npy")}
-        entries.append(entry | {"pitch": 1.4e-3 / 160, "uncertainty": 2e-9})
+        entries.append(entry | {"pitch": 1.4e-3 / 96, "uncertainty": 2e-9})
     found = calibrate(case, {"measured": entries})
     for each, true in zip(found.parameters.itertuples(), (1e-15, 1e-14), strict=True):
         assert each.lower < true < each.upper
@@ -215,29 +208,21 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
 
 
 @pytest.mark.parametrize(
-    ("scale", "k", "uncertainty", "words"),
+    ("scale", "k", "words"),
     [
-        (-1.0, TRUE, NOISE, r"map\.0\.depth: the depths are negative"),
-        (
-            1.0,
-            1e-3 * TRUE,
-            NOISE,
-            r"map\.0\.depth: the largest depth was read as .* gives .*depths in m",
-        ),
-        (1.0, TRUE, NOISE, r"check the maps' pitch, level and uncertainty, .*; no step"),
-        (1.0, 0.0, NOISE, r"map\.0\.body: 'ball' does not wear in this case"),
-        (1.0, TRUE, 20e-3, r"map\.0\.uncertainty: 0\.02 m is over 300 times the largest depth"),
+        (-1.0, TRUE, r"map\.0\.depth: the depths are negative"),
+        (1.0, 1e-3 * TRUE, r"map\.0\.depth: it has .* times the volume"),
+        (1.0, TRUE, r"check the maps' pitch, level and uncertainty, .*; no step"),
+        (1.0, 0.0, r"map\.0\.body: 'ball' does not wear in this case"),
     ],
 )
-def test_a_map_that_is_not_of_the_case_is_told(
-    worn, tmp_path, monkeypatch, scale, k, uncertainty, words
-):
+def test_a_map_that_is_not_of_the_case_is_refused(worn, tmp_path, monkeypatch, scale, k, words):
     def failing(*given, **named):
         raise NumericalError("no step")
 
     monkeypatch.setattr(mapped, "fit_maps", failing)
     np.save(tmp_path / "map.npy", scale * worn)
     entry = {"body": "ball", "depth": str(tmp_path / "map.npy"), "pitch": PITCH}
-    entry = MapEntry(**entry, uncertainty=uncertainty, length=1e-4)
+    entry = MapEntry(**entry, uncertainty=NOISE, length=1e-4)
     with pytest.raises(TriboError, match=words):
         calibrate_maps(apply_settings(CASE, {K: k}), {"map.0": entry})

@@ -15,8 +15,6 @@ from tribo_inverse.calibration.quantities import FIELDS, in_si, in_words
 if TYPE_CHECKING:
     from tribo_inverse.calibration.parameters import Parameter
 
-MOST_UNCERTAINTY = 1e4
-"""Largest relative uncertainty of a number: more is a wrong unit."""
 LEAST_UNCERTAINTY = 1e-6
 """Smallest relative uncertainty."""
 REFUSED = 300.0
@@ -52,11 +50,6 @@ def data_error(quantity: str, sigma: Array | float, values: Array) -> str:
             f"known to {in_words(quantity, float(each[worst]))}, less than a millionth of "
             f"{in_words(quantity, float(values[worst]))}: no run is that exact; check the "
             "uncertainty, and the units of both"
-        )
-    if quantity not in FIELDS and np.all(each > MOST_UNCERTAINTY * np.abs(values)):
-        return (
-            f"known to {in_words(quantity, float(each[0]))}, over {MOST_UNCERTAINTY:g} times "
-            f"{in_words(quantity, float(values[0]))}: check the uncertainty, and the units of both"
         )
     mean = float(np.mean(values))
     if not mean < -_SIGNIFICANT * np.max(each) / np.sqrt(len(values)):

@@ -14,18 +14,16 @@ from tribo.kernel_api import begin, case_tables, located, march, unknown_body, v
 
 from tribo_inverse.adjoint.objective import View
 from tribo_inverse.calibration.cells import on_cells, read_map
-from tribo_inverse.calibration.exactness import REFUSED, data_error
+from tribo_inverse.calibration.exactness import data_error
 from tribo_inverse.calibration.maps import FittedMaps, fit_maps
 from tribo_inverse.calibration.measured import MapEntry
 from tribo_inverse.calibration.prior import Prior
-from tribo_inverse.calibration.quantities import DEPTH_MAP, in_si
+from tribo_inverse.calibration.quantities import DEPTH_MAP
 from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes
 from tribo_inverse.findings import SIGNIFICANT, off_level, off_middle
 
 FAR = 2.0
 """Standard deviations of the prior by which the mean coefficient may be off."""
-LONGEST = 20.0
-"""Correlation length over the window from which on the coefficient would be one number."""
 
 
 def calibrate_maps(
@@ -50,24 +48,10 @@ def calibrate_maps(
         spacing, worn = model.grid.spacing, clean.wear(entry.body)
         if entry.body not in model.laws or not np.any(worn):
             raise CaseError(f"{entry.body!r} does not wear in this case", f"{place}.body")
-        deepest = float(np.max(worn))
-        if entry.uncertainty > REFUSED * deepest:
-            raise CaseError(
-                f"{in_si(entry.uncertainty, 'm')} is over {REFUSED:g} times the largest depth of "
-                f"the case, {in_si(deepest, 'm')}: check its unit, and the case",
-                f"{place}.uncertainty",
-            )
         if entry.length < min(spacing):
             raise CaseError(
                 f"{1e6 * entry.length:.3g} µm is less than a cell, {1e6 * min(spacing):.3g} µm: "
                 "raise grid.cells or length",
-                f"{place}.length",
-            )
-        if entry.length > LONGEST * max(model.grid.size):
-            raise CaseError(
-                f"{in_si(entry.length, 'm')} is over {LONGEST:g} times the window, "
-                f"{in_si(max(model.grid.size), 'm')}: check its unit, or fit one coefficient to a "
-                "depth_map in [[measured]]",
                 f"{place}.length",
             )
         heights = read_map(entry.depth, entry.pitch, place)
@@ -77,7 +61,8 @@ def calibrate_maps(
                 shift = find_shift(heights, worn, spacing, entry.uncertainty)
                 far = [PRIOR_SHIFT * size for size in model.grid.size]
             depth, noise = on_cells(heights, worn.shape, spacing, shift.shift)
-            _check(depth[np.isfinite(depth)], entry.uncertainty, deepest)
+            if error := data_error(DEPTH_MAP, entry.uncertainty, depth[np.isfinite(depth)]):
+                raise CaseError(error)
         depths[entry.body], placed[entry.body] = (depth, entry.uncertainty * noise), far
         priors[entry.body] = Prior(entry.spread, entry.length)
         read.append(_Read(place, entry, depth, worn, shift.shift))
@@ -95,18 +80,6 @@ def calibrate_maps(
         more += each.off_middle(found.maps[each.entry.body].off, model.grid.spacing)
         more += each.off_level()
     return replace(found, findings=(*found.findings, *more))
-
-
-def _check(depths: Array, sigma: float, worn: float) -> None:
-    """Check that measured depths may be those of the case, whose largest is `worn`."""
-    if error := data_error(DEPTH_MAP, sigma, depths):
-        raise CaseError(error)
-    largest = float(np.max(depths))
-    if not worn / REFUSED < max(largest, sigma) < worn * REFUSED:
-        raise CaseError(
-            f"the largest depth was read as {in_si(largest, 'm')}, and the case gives "
-            f"{in_si(worn, 'm')}: check the file, which has depths in m, and the case"
-        )
 
 
 class _Read(NamedTuple):
