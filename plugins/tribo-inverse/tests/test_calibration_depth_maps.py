@@ -267,14 +267,14 @@ def test_estimate_and_interval_do_not_depend_on_the_start(noisy):
     entry = noisy(ARCHARD) | {"uncertainty": "50 nm"}
     found = [
         calibrate(ARCHARD, {"measured": [entry], "fit": [{"path": K, "start": factor * 3e-16}]})
-        for factor in (0.7, 1.0, 1.4)
+        for factor in (0.7, 1.4)
     ]
     values, lower, upper = np.array(
         [fit.parameters[["value", "lower", "upper"]].iloc[0] for fit in found], dtype=float
     ).T
     half = 0.5 * (upper - lower)
-    assert np.ptp(values) < 0.1 * half[1]
-    assert half == pytest.approx(half[1], rel=0.1, abs=0)
+    assert np.ptp(values) < 0.1 * half[0]
+    assert half[1] == pytest.approx(half[0], rel=0.1, abs=0)
 
 
 def test_a_map_on_which_nothing_is_worn_cannot_be_fitted(tmp_path):

@@ -239,7 +239,7 @@ def test_a_profile_beside_the_scar_has_no_shape():
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("at", "depth"), [([0.0], [1e-8]), ([0.45e-3, 0.46e-3], [0.0, 0.0])], ids=["one", "none worn"]
+    ("at", "depth"), [([0.0], [3e-7]), ([0.45e-3, 0.46e-3], [0.0, 0.0])], ids=["one", "none worn"]
 )
 def test_a_profile_that_leaves_no_residual_has_no_pattern(at, depth):
     profile = {"body": "disk", "quantity": "profile_across", "position": at, "value": depth}
