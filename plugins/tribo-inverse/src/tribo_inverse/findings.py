@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +20,7 @@ from tribo_inverse.calibration.quantities import (
     WORN,
     in_si,
     in_words,
+    p_words,
     percent,
 )
 
@@ -313,3 +314,33 @@ def of_maps(found: FittedMaps) -> Iterator[Finding]:
                 value=silent,
                 place=name,
             )
+
+
+def chosen(case: str, by: float, limit: float, p_value: float | None) -> Finding:
+    """Report the case that the data speak for."""
+    words = f"the data speak for {case}: Schwarz's criterion is lower by {by:.3g} or more"
+    if p_value is not None and p_value < UNLIKELY:
+        words += f"; yet {case} does not describe them either ({p_words(p_value)})"
+    return Finding("chosen", words, value=by, limit=limit, place=case)
+
+
+def undecided(best: str, rivals: Mapping[str, float], limit: float, following: Any) -> Finding:
+    """Report cases that the data do not tell apart, and the quantity to measure next, if any."""
+    more = ""
+    if following is not None:
+        name, test = following.quantity, following.test
+        values = " and ".join(in_words(name, each) for each in following[["value_x", "value_y"]])
+        where = f" in {test}" if test else ""
+        more = (
+            f"; of what was not measured they differ most in the {name} of {following.body!r}"
+            f"{where}: {values}, {percent(abs(following.ratio - 1))} % apart"
+        )
+    return Finding(
+        "undecided",
+        f"these data cannot tell {' and '.join([best, *rivals])} apart: Schwarz's criterion "
+        f"differs by {', '.join(f'{by:.2g}' for by in rivals.values())}, where {limit:g} is strong "
+        f"evidence{more}",
+        value=min(rivals.values()),
+        limit=limit,
+        place=", ".join([best, *rivals]),
+    )

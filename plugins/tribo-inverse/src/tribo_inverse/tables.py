@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from rich.markup import escape
 from rich.table import Table
 from tribo.kernel_api import Console, digits_of, signed, titled
@@ -15,7 +14,7 @@ from tribo.kernel_api import Console, digits_of, signed, titled
 from tribo_inverse.calibration.calibrate import Calibration
 from tribo_inverse.calibration.choice import Choice
 from tribo_inverse.calibration.plan import Plan
-from tribo_inverse.calibration.quantities import in_si, in_words, p_words, percent
+from tribo_inverse.calibration.quantities import in_si, in_words, p_words, percent, row_name
 from tribo_inverse.findings import bound
 
 FAR = 10.0
@@ -138,7 +137,7 @@ def data_table(found: Calibration) -> Table:
 
 def predictions_table(found: Calibration) -> Table:
     """Return the predictions of the fitted case."""
-    names = [_name(each) for each in found.predictions.itertuples()]
+    names = [row_name(each) for each in found.predictions.itertuples()]
     level = f"{100 * found.level:g} % interval"
     table = _table("Not measured, at the end", names, "computed", level, "relative")
     for name, each in zip(names, found.predictions.itertuples(), strict=True):
@@ -183,21 +182,12 @@ def _known(singular_value: float) -> str:
 
 
 def _name(row: Any) -> str:
-    """Return the name of a row of the data or of the predictions."""
-    text = f"{row.body}, {row.quantity}"
-    if getattr(row, "test", ""):
-        text = f"{row.test}: {text}"
-    if pd.notna(getattr(row, "time_s", None)):
-        text += f" at {row.time_s:g} s"
-    if pd.notna(getattr(row, "position_m", None)):
-        text += f" at {1e3 * row.position_m:g} mm"
-    if getattr(row, "depths", 1) > 1:
-        text += ", mean"
-        shift = [getattr(row, f"shift_{axis}_m", 0.0) for axis in "xy"]
-        if any(np.nan_to_num(shift)):
-            far = (signed(1e6 * each, 1) for each in shift)
-            text += f", off centre by {' and '.join(far)} µm"
-    return text
+    """Return the name of a row of the data, with the shift of a map's scar."""
+    if row.depths == 1:
+        return row_name(row)
+    shift = np.nan_to_num([getattr(row, f"shift_{axis}_m", 0.0) for axis in "xy"])
+    far = " and ".join(signed(1e6 * each, 1) for each in shift)
+    return f"{row_name(row)}, mean{f', off centre by {far} µm' if any(shift) else ''}"
 
 
 def _interval(row: Any, low: str, high: str) -> tuple[str, str]:

@@ -24,7 +24,7 @@ from tribo_inverse.calibration.fit import (
     limit,
     steps,
 )
-from tribo_inverse.calibration.linearised import Linearised, Problem, Weights, root_covariance
+from tribo_inverse.calibration.linearised import Linearised, Weights, root_covariance
 from tribo_inverse.calibration.measured import Measurements
 from tribo_inverse.calibration.predictions import predicted
 from tribo_inverse.calibration.quantities import (
@@ -210,7 +210,12 @@ def calibrate(
         return found
 
     try:
-        fitted, unsettled = _first_fit(responses, problem, experiment.start)
+        unsettled: Unsettled | None = None
+        try:
+            fitted = fit(responses, problem, experiment.start)
+        except Unsettled as error:
+            # The uncertainties at the start may be too far off to settle it.
+            fitted, unsettled = error.last, error
         estimate, before = np.exp(fitted.point), problem.sigma
         experiment = experiment.centred(estimate)
         problem = experiment.problem(estimate)
@@ -227,18 +232,6 @@ def calibrate(
         )
         raise type(error)(f"{words}; {error}") from error
     return _outcome(fitted, experiment, level)
-
-
-def _first_fit(
-    model: Callable[[Array], Array], problem: Problem, start: Array
-) -> tuple[Linearised, Unsettled | None]:
-    """Return the fit by the uncertainties at the start, which may be too far off to settle it."""
-    try:
-        return fit(model, problem, start), None
-    except Unsettled as error:
-        if error.stalled is None:
-            raise
-        return error.stalled, error
 
 
 def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibration:

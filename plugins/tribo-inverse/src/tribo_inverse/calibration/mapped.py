@@ -63,11 +63,10 @@ def calibrate_maps(
             depth, noise = on_cells(heights, worn.shape, spacing, shift.shift)
             if error := data_error(DEPTH_MAP, entry.uncertainty, depth[np.isfinite(depth)]):
                 raise CaseError(error)
+            _check_volume(entry, depth, worn)
         depths[entry.body], placed[entry.body] = (depth, entry.uncertainty * noise), far
         priors[entry.body] = Prior(entry.spread, entry.length)
         read.append(_Read(place, entry, depth, worn, shift.shift))
-    for each in read:
-        each.check_volume()
     try:
         found = fit_maps(model, depths, priors, placed=placed, on_run=on_run)
     except NumericalError as error:
@@ -77,9 +76,23 @@ def calibrate_maps(
         ) from error
     more = [Finding("run", str(notice)) for notice in last.state.notices]
     for each in read:
-        more += each.off_middle(found.maps[each.entry.body].off, model.grid.spacing)
-        more += each.off_level()
+        more += each.findings(found.maps[each.entry.body].off, model.grid.spacing)
     return replace(found, findings=(*found.findings, *more))
+
+
+def _check_volume(entry: MapEntry, depth: Array, worn: Array) -> None:
+    """Refuse a loss further from the case's than two standard deviations of the prior."""
+    known = np.isfinite(depth) & (worn > 0)
+    lost, own = float(np.sum(depth[known])), float(np.sum(worn[known]))
+    noise = SIGNIFICANT * entry.uncertainty * float(np.sum(known)) ** 0.5
+    far = math.exp(FAR * entry.spread)
+    if not (lost + noise > own / far and lost - noise < own * far):
+        times = f"{lost / own:.3g} times" if lost > noise else "none of"
+        raise CaseError(
+            f"it has {times} the volume that the case wears there, which a spread of "
+            f"{entry.spread:g} does not allow for: check the map, or first fit the case's k to "
+            "it, as a depth_map in [[measured]]"
+        )
 
 
 class _Read(NamedTuple):
@@ -91,37 +104,18 @@ class _Read(NamedTuple):
     worn: Array
     shift: tuple[float, float]
 
-    def off_middle(self, off: Sequence[float], spacing: tuple[float, float]) -> Iterator[Finding]:
-        """Report a map further `off` the contact's middle, in m, than its noise hides."""
-        along, shift = slopes(self.worn, spacing), [*self.shift]
+    def findings(self, off: Sequence[float], spacing: tuple[float, float]) -> Iterator[Finding]:
+        """Report a map further `off` the middle, in m, than its noise hides, or not levelled."""
+        name, along, shift = (
+            f"map of {self.entry.body!r}",
+            slopes(self.worn, spacing),
+            [*self.shift],
+        )
         for axis, further in zip(along, off, strict=True):
             shift[axis] += further
         moved = sum(shift[axis] * slope for axis, slope in along.items())
         if np.std(np.asarray(moved)[self.worn > 0]) > self.entry.uncertainty:
             but = ", as far as a coefficient that differs from side to side lets it tell"
             for axis in along:
-                yield off_middle(self._name, self.place, axis, shift[axis], but=but)
-
-    def off_level(self) -> Iterator[Finding]:
-        """Report a map that is not levelled."""
-        given = self.depth, self.worn, self.entry.uncertainty
-        return off_level(self._name, self.place, *given)
-
-    @property
-    def _name(self) -> str:
-        return f"map of {self.entry.body!r}"
-
-    def check_volume(self) -> None:
-        """Refuse a loss further from the case's than two standard deviations of the prior."""
-        known = np.isfinite(self.depth) & (self.worn > 0)
-        lost, own = float(np.sum(self.depth[known])), float(np.sum(self.worn[known]))
-        noise = SIGNIFICANT * self.entry.uncertainty * float(np.sum(known)) ** 0.5
-        far = math.exp(FAR * self.entry.spread)
-        if not (lost + noise > own / far and lost - noise < own * far):
-            times = f"{lost / own:.3g} times" if lost > noise else "none of"
-            raise CaseError(
-                f"it has {times} the volume that the case wears there, which a spread of "
-                f"{self.entry.spread:g} does not allow for: check the map, or first fit the "
-                "case's k to it, as a depth_map in [[measured]]",
-                f"{self.place}.depth",
-            )
+                yield off_middle(name, self.place, axis, shift[axis], but=but)
+        yield from off_level(name, self.place, self.depth, self.worn, self.entry.uncertainty)
