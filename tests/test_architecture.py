@@ -85,7 +85,7 @@ def test_imports_go_one_way(path):
         assert RANK[other] <= RANK[package], f"{package} imports {other}"
 
 
-@pytest.mark.parametrize("path", (ROOT / "stepping").glob("*.py"), ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", sorted((ROOT / "stepping").glob("*.py")), ids=lambda p: p.stem)
 def test_a_step_names_nothing_above_it_even_as_a_type(path):
     assert all(RANK[other] <= RANK["stepping"] for other in packages(path, types=True))
 

@@ -39,7 +39,6 @@ from tribo.core.box import whole as whole
 from tribo.core.dimensions import scale as scale
 from tribo.core.errors import OutOfWindow as OutOfWindow
 from tribo.core.errors import OverTime as OverTime
-from tribo.core.errors import PluginError as PluginError
 from tribo.core.errors import about as about
 from tribo.core.errors import located as located
 from tribo.core.explain import case_error as case_error
@@ -126,7 +125,6 @@ from tribo.simulation.assembly import assemble as assemble
 from tribo.simulation.assembly import varied as varied
 from tribo.simulation.coarse import MARGINS as MARGINS
 from tribo.simulation.coarse import coarsened as coarsened
-from tribo.simulation.doubt import unusual as unusual
 from tribo.simulation.march import DEPTH_ACCURACY as DEPTH_ACCURACY
 from tribo.simulation.march import begin as begin
 from tribo.simulation.march import march as march

@@ -28,6 +28,11 @@ def cheap(duration):
     return on_springs("ball_on_disk", {"grid": grid, "kinematics.duration": duration})
 
 
+def of_kind(found, kind):
+    """Return what was found of a kind."""
+    return [each for each in found.findings if each.kind == kind]
+
+
 @contextmanager
 def kept_runs():
     """Make no run of a calibration twice."""

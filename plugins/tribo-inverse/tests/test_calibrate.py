@@ -97,6 +97,7 @@ def test_wide_tables_break_no_value_at_80_columns(capsys):
 def test_json_is_finite_and_in_si_units(asked):
     data = json.loads(asked("--json").stdout, parse_constant=pytest.fail)
     keys = "level runs parameters data predictions chi_square degrees_of_freedom p_value notes bic "
+    keys += "findings "
     keys += "repeatability repeatability_estimated correlation singular_values left_out fitted"
     assert sorted(data) == sorted(keys.split())
     ball, _ = data["parameters"]
@@ -156,27 +157,11 @@ def left(told):
     return int(found[1]) if found else 0
 
 
-def told(capsys, runs, sample=0, fitted_at=None):
-    """Return what is told after rounds of runs: their number, and the time then in s."""
-    asked, unsampled, now = read_measurements(EXAMPLES / "weighed.toml"), [], [0.0]
-    tell, lines = _Progress(asked, sample, unsampled, lambda: now[0]), []
-    for made, now[0] in runs:
-        if fitted_at is not None and now[0] > fitted_at and not unsampled:
-            unsampled.append(SimpleNamespace(runs=made - 1))
-        tell(made, 1.0)
-        lines += capsys.readouterr().err.splitlines()
-    return lines
-
-
 def test_the_time_left_is_that_of_runs_after_the_first(capsys):
-    # 60 s go before the first ends, as imports do; four are needed at least.
-    lines = told(capsys, [(1, 60.0), (2, 65.0), (3, 70.0), (4, 75.0), (5, 80.0)])
+    """The first takes 60 s, as imports do; four are needed at least."""
+    asked, now = read_measurements(EXAMPLES / "weighed.toml"), [0.0]
+    tell = _Progress(asked, lambda: now[0])
+    for run, now[0] in [(1, 60.0), (2, 65.0), (3, 70.0), (4, 75.0), (5, 80.0)]:
+        tell(run, 1.0)
+    lines = capsys.readouterr().err.splitlines()
     assert [left(line) for line in lines] == [0, 10, 5, 0, 0]
-
-
-def test_sampling_counts_once_it_has_begun_and_at_its_own_speed(capsys):
-    fit = [(1, 60.0), (2, 65.0), (4, 75.0)]
-    sampling = [(5, 100.0), (6, 101.0), (55, 150.0)]
-    lines = told(capsys, fit + sampling, sample=100, fitted_at=90.0)
-    assert [left(line) for line in lines] == [0, 10, 0, 0, 98, 49]
-    assert [line.split(",")[0] == "sampling" for line in lines] == 3 * [False] + 3 * [True]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from calibrations import cheap, kept_runs
+from calibrations import cheap, kept_runs, of_kind
 from rich.console import Console
 from scipy.stats import binom
 from tribo.config.load import validate_case
@@ -121,9 +121,9 @@ def test_another_law_is_noticed_and_not_chosen(two_loads, found):
     assert list(choice.cases["case"]) == ["power", "archard"]
     wrong = choice.calibrations["archard"]
     assert wrong.p_value < 1e-3
-    assert any("data and model disagree" in note for note in wrong.notes)
-    assert any("the depth_map of 'ball' in light follow a pattern" in note for note in wrong.notes)
-    assert not any("follow a pattern" in note for note in found.notes)
+    assert of_kind(wrong, "misfit")[0].value == wrong.chi_square
+    assert "test.1.measured.0" in [each.place for each in of_kind(wrong, "pattern")]
+    assert not of_kind(found, "pattern")
 
 
 @pytest.mark.slow
@@ -149,7 +149,7 @@ def test_a_map_that_a_wrong_weight_makes_too_shallow_has_no_other_shape(noisy):
     found = calibrate(ARCHARD, {"measured": [mass, noisy(ARCHARD)], "fit": [{"path": K}]})
     assert found.p_value < 1e-6
     assert found.data["residual"].abs().max() > 5
-    assert not any("pattern" in note for note in found.notes)
+    assert not of_kind(found, "pattern")
 
 
 @pytest.mark.slow
@@ -163,7 +163,7 @@ def test_maps_of_tests_that_scatter_are_off_together(noisy):
     assert each.upper / each.value > 1.3
     # A map that is 15 % deeper all over is of another test, not of another shape.
     assert found.data["residual"].abs().max() > 1.5
-    assert not any("pattern" in note for note in found.notes)
+    assert not of_kind(found, "pattern")
 
 
 @pytest.mark.slow
@@ -175,7 +175,7 @@ def test_tests_as_far_apart_as_is_stated_are_no_disagreement(noisy):
     stated = {"test": tests, "fit": [{"path": K}], "repeatability": 0.025}
     found = calibrate(ARCHARD, stated)
     assert found.p_value > 0.01
-    assert not any("disagree" in note or "pattern" in note for note in found.notes)
+    assert not of_kind(found, "misfit") + of_kind(found, "pattern")
     # Tests of one name keep a row each.
     assert list(found.brief["test"]) == ["alike", "alike"]
     less, more = found.brief["measured"]
@@ -189,7 +189,9 @@ def test_where_tests_hardly_tell_their_scatter_it_is_asked_for(noisy):
     mass = {"body": "ball", "quantity": "mass", "value": [lost, 1.05 * lost]}
     mass["uncertainty"] = 0.1 * lost
     found = calibrate(ARCHARD, {"measured": [noisy(ARCHARD), mass], "fit": [{"path": K}]})
-    assert any("do not bound it from below or above; too few tests" in n for n in found.notes)
+    assert [each.place for each in of_kind(found, "unbounded")] == [K]
+    (each,) = found.parameters.itertuples()
+    assert (each.lower, each.upper) == (0, np.inf)
 
 
 @pytest.mark.slow
@@ -265,21 +267,21 @@ def test_estimate_and_interval_do_not_depend_on_the_start(noisy):
     entry = noisy(ARCHARD) | {"uncertainty": "50 nm"}
     found = [
         calibrate(ARCHARD, {"measured": [entry], "fit": [{"path": K, "start": factor * 3e-16}]})
-        for factor in (0.7, 1.0, 1.4)
+        for factor in (0.7, 1.4)
     ]
     values, lower, upper = np.array(
         [fit.parameters[["value", "lower", "upper"]].iloc[0] for fit in found], dtype=float
     ).T
     half = 0.5 * (upper - lower)
-    assert np.ptp(values) < 0.1 * half[1]
-    assert half == pytest.approx(half[1], rel=0.1, abs=0)
+    assert np.ptp(values) < 0.1 * half[0]
+    assert half[1] == pytest.approx(half[0], rel=0.1, abs=0)
 
 
-def test_a_map_on_which_nothing_is_worn_is_doubted(tmp_path):
+def test_a_map_on_which_nothing_is_worn_cannot_be_fitted(tmp_path):
     np.save(tmp_path / "new.npy", np.zeros((16, 16)))
     entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "new.npy")}
     entry |= {"pitch": 1e-3 / 16, "uncertainty": NOISE}
-    with pytest.raises(NumericalError, match=r"or is a measured value off\? .* was read as 0 m"):
+    with pytest.raises(NumericalError):
         calibrate(ARCHARD, {"measured": [entry], "fit": [{"path": K}]})
 
 

@@ -79,7 +79,6 @@ def test_every_quantity_can_be_asked_for():
         ),
         # Exacter than any run, as with a unit forgotten.
         ({"uncertainty": 1e-13}, ".0", "less than a millionth"),
-        ({"uncertainty": 1e2}, ".0", "over 10000 times"),
         ({"quantity": "mas"}, ".0.quantity", "did you mean 'mass'?"),
         ({"boddy": "ball"}, ".0.boddy", "did you mean 'body'?"),
         ({"body": "bal"}, ".0.body", "did you mean 'ball'?"),

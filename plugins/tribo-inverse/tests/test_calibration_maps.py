@@ -1,13 +1,12 @@
 """A local coefficient is found where the depth tells it, and left to the prior elsewhere."""
 
 import json
-import re
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from calibrations import cheap
+from calibrations import cheap, of_kind
 from click.testing import CliRunner
 from scipy.ndimage import gaussian_filter1d, shift
 from scipy.optimize import minimize
@@ -132,8 +131,8 @@ def test_a_groove_off_the_middle_of_its_map_has_no_other_coefficient(tmp_path):
     entry = {"body": "disk", "depth": str(tmp_path / "depth.npy"), "pitch": PIXEL}
     entry = MapEntry(**entry, uncertainty=NOISE, length=0.1e-3)
     found = calibrate_maps(CASE, {"map.0": entry})
-    (place, *_) = found.notes
-    assert float(re.search(r"lies \+([\d.]+)", place)[1]) == pytest.approx(19.2, abs=3)
+    (across,) = of_kind(found, "shift")
+    assert across.value == pytest.approx(19.2e-6, abs=3e-6)
     lower, upper = found.maps["disk"].interval(0.95)
     assert np.all((lower < 1) & (upper > 1))
     assert found.maps["disk"].factor == pytest.approx(1, abs=0.15)
@@ -142,12 +141,6 @@ def test_a_groove_off_the_middle_of_its_map_has_no_other_coefficient(tmp_path):
     lower, upper = firm.maps["disk"].interval(0.95)
     assert np.mean((lower < 1) & (upper > 1)) < 0.8
     assert np.all(firm.maps["disk"].deviation <= found.maps["disk"].deviation + 1e-6)
-
-
-def test_a_length_without_its_unit_is_refused():
-    entry = MapEntry(body="disk", depth="d.npy", pitch=1e-6, uncertainty=1e-8, length=0.1)
-    with pytest.raises(CaseError, match=r"map\.0\.length: 0\.1 m is over 20 times the window"):
-        calibrate_maps(CASE, {"map.0": entry})
 
 
 def test_a_length_below_a_cell_is_refused():
@@ -169,35 +162,43 @@ def test_a_dip_of_a_coefficient_is_found_where_the_depth_tells_it(done, truth, d
     assert np.all(known[deep])
     assert not np.any(known[:, [0, -1]])
     assert deviation[0, 0] > 0.9 * 0.4
-    assert any("say nothing of" in note for note in told["notes"])
+    silent = {each["kind"]: each["value"] for each in told["findings"]}["unknown"]
+    assert silent == np.sum(~known)
+    assert len(told["notes"]) == len(told["findings"])
     with np.load(folder / "found.npz") as arrays:
         assert arrays["disk_factor"] == pytest.approx(factor)
     assert (folder / "found-disk.png").stat().st_size > 5000
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("placed", [{}, {"disk": (0.0, 0.25e-3)}])
-def test_a_standard_deviation_is_that_of_the_profile_likelihood(depth, placed):
-    """Held that far off at a cell, the most probable map is less so by a factor of exp(-1/2)."""
+@pytest.mark.parametrize(
+    ("placed", "cell", "sign"), [({}, 6, -1), ({"disk": (0.0, 0.25e-3)}, 11, 1)]
+)
+def test_a_standard_deviation_is_that_of_the_profile_likelihood(depth, placed, cell, sign):
+    """Held that far off at a cell, the most probable map is less so by a factor of exp(-1/2).
+
+    In the groove, and at its edge where the map may be off its middle.
+    """
     given = {"disk": (depth, NOISE)}, {"disk": Prior(0.4, 0.1e-3)}
     found = fit_maps(CASE, *given, placed=placed).maps["disk"]
     waves = _Posterior(Simulation(validate_case(CASE)).model, *given, lambda misfit: None, placed)
     each = np.array([waves.logs(z) for z in np.eye(16)])
-    waves.weigh(np.linalg.solve(each.T, found.logs[0]))
+    near = np.linalg.solve(each.T, found.logs[0])
+    waves.weigh(near)
     waves.errors["disk"] = replace(waves.errors["disk"], sigma=found.uncertainty)
 
     def surprise(z):
         value, slope = waves.gradient(waves.logs(z))
         return value + 0.5 * z @ z, waves.adjoint(slope) + z
 
-    best = minimize(surprise, np.zeros(16), jac=True, method="BFGS", options={"gtol": 1e-4})
-    # In the groove, and at its edge.
-    for cell, sign in ((6, -1), (11, 1)):
-        held = found.logs[0, cell] + sign * found.deviation[0, cell]
-        along = waves.adjoint(np.eye(16)[cell])
-        off = {"type": "eq", "fun": lambda z: along @ z - held, "jac": lambda z: along}  # noqa: B023
-        beside = minimize(surprise, best.x, jac=True, method="SLSQP", constraints=[off])
-        assert beside.fun - best.fun == pytest.approx(0.5, abs=0.03 if placed else 0.01)
+    best = minimize(surprise, near, jac=True, method="BFGS", options={"gtol": 1e-3})
+    held = found.logs[0, cell] + sign * found.deviation[0, cell]
+    along = waves.adjoint(np.eye(16)[cell])
+    off = {"type": "eq", "fun": lambda z: along @ z - held, "jac": lambda z: along}
+    beside = minimize(
+        surprise, best.x, jac=True, method="SLSQP", constraints=[off], options={"ftol": 1e-4}
+    )
+    assert beside.fun - best.fun == pytest.approx(0.5, abs=0.03 if placed else 0.01)
 
 
 @pytest.mark.slow
@@ -205,15 +206,15 @@ def test_depths_that_no_smooth_map_explains_are_noticed(depth):
     stripes = depth + 15 * NOISE * (-1.0) ** np.arange(depth.size)
     found = fit_maps(CASE, {"disk": (stripes, NOISE)}, {"disk": Prior(0.1, 300e-6)})
     assert found.p_value < 1e-6
-    assert any("no map that varies so smoothly" in note for note in found.notes)
+    assert [each.value for each in of_kind(found, "misfit")] == [found.chi_square]
 
 
 def test_an_even_coefficient_is_found_even_from_a_map_that_no_coarse_run_gives():
-    """Made on four times as many cells, whose means and whose edge are others."""
+    """Made on three times as many cells, whose means and whose edge are others."""
     ball = apply_settings(cheap(60), {"grid.cells": 24})
-    with Simulation(apply_settings(ball, {"grid.cells": 96})).run() as result:
+    with Simulation(apply_settings(ball, {"grid.cells": 72})).run() as result:
         fine = result.body("ball").wear_depth[-1]
-    depth = fine.reshape(24, 4, 24, 4).mean(axis=(1, 3))
+    depth = fine.reshape(24, 3, 24, 3).mean(axis=(1, 3))
     depth += NOISE * np.random.default_rng(6).standard_normal(depth.shape)
     found = fit_maps(ball, {"ball": (depth, NOISE)}, {"ball": Prior(0.3, 0.2e-3)})
     assert found.p_value > 0.01
@@ -263,22 +264,6 @@ def test_missing_pixels_leave_the_mean_of_a_cell_as_it_is(count):
     assert found[inner] == pytest.approx(whole[inner], abs=0.05)
     part = np.isfinite(pixels).reshape(16, count, 16, count).mean(axis=(1, 3))
     assert noise[known] == pytest.approx(part[known] ** -0.5)
-
-
-@pytest.mark.parametrize("pixels", [(16, 16), (200, 20), (20, 200)])
-@pytest.mark.parametrize("noise", [0.0, 0.3, 2.0])
-def test_a_track_that_lies_across_the_sliding_is_refused(pixels, noise):
-    """But none that is tilted, ends within the map, or is hardly seen."""
-    x, y = (np.linspace(-1, 1, n) for n in pixels)
-    groove = np.where(np.abs(x[:, None]) < 0.7, np.maximum(1 - (y / 0.3) ** 2, 0), 0.0)
-    shaken = noise * np.random.default_rng(0).standard_normal(pixels)
-    depth = 0.01 * (groove + 2 * x[:, None] + y + shaken)
-    sizes = 1 / pixels[0], 1 / pixels[1]
-    on_cells(Heights(depth, sizes), (1, 16), (1 / 16, 1 / 16))
-    whole = depth + 0.01 * (groove[pixels[0] // 2] - groove)
-    if noise < 1:
-        with pytest.raises(CaseError, match="its axes are swapped"):
-            on_cells(Heights(whole.T, sizes[::-1]), (1, 16), (1 / 16, 1 / 16))
 
 
 def test_a_cell_of_which_less_than_half_was_measured_is_left_out():

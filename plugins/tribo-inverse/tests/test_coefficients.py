@@ -51,6 +51,6 @@ def test_a_fit_stands_over_what_was_measured():
     fitted = next(line for line in figure.axes[0].lines if line.get_label() == "fitted")
     np.testing.assert_allclose(fitted.get_xdata(), [1.1, 1.0])
     labels = [text.get_text() for text in figure.axes[0].get_yticklabels()]
-    assert labels == ["ball: scar across", "long, disk: mass, 60 s"]
+    assert labels == ["ball, scar_across", "long: disk, mass at 60 s"]
     (limit,) = [each for each in figure.axes[0].lines if "below this limit" in each.get_label()]
     assert limit.get_xydata().tolist() == [[1.0, 0.0]]

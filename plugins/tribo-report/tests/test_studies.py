@@ -57,6 +57,7 @@ FIT = {
     "bic": 0.0,
     "left_out": [None],
     "notes": ["there are no more data than parameters"],
+    "findings": [{"kind": "untested", "words": "there are no more data than parameters"}],
     "fitted": {"": template("weighed_split")},
 }
 
@@ -154,6 +155,7 @@ def test_local_coefficients_are_told_with_their_fit(tmp_path):
         products=2,
         chi_square=3.0,
         degrees_of_freedom=1.5,
+        findings=(tribo.Finding("unknown", "one cell of four is unknown", 1.0, place="ball"),),
     )
     with (tmp_path / "maps.json").open("w") as file:
         file.write(json.dumps(maps_json(found, 0.95)).replace("NaN", "null"))
@@ -162,7 +164,7 @@ def test_local_coefficients_are_told_with_their_fit(tmp_path):
     assert "The coefficient of the ball is 0.50 to 1.20 times that of the case" in told
     assert "at 95 % it is lower in 33 % of these cells and higher in 0 %." in told
     page = path.read_text(encoding="utf-8")
-    assert "ball: the data say nothing of 1 cells" in page
+    assert "one cell of four is unknown" in page
     assert page.count("<figure") == 2
     assert not found.is_refuted
     assert replace(found, chi_square=30.0).is_refuted

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 import shlex
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
-from tribo import CaseError, Interrupted, TriboError
+from tribo import CaseError
 from tribo.kernel_api import (
     JSON,
     PATH,
@@ -34,9 +34,6 @@ from tribo_inverse.calibration.plan import Plan, plan_tests
 from tribo_inverse.tables import print_choice, print_fit, print_plan
 
 Shown = TypeVar("Shown", Calibration, Choice, Plan)
-
-PAUSE = 1.0
-"""Shortest time between two lines of progress of sampling, in s."""
 
 
 @click.command()
@@ -64,12 +61,6 @@ PAUSE = 1.0
     metavar="PART",
     help="Instead, print how many tests give intervals of ± this part, as 0.1.",
 )
-@click.option(
-    "--sample",
-    type=click.IntRange(min=1),
-    metavar="COUNT",
-    help="Check the intervals by this many further runs, sampled with emcee; as 2000.",
-)
 @JSON
 def calibrate(
     cases: tuple[Path, ...],
@@ -79,7 +70,6 @@ def calibrate(
     output: Path | None,
     force: bool,
     plan: float | None,
-    sample: int | None,
     as_json: bool,
 ) -> None:
     """Fit CASE's wear coefficients, or other numbers of it, to measured wear.
@@ -98,8 +88,6 @@ def calibrate(
     alternatives = {path.stem: apply_settings(read_toml(path), overrides) for path in cases}
     tables = alternatives[cases[0].stem]
     several = len(cases) > 1
-    if sample and (several or measurements.map or plan is not None):
-        raise CaseError("--sample is for one case fitted to [[measured]], without --plan")
     if measurements.map and (several or plan is not None):
         raise CaseError("local coefficients, [[map]], are fitted in one case, without --plan")
     if several and (output or plan is not None or len(alternatives) < len(cases)):
@@ -121,38 +109,9 @@ def calibrate(
         files = None if output is None else _Files.beside(output, measurements, force)
         settings = [word for each in overrides for word in ("--set", each)]
         again = shlex.join(["tribo", "run", str(cases[0]), *settings])
-        _fit_parameters(
-            tables, measurements, level, sample or 0, partial(_output, files, as_json, again)
-        )
-
-
-def _fit_parameters(
-    tables: dict[str, Any],
-    measurements: Measurements,
-    level: float,
-    sample: int,
-    output: Callable[[Calibration], None],
-) -> None:
-    """Fit parameters and output the result, also if sampling is interrupted."""
-    unsampled: list[Calibration] = []
-    progress = _Progress(measurements, sample, unsampled)
-    try:
-        found = fit_numbers(
-            tables,
-            measurements,
-            level=level,
-            sample=sample,
-            on_fit=unsampled.append,
-            on_run=progress,
-        )
-    except (TriboError, KeyboardInterrupt) as error:
-        for fit in unsampled:
-            note = "sampling was interrupted: the intervals are not checked by it"
-            output(replace(fit, notes=(*fit.notes, note)))
-            if isinstance(error, KeyboardInterrupt):
-                raise Interrupted("stopped while sampling; the fit is as printed") from error
-        raise
-    output(found)
+        progress = _Progress(measurements)
+        found = fit_numbers(tables, measurements, level=level, on_run=progress)
+        _output(files, as_json, again, found)
 
 
 def _fit_local(
@@ -257,34 +216,20 @@ class _Progress:
     """Print the number of runs, and the least time that is left.
 
     The time is estimated from the second round of runs on, as the first includes imports and
-    kernels. Sampling is included once it has begun, since it may be left out.
+    kernels.
     """
 
     def __init__(
-        self,
-        measurements: Measurements,
-        sample: int,
-        unsampled: Sequence[Calibration],
-        clock: Callable[[], float] = time.monotonic,
+        self, measurements: Measurements, clock: Callable[[], float] = time.monotonic
     ) -> None:
         tests = measurements.tests.values()
         measured = {entry.body for test in tests for entry in test.measured}
         cases = len({repr(test.set) for test in tests})
-        self._fit, self._sample = (
-            cases * (2 + (len(measurements.fit) or len(measured))),
-            cases * sample,
-        )
-        self._unsampled, self._clock = unsampled, clock
-        self._last, self._first, self._sampling = -math.inf, (0, 0.0), False
+        self._fewest = cases * (2 + (len(measurements.fit) or len(measured)))
+        self._clock, self._first = clock, (0, 0.0)
 
     def __call__(self, run: int, misfit: float) -> None:
-        now, sampling = self._clock(), bool(self._unsampled)
-        if self._last == -math.inf or sampling != self._sampling:
-            self._first, self._sampling = (run, now), sampling
-        if self._sample and now - self._last < PAUSE:
-            return
-        self._last = now
-        made, began = self._first
+        now = self._clock()
+        made, began = self._first = self._first if self._first[0] else (run, now)
         each = (now - began) / (run - made) if run > made else 0.0
-        fewest = self._unsampled[0].runs + self._sample if sampling else self._fit
-        _print_run("sampling, run" if sampling else "run", run, misfit, (fewest - run) * each)
+        _print_run("run", run, misfit, (self._fewest - run) * each)

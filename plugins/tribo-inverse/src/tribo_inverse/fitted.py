@@ -19,12 +19,12 @@ from tribo.kernel_api import (
     ticks,
 )
 
+from tribo_inverse.calibration.quantities import row_name
+
 FIT = 4.0
 """Height of a measured value in the picture of a fit, in mm."""
 NAME, PROFILE, MAP = 1.25, 42.0, 62.0
 """Width of a letter of its name, and heights of a profile and of a map, in mm."""
-NOWHERE = {"position_m": None}
-"""What stands for all places of a profile or map."""
 
 
 def fit_picture(data: pd.DataFrame, points: pd.DataFrame | None = None) -> Figure:
@@ -45,7 +45,7 @@ def fit_picture(data: pd.DataFrame, points: pd.DataFrame | None = None) -> Figur
     measured, computed = data["measured"].to_numpy(float), data["computed"].to_numpy(float)
     below = data.get("below", pd.Series(False, index=data.index)).to_numpy(bool)
     rows = np.arange(len(data))[::-1]
-    names = list(map(_measured_name, data.to_dict("records")))
+    names = list(map(row_name, data.itertuples()))
     with house_style():
         # Long names make the picture wider, not its axes narrower.
         room = NAME * max(map(len, names), default=0)
@@ -98,7 +98,7 @@ def _residuals(axes: Axes, rows: pd.DataFrame) -> None:
         places = 1e3 * part["x_m"], 1e3 * part["y_m"]
         marks = axes.scatter(*places, c=part["residual"], marker=mark, **look)
     axes.set_aspect("equal")
-    axes.set(xlabel="x (mm)", ylabel="y (mm)", title=_measured_name({**rows.iloc[0], **NOWHERE}))
+    axes.set(xlabel="x (mm)", ylabel="y (mm)", title=row_name(rows.iloc[0].drop("position_m")))
     axes.figure.colorbar(marks, ax=axes, label="fit − measured (deviations),\nsquares above 0")
 
 
@@ -110,20 +110,6 @@ def _profile(axes: Axes, rows: pd.DataFrame) -> None:
     )
     axes.plot(place, depths["computed"], color="#202020", linewidth=0.8)
     axes.invert_yaxis()
-    axes.set_title(_measured_name({**rows.iloc[0], **NOWHERE}))
+    axes.set_title(row_name(rows.iloc[0].drop("position_m")))
     axes.set_xlabel("Position (mm)")
     axes.set_ylabel("Depth (µm)")
-
-
-def _measured_name(row: dict[str, Any]) -> str:
-    """Return which test, body and quantity a measured value is of, when and where."""
-    test = row.get("test")
-    given = (row.get(key) for key in ("time_s", "position_m"))
-    time, place = (np.nan if value is None else float(value) for value in given)
-    words = f"{row['body']}: {str(row['quantity']).replace('_', ' ')}"
-    return (
-        (f"{test}, " if test else "")
-        + words
-        + (f", {time:g} s" if not np.isnan(time) else "")
-        + (f", {1e3 * place:g} mm" if not np.isnan(place) else "")
-    )

@@ -21,9 +21,9 @@ def tribo_commands() -> list[Command]:
 @hookimpl
 def tribo_findings(model: Model, half_width_x: float) -> list[Finding]:
     """Say which numbers of a case rule its answer."""
-    from tribo_inverse.adjoint.sensitivity import findings
+    from tribo_inverse.findings import of_case
 
-    return findings(model, half_width_x)
+    return of_case(model, half_width_x)
 
 
 @hookimpl

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 from rich.table import Table
-from tribo import CaseError
+from tribo import CaseError, Finding
 from tribo.kernel_api import Console, check_new, titled, write_file
 
 from tribo_inverse.calibration.maps import SILENT, FittedMaps, LocalMap
@@ -31,8 +31,8 @@ def maps_json(found: FittedMaps, level: float) -> dict[str, Any]:
         "degrees_of_freedom": found.degrees_of_freedom,
         "by_grid": found.by_grid,
         "p_value": found.p_value,
-        "remarks": found.remarks,
         "notes": found.notes,
+        "findings": [each._asdict() for each in found.findings],
         "maps": {
             name: {key: value.tolist() for key, value in _arrays(each, level).items()}
             for name, each in found.maps.items()
@@ -69,8 +69,8 @@ def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
     numbers = {key: found[key] for key in ("gradients", "products")}
     fit = {key: found[key] for key in ("chi_square", "degrees_of_freedom")}
     fit["by_grid"] = found.get("by_grid", 0.0)
-    remarks = tuple(found.get("remarks", ()))
-    return FittedMaps(maps=maps, **numbers, **fit, remarks=remarks), found["level"]
+    findings = tuple(Finding(**each) for each in found["findings"])
+    return FittedMaps(maps=maps, **numbers, **fit, findings=findings), found["level"]
 
 
 def maps_table(found: FittedMaps, level: float) -> Table:

@@ -7,16 +7,15 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from rich.markup import escape
 from rich.table import Table
 from tribo.kernel_api import Console, digits_of, signed, titled
 
 from tribo_inverse.calibration.calibrate import Calibration
 from tribo_inverse.calibration.choice import Choice
-from tribo_inverse.calibration.notes import bound
 from tribo_inverse.calibration.plan import Plan
-from tribo_inverse.calibration.quantities import in_si, in_words, p_words, percent
+from tribo_inverse.calibration.quantities import in_si, in_words, p_words, percent, row_name
+from tribo_inverse.findings import bound
 
 FAR = 10.0
 """Ratio of an interval's end to the value above which no percentage is printed."""
@@ -105,8 +104,6 @@ def estimates_table(found: Calibration) -> Table:
     """Return the parameters with their intervals."""
     names, level = list(found.parameters["path"]), f"{100 * found.level:g} % interval"
     columns = ["estimate", level, "relative"]
-    if is_sampled := "sampled_lower" in found.parameters:
-        columns.append("sampled interval")
     table = _table(f"Fitted in {found.runs} runs", names, *columns)
     for each in found.parameters.itertuples():
         digits = digits_of(each.lower, each.upper)
@@ -118,10 +115,7 @@ def estimates_table(found: Calibration) -> Table:
             value, ends = f"below {in_si(each.upper, each.unit)}", "upper bound"
         if each.held or each.limited or math.isinf(each.upper):
             relative = ""
-        more = []
-        if is_sampled:
-            more = [f"{each.sampled_lower:.{digits}g} to {each.sampled_upper:.{digits}g}"]
-        table.add_row(each.path, value, ends, relative, *more)
+        table.add_row(each.path, value, ends, relative)
     return table
 
 
@@ -143,7 +137,7 @@ def data_table(found: Calibration) -> Table:
 
 def predictions_table(found: Calibration) -> Table:
     """Return the predictions of the fitted case."""
-    names = [_name(each) for each in found.predictions.itertuples()]
+    names = [row_name(each) for each in found.predictions.itertuples()]
     level = f"{100 * found.level:g} % interval"
     table = _table("Not measured, at the end", names, "computed", level, "relative")
     for name, each in zip(names, found.predictions.itertuples(), strict=True):
@@ -188,21 +182,12 @@ def _known(singular_value: float) -> str:
 
 
 def _name(row: Any) -> str:
-    """Return the name of a row of the data or of the predictions."""
-    text = f"{row.body}, {row.quantity}"
-    if getattr(row, "test", ""):
-        text = f"{row.test}: {text}"
-    if pd.notna(getattr(row, "time_s", None)):
-        text += f" at {row.time_s:g} s"
-    if pd.notna(getattr(row, "position_m", None)):
-        text += f" at {1e3 * row.position_m:g} mm"
-    if getattr(row, "depths", 1) > 1:
-        text += ", mean"
-        shift = [getattr(row, f"shift_{axis}_m", 0.0) for axis in "xy"]
-        if any(np.nan_to_num(shift)):
-            far = (signed(1e6 * each, 1) for each in shift)
-            text += f", off centre by {' and '.join(far)} µm"
-    return text
+    """Return the name of a row of the data, with the shift of a map's scar."""
+    if row.depths == 1:
+        return row_name(row)
+    shift = np.nan_to_num([getattr(row, f"shift_{axis}_m", 0.0) for axis in "xy"])
+    far = " and ".join(signed(1e6 * each, 1) for each in shift)
+    return f"{row_name(row)}, mean{f', off centre by {far} µm' if any(shift) else ''}"
 
 
 def _interval(row: Any, low: str, high: str) -> tuple[str, str]:

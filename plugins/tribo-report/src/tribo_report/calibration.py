@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from tribo import CaseError
+from tribo import CaseError, Finding
 from tribo.kernel_api import (
     case_tables,
     digits_of,
@@ -22,8 +22,8 @@ from tribo.kernel_api import (
     validate_case,
 )
 from tribo_inverse.calibration.calibrate import DATA, Calibration
-from tribo_inverse.calibration.notes import UNLIKELY, bound
 from tribo_inverse.calibration.quantities import in_si, p_words
+from tribo_inverse.findings import UNLIKELY, bound
 from tribo_inverse.fitted import fit_picture
 from tribo_inverse.map_tables import read_maps
 from tribo_inverse.tables import data_table, estimates_table, fit_sentences, predictions_table
@@ -63,11 +63,12 @@ def _read(found: dict[str, Any]) -> Calibration:
     missing = {*DATA} - {*tables["data"]}
     if missing:
         raise ValueError(f"it has no {', '.join(sorted(missing))}")
-    del found["p_value"]
+    for name in ("p_value", "notes"):
+        del found[name]
     for name in ("correlation", "singular_values", "left_out"):
         found[name] = np.array(found[name], dtype=float)
     found["fitted"] = {name: tomllib.loads(text) for name, text in found.get("fitted", {}).items()}
-    found["notes"] = tuple(found["notes"])
+    found["findings"] = tuple(Finding(**each) for each in found["findings"])
     return Calibration(**tables, **found)
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from tribo import CaseError, Finding, NumericalError
+from tribo import CaseError, NumericalError
 from tribo.kernel_api import MARGINS, Model, OverTime, coarsened, limited
 
 from tribo_inverse.adjoint.gradient import gradient
@@ -19,10 +19,6 @@ An error of first order in the size of a cell is as large on the finer grid as t
 """
 LEAST = 0.005
 """Per cent for one per cent, below which a number is left out."""
-
-MOST = 8
-"""Numbers that are shown."""
-KIND = "sensitivity"
 
 Answer = Literal["depth", "end_time"]
 
@@ -51,16 +47,6 @@ class Sensitivity:
     percent: dict[str, float]
     uncertainty: dict[str, float]
     cells: tuple[tuple[int, int], tuple[int, int]]
-
-    @property
-    def whence(self) -> str:
-        """The grids, in words."""
-        coarse, fine = (" × ".join(map(str, cells)) for cells in self.cells)
-        return f"a run on {fine} cells; ±: its difference from one on {coarse}"
-
-    def shown(self, path: str) -> str:
-        """Return the change for one per cent of a number, in words."""
-        return f"{self.percent[path]:+.2f} ± {self.uncertainty[path]:.2f} %"
 
 
 def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
@@ -139,23 +125,3 @@ def _asked(view: View) -> tuple[str, Answer]:
     if state.time < model.end_time:
         return model.case.stop.body or deepest, "end_time"
     return deepest, "depth"
-
-
-def findings(model: Model, half_width_x: float) -> list[Finding]:
-    """Return the `MOST` numbers that rule a case, as what `tribo check` and a report say of it."""
-    try:
-        found = sensitivity(model, half_width_x)
-    except (CaseError, NumericalError) as error:
-        return [Finding(KIND, f"not known, since {error}")]
-    depth, time = f"depth of {found.body}", f"time until {found.body} reaches stop.depth"
-    what = depth if found.of == "depth" else time
-    return [
-        Finding(
-            KIND,
-            f"{what} {found.shown(path)} for 1 % more",
-            value=percent,
-            uncertainty=found.uncertainty[path],
-            place=path,
-        )
-        for path, percent in [*found.percent.items()][:MOST]
-    ]

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 from scipy.special import chdtrc
-from tribo import Array, Case, CaseError, NumericalError
+from tribo import Array, Case, CaseError, Finding, NumericalError
 from tribo.kernel_api import OutOfWindow, apply_settings, to_toml
 
-from tribo_inverse.calibration.doubts import doubts, far_off
+from tribo_inverse.calibration.exactness import check_sizes
 from tribo_inverse.calibration.experiment import Experiment
 from tribo_inverse.calibration.fit import (
     NO_EFFECT,
@@ -24,18 +24,15 @@ from tribo_inverse.calibration.fit import (
     limit,
     steps,
 )
-from tribo_inverse.calibration.linearised import Linearised, Problem, Weights, root_covariance
-from tribo_inverse.calibration.map_notes import map_notes
+from tribo_inverse.calibration.linearised import Linearised, Weights, root_covariance
 from tribo_inverse.calibration.measured import Measurements
-from tribo_inverse.calibration.notes import disagrees, notes
 from tribo_inverse.calibration.predictions import predicted
 from tribo_inverse.calibration.quantities import (
     DEPTH_MAP,
     FIELDS,
     plain,
 )
-from tribo_inverse.calibration.sample import check_sampling, sampled
-from tribo_inverse.calibration.unfitted import explanations, odd_numbers
+from tribo_inverse.findings import named, of_fit, off_level, off_middle
 
 DATA = ["test", "body", "quantity", "time_s", "position_m", "place", "unit"]
 DATA += ["measured", "below", "sigma", "computed", "residual"]
@@ -62,8 +59,7 @@ class Calibration:
     variance due to the resolution of instruments; `resolution_limit`, its largest error due to the
     resolution, relative to `value`; `held`, whether it lies on one of its bounds, which are then
     `lower` and `upper`; `limited`, whether only limits of detection depend on it, so that only
-    `upper` is known; `sampled_lower` and `sampled_upper`, if the intervals were sampled.
-    """
+    `upper` is known."""
     data: pd.DataFrame
     """One row per measured value: `test`, empty for the case as it is; `body`, `quantity`,
     `time_s`, `position_m` on a profile, `place`, its entry in the file, `unit`, `measured`,
@@ -97,13 +93,18 @@ class Calibration:
     left_out: Array
     """Log-likelihood of each test predicted from all others; NaN if these do not determine a
     parameter."""
-    notes: tuple[str, ...]
-    """Notes on the data, the fit and the model."""
+    findings: tuple[Finding, ...]
+    """What is to be known of the data, the fit and the model."""
 
     @property
     def settings(self) -> dict[str, float]:
         """The estimates by path, as `tribo.config.overrides.apply_settings` takes them."""
         return {each.path: each.value for each in self.parameters.itertuples()}
+
+    @property
+    def notes(self) -> list[str]:
+        """The findings in words."""
+        return [each.words for each in self.findings]
 
     @property
     def brief(self) -> pd.DataFrame:
@@ -132,7 +133,9 @@ class Calibration:
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data in SI units, the fitted cases as TOML; NaN stands for none."""
         fitted = {name: to_toml(tables) for name, tables in self.fitted.items()}
-        return plain(self) | {"p_value": self.p_value, "fitted": fitted}
+        findings = [each._asdict() for each in self.findings]
+        more = {"p_value": self.p_value, "fitted": fitted, "notes": self.notes}
+        return plain(self) | more | {"findings": findings}
 
 
 def calibrate(
@@ -140,8 +143,6 @@ def calibrate(
     measured: Measurements | Mapping[str, Any] | str | Path,
     *,
     level: float = 0.95,
-    sample: int = 0,
-    on_fit: Callable[[Calibration], object] = lambda fit: None,
     on_run: Callable[[int, float], object] = lambda run, misfit: None,
 ) -> Calibration:
     """Fit parameters of a case to wear measured in one or more tests.
@@ -157,11 +158,6 @@ def calibrate(
         Measured values of the case or of other tests, and the parameters to fit; or a TOML file.
     level : float, optional
         Confidence level of the intervals.
-    sample : int, optional
-        Number of further runs of each test's case that sample the posterior, with emcee, to check
-        the intervals.
-    on_fit : callable, optional
-        Called with the fit before sampling, which takes long and may be interrupted.
     on_run : callable, optional
         Called after each round of runs with the number of runs and their χ²; NaN where it is not
         the least so far.
@@ -191,15 +187,13 @@ def calibrate(
             f"{len(experiment.parameters)} parameters cannot be fitted to {count} measured "
             f"value{'' if count == 1 else 's'}: measure more, or leave parameters out of fit"
         )
-    if sample:
-        check_sampling(sample, len(experiment.parameters))
     try:
         experiment = experiment.centred(experiment.start)
         first = experiment.run(experiment.start).responses
     except OutOfWindow as error:
         paths = " and ".join(p.path for p in experiment.parameters)
         raise NumericalError(f"give a start of {paths} in fit that is nearer; {error}") from error
-    far = far_off(experiment.data, first, experiment.parameters)
+    check_sizes(experiment.data, first, experiment.parameters)
     # Correlated errors of a map scale with its depth, which is known near the estimate only.
     problem = experiment.problem(experiment.start).without_common()
 
@@ -216,7 +210,12 @@ def calibrate(
         return found
 
     try:
-        fitted, unsettled = _first_fit(responses, problem, experiment.start)
+        unsettled: Unsettled | None = None
+        try:
+            fitted = fit(responses, problem, experiment.start)
+        except Unsettled as error:
+            # The uncertainties at the start may be too far off to settle it.
+            fitted, unsettled = error.last, error
         estimate, before = np.exp(fitted.point), problem.sigma
         experiment = experiment.centred(estimate)
         problem = experiment.problem(estimate)
@@ -226,32 +225,13 @@ def calibrate(
         elif unsettled:
             raise unsettled
     except (CaseError, NumericalError) as error:
-        words = [*doubts(experiment, error), str(error)]
-        if far:
-            words.append(f"or is a measured value off? {'; '.join(far)}")
-        if len(words) == 1:
+        if all(setup.model.case.stop.depth is None for setup in experiment.setups):
             raise
-        raise type(error)("; ".join(words)) from error
-    found = _outcome(fitted, experiment, level)
-    if not sample:
-        return found
-    on_fit(found)
-    parameters, note = sampled(responses, fitted, found.parameters, sample, level)
-    return replace(
-        found, runs=experiment.run_count, parameters=parameters, notes=(*found.notes, note)
-    )
-
-
-def _first_fit(
-    model: Callable[[Array], Array], problem: Problem, start: Array
-) -> tuple[Linearised, Unsettled | None]:
-    """Return the fit by the uncertainties at the start, which may be too far off to settle it."""
-    try:
-        return fit(model, problem, start), None
-    except Unsettled as error:
-        if error.stalled is None:
-            raise
-        return error.stalled, error
+        words = (
+            "leave out stop.depth: it ends the run at different times for different coefficients"
+        )
+        raise type(error)(f"{words}; {error}") from error
+    return _outcome(fitted, experiment, level)
 
 
 def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibration:
@@ -281,11 +261,9 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
     freedom = max(int(np.sum(~problem.below)) - int(np.sum(determined & ~held)) - moved, 0)
     predictions = predicted(fitted, experiment, estimates, level)
     scatters = problem.repeatability is None
-    disagree = not scatters and disagrees(chi_square, freedom)
-    tried, explained = explanations(fitted, experiment, freedom) if disagree else (0, "")
     return Calibration(
         level=level,
-        runs=experiment.run_count + tried,
+        runs=experiment.run_count,
         parameters=estimates,
         data=data[DATA + PLACE if "x_m" in data else DATA],
         predictions=predictions,
@@ -298,20 +276,25 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
         bic=fitted.deviance(fitted.point) + (len(held) + scatters) * math.log(len(data)),
         left_out=fitted.left_out(),
-        notes=(
-            *map_notes(fitted, experiment),
-            *notes(
-                estimates,
-                data,
-                jacobian,
-                None if scatters else freedom,
-                min(setup.model.grid.cells[1] for setup in experiment.setups),
-                explained,
-            ),
-            *(odd_numbers(experiment) if disagree else ()),
-            *last.notices,
+        findings=(
+            *_of_places(experiment, last.maps),
+            *of_fit(estimates, data, jacobian, None if scatters else freedom),
+            *(Finding("run", notice) for notice in last.notices),
         ),
     )
+
+
+def _of_places(experiment: Experiment, depths: Mapping[int, Array]) -> Iterator[Finding]:
+    """Report maps off their middle or not levelled."""
+    for reading, depth in depths.items():
+        row, found = experiment.table.loc[reading], experiment.shifts[reading]
+        where = named(row), row["place"]
+        for axis, (shift, sigma) in enumerate(zip(*found, strict=True)):
+            if shift:
+                yield off_middle(*where, axis, shift, sigma)
+        yield from off_level(
+            *where, experiment.on_cells(reading, found.shift)[0], depth, row["sigma"]
+        )
 
 
 def _estimates(

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from scipy.ndimage import binary_opening, correlate1d
 from tribo import Array, CaseError, Heights, read_heights
-from tribo.kernel_api import Mask, Model, located
+from tribo.kernel_api import Model, located
 
 ROUNDING = 1e-6
 """Relative rounding of pixel pitch and cell size."""
@@ -18,9 +18,6 @@ HOLES = 0.05
 """Part of a cell that may lie in holes of 3 × 3 pixels or more."""
 MOST_BLOCKS = 600
 """Blocks that a map is averaged over where a few parameters are fitted to it."""
-SWAPPED = 3.0
-"""Ratio of the unevenness along a track to that across it, each in units of its noise, above which
-the axes of a map are swapped."""
 
 
 def read_map(file: str, pitch: float | None, place: str) -> Heights:
@@ -103,11 +100,6 @@ def on_cells(
     # Along a track all is alike, so that nothing need be interpolated.
     used = known if averaged else np.ones(known.shape)
     pixels = np.where(used, heights.filled, 0.0)
-    if averaged and _has_swapped_axes(pixels, known):
-        raise CaseError(
-            "it is uneven along x, the sliding direction, and even across it, but a track is even "
-            "along x: its axes are swapped; x goes from row to row of the map, y along each"
-        )
     # A cell takes parts of pixels: linear interpolation gives the mean of each part.
     slopes = [np.where(used, slope, 0.0) for slope in np.gradient(heights.filled)]
     (in_x, offset_x), (in_y, offset_y) = (
@@ -136,24 +128,6 @@ def on_cells(
             f"{1e6 * heights.pitch[0]:g} × {1e6 * heights.pitch[1]:g} µm"
         )
     return found, np.sqrt(cell[0] * cell[1] / np.where(enough, measured, cell[0] * cell[1]))
-
-
-def _has_swapped_axes(depth: Array, known: Mask) -> bool:
-    """Whether a map, with its tilt removed, is uneven along x and even across it."""
-    plane = np.stack([*np.nonzero(known), np.ones(np.sum(known))], axis=1)
-    level = np.zeros(depth.shape)
-    level[known] = depth[known] - plane @ np.linalg.lstsq(plane, depth[known], rcond=None)[0]
-    uneven, noise = [], []
-    for axis in (0, 1):
-        count = np.sum(known, axis=1 - axis)
-        there = count >= 0.5 * depth.shape[1 - axis]
-        if not np.any(there):
-            return False
-        means = np.sum(level, axis=1 - axis) / np.maximum(count, 1)
-        uneven.append(np.std(means[there]))
-        within = (level - np.expand_dims(means, 1 - axis))[known]
-        noise.append(np.std(within) / np.mean(count[there]) ** 0.5)
-    return bool(uneven[0] * noise[1] > SWAPPED * uneven[1] * noise[0])
 
 
 def _overlaps(

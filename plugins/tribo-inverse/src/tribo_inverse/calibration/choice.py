@@ -10,15 +10,14 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from tribo import Case, CaseError
+from tribo import Case, CaseError, Finding
 from tribo.kernel_api import about, case_tables, validate_case
 
 from tribo_inverse.calibration.calibrate import Calibration, calibrate
 from tribo_inverse.calibration.experiment import Experiment
 from tribo_inverse.calibration.measured import Measurements, read_measurements
-from tribo_inverse.calibration.notes import UNLIKELY
 from tribo_inverse.calibration.parameters import is_number
-from tribo_inverse.calibration.quantities import in_words, p_words, percent
+from tribo_inverse.findings import chosen, undecided
 
 STRONG = 6.0
 """Difference of the criterion from which on evidence is strong (Kass & Raftery)."""
@@ -39,14 +38,19 @@ class Choice:
     these do not determine a parameter; `parameters`, their number."""
     calibrations: Mapping[str, Calibration]
     """By the name of the case."""
-    verdict: str
-    """The result in a sentence."""
+    finding: Finding
+    """Which case the data speak for, or that they cannot tell."""
+
+    @property
+    def verdict(self) -> str:
+        """The finding in words."""
+        return self.finding.words
 
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data in SI units; NaN stands for none."""
         own = [self.calibrations[name].as_json() for name in self.cases["case"]]
         cases = self.cases.assign(calibration=own).to_dict("records")
-        return {"verdict": self.verdict, "cases": cases}
+        return {"verdict": self.verdict, "findings": [self.finding._asdict()], "cases": cases}
 
 
 def choose_case(
@@ -98,7 +102,7 @@ def choose_case(
     ).sort_values("bic", ignore_index=True)
     weight = np.exp(-0.5 * (rows["bic"] - rows["bic"].min()))
     rows.insert(2, "weight", weight / weight.sum())
-    return Choice(rows, found, _verdict(rows, found))
+    return Choice(rows, found, _decided(rows, found))
 
 
 def _measurements_of_each(
@@ -119,36 +123,26 @@ def _measurements_of_each(
     return {name: measurements.model_copy(update={"fit": fit}) for name, fit in fits.items()}
 
 
-def _verdict(rows: pd.DataFrame, found: Mapping[str, Calibration]) -> str:
+def _decided(rows: pd.DataFrame, found: Mapping[str, Calibration]) -> Finding:
+    """Return the finding; a case that predicts left-out tests worse than another is not chosen."""
     best, *others = rows.itertuples()
-    doubts = []
+    rivals = {}
     for other in others:
         by = other.bic - best.bic
         ahead = found[best.case].left_out - found[other.case].left_out
         error = float(np.std(ahead, ddof=1) * len(ahead) ** 0.5) if len(ahead) > 1 else np.inf
         # NaN, where a test alone determines a parameter, does not reject.
-        rejected = bool(np.sum(ahead) < -_SIGNIFICANT * error)
-        if by < STRONG or rejected:
-            doubts.append((other.case, by))
-    if not doubts:
-        by = others[0].bic - best.bic
-        verdict = (
-            f"the data speak for {best.case}: Schwarz's criterion is lower by {by:.3g} or more"
-        )
-        p_value = found[best.case].p_value
-        if p_value is not None and p_value < UNLIKELY:
-            verdict += f"; yet {best.case} does not describe them either ({p_words(p_value)})"
-        return verdict
-    names = " and ".join([best.case, *(name for name, _ in doubts)])
-    differs = ", ".join(f"{by:.2g}" for _, by in doubts)
-    return (
-        f"these data cannot tell {names} apart: Schwarz's criterion differs by {differs}, where "
-        f"{STRONG:g} is strong evidence{_next_quantity(found, best.case, doubts[0][0])}"
+        if by < STRONG or bool(np.sum(ahead) < -_SIGNIFICANT * error):
+            rivals[other.case] = by
+    if not rivals:
+        return chosen(best.case, others[0].bic - best.bic, STRONG, found[best.case].p_value)
+    return undecided(
+        best.case, rivals, STRONG, _next_quantity(found, best.case, next(iter(rivals)))
     )
 
 
-def _next_quantity(found: Mapping[str, Calibration], first: str, second: str) -> str:
-    """Name the unmeasured quantity in which two cases differ most, for the next test."""
+def _next_quantity(found: Mapping[str, Calibration], first: str, second: str) -> Any:
+    """Return the unmeasured quantity in which two cases differ most, for the next test."""
     keys = ["test", "body", "quantity"]
     both = found[first].predictions.merge(found[second].predictions, on=keys)
     both["ratio"] = both["value_x"] / both["value_y"]
@@ -161,12 +155,4 @@ def _next_quantity(found: Mapping[str, Calibration], first: str, second: str) ->
         return not np.any(np.abs(own["ratio"] / row.ratio - 1) < SAME)
 
     both = both[[is_new(row) for row in both.itertuples()]]
-    if not len(both):
-        return ""
-    each = both.loc[np.abs(np.log(both["ratio"])).idxmax()]
-    where = f" in {each.test}" if each.test else ""
-    values = [in_words(each.quantity, value) for value in (each.value_x, each.value_y)]
-    return (
-        f"; of what was not measured they differ most in the {each.quantity} of {each.body!r}"
-        f"{where}: {values[0]} and {values[1]}, {percent(abs(each.ratio - 1))} % apart"
-    )
+    return both.loc[np.abs(np.log(both["ratio"])).idxmax()] if len(both) else None

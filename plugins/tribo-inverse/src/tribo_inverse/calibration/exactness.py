@@ -1,17 +1,25 @@
-"""How exactly values were measured."""
+"""Measured values that cannot be right, and how exactly they were measured."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 import numpy as np
+import pandas as pd
 from tribo import Array, CaseError
 from tribo.kernel_api import number
 
-from tribo_inverse.calibration.quantities import FIELDS, in_words
+from tribo_inverse.calibration.quantities import FIELDS, in_si, in_words
 
-MOST_UNCERTAINTY = 1e4
-"""Largest relative uncertainty of a number: more is a wrong unit."""
+if TYPE_CHECKING:
+    from tribo_inverse.calibration.parameters import Parameter
+
 LEAST_UNCERTAINTY = 1e-6
 """Smallest relative uncertainty."""
+REFUSED = 300.0
+"""Factor between measured and computed values from which on they are refused: a wrong prefix of a
+unit makes 1000."""
 _SIGNIFICANT = 3.0
 """Standard deviations by which a mean depth below 0 is not noise."""
 
@@ -43,11 +51,6 @@ def data_error(quantity: str, sigma: Array | float, values: Array) -> str:
             f"{in_words(quantity, float(values[worst]))}: no run is that exact; check the "
             "uncertainty, and the units of both"
         )
-    if quantity not in FIELDS and np.all(each > MOST_UNCERTAINTY * np.abs(values)):
-        return (
-            f"known to {in_words(quantity, float(each[0]))}, over {MOST_UNCERTAINTY:g} times "
-            f"{in_words(quantity, float(values[0]))}: check the uncertainty, and the units of both"
-        )
     mean = float(np.mean(values))
     if not mean < -_SIGNIFICANT * np.max(each) / np.sqrt(len(values)):
         return ""
@@ -55,3 +58,22 @@ def data_error(quantity: str, sigma: Array | float, values: Array) -> str:
         f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards from "
         "the unworn surface, positive where it is worn: turn the sign round, or level them"
     )
+
+
+def check_sizes(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> None:
+    """Refuse entries that differ from the first run by a factor above 300, with a line for each."""
+    given = ", ".join(f"{p.path} = {in_si(p.start, p.unit)}" for p in parameters)
+    sizes = data[["unit", "sigma", "below"]].assign(
+        value=data["measured"].abs(), own=np.abs(computed[: len(data)])
+    )
+    refused = [
+        f"{place} was read as {in_si(value, unit)}, and the case gives {in_si(own, unit)} with "
+        f"{given}: check the value and its unit, or give a start in fit that is nearer to it"
+        for place, unit, sigma, below, value, own in (
+            sizes.groupby(data["place"], sort=False).max().itertuples()
+        )
+        # A value below its uncertainty is only an upper limit.
+        if own > REFUSED * max(value, sigma) or (value > REFUSED * own > 0 and not below)
+    ]
+    if refused:
+        raise CaseError("\n".join(refused))

@@ -57,9 +57,9 @@ WITHOUT_PROGRESS, MOST_WITHOUT_PROGRESS = 2, 4
 
 
 class Unsettled(NumericalError):
-    """A fit does not converge; `stalled` is its last model, whose χ² no longer fell."""
+    """A fit does not converge; `last` is its last model."""
 
-    stalled: Linearised | None = None
+    last: Linearised
 
 
 def fit(
@@ -119,7 +119,7 @@ def fit(
         f"and computed values still change by {change:.2g} of their uncertainty; refine "
         "grid.cells, lower stepping.depth_tolerance, start nearer, or state larger uncertainties"
     )
-    unsettled.stalled = here if without_progress == MOST_WITHOUT_PROGRESS else None
+    unsettled.last = here
     raise unsettled
 
 
@@ -256,11 +256,6 @@ def check_effect(here: Linearised) -> None:
     sigma = here.problem.sigma[:, None]
     effects = np.max(np.abs(here.effects(here.point) / sigma), axis=0)
     for name, effect in zip(here.problem.names, effects, strict=True):
-        if effect == 0:
-            raise CaseError(
-                f"the measured values do not depend on {name}; leave it out of fit, or measure "
-                "something that depends on it"
-            )
         if effect < NO_EFFECT:
             raise CaseError(
                 f"a change of {name} by a factor e changes the measured values by {effect:.1g} of "

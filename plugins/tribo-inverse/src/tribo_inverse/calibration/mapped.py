@@ -9,28 +9,21 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from tribo import Array, Case, CaseError, NumericalError, Simulation
+from tribo import Array, Case, CaseError, Finding, NumericalError, Simulation
 from tribo.kernel_api import begin, case_tables, located, march, unknown_body, validate_case
 
 from tribo_inverse.adjoint.objective import View
 from tribo_inverse.calibration.cells import on_cells, read_map
-from tribo_inverse.calibration.doubts import REFUSED
 from tribo_inverse.calibration.exactness import data_error
-from tribo_inverse.calibration.map_notes import SIGNIFICANT, off_level, off_middle, off_turn
 from tribo_inverse.calibration.maps import FittedMaps, fit_maps
 from tribo_inverse.calibration.measured import MapEntry
 from tribo_inverse.calibration.prior import Prior
-from tribo_inverse.calibration.quantities import DEPTH_MAP, in_si
+from tribo_inverse.calibration.quantities import DEPTH_MAP
 from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes
+from tribo_inverse.findings import SIGNIFICANT, off_level, off_middle
 
 FAR = 2.0
 """Standard deviations of the prior by which the mean coefficient may be off."""
-BY_GRID = 0.1
-"""Relative difference of volumes that the grid may make."""
-LEAST = 0.7
-"""Part of the case's largest depth where it was measured, below which volumes are not compared."""
-LONGEST = 20.0
-"""Correlation length over the window from which on the coefficient would be one number."""
 
 
 def calibrate_maps(
@@ -55,24 +48,10 @@ def calibrate_maps(
         spacing, worn = model.grid.spacing, clean.wear(entry.body)
         if entry.body not in model.laws.wear or not np.any(worn):
             raise CaseError(f"{entry.body!r} does not wear in this case", f"{place}.body")
-        deepest = float(np.max(worn))
-        if entry.uncertainty > REFUSED * deepest:
-            raise CaseError(
-                f"{in_si(entry.uncertainty, 'm')} is over {REFUSED:g} times the largest depth of "
-                f"the case, {in_si(deepest, 'm')}: check its unit, and the case",
-                f"{place}.uncertainty",
-            )
         if entry.length < min(spacing):
             raise CaseError(
                 f"{1e6 * entry.length:.3g} µm is less than a cell, {1e6 * min(spacing):.3g} µm: "
                 "raise grid.cells or length",
-                f"{place}.length",
-            )
-        if entry.length > LONGEST * max(model.grid.size):
-            raise CaseError(
-                f"{in_si(entry.length, 'm')} is over {LONGEST:g} times the window, "
-                f"{in_si(max(model.grid.size), 'm')}: check its unit, or fit one coefficient to a "
-                "depth_map in [[measured]]",
                 f"{place}.length",
             )
         heights = read_map(entry.depth, entry.pitch, place)
@@ -82,38 +61,37 @@ def calibrate_maps(
                 shift = find_shift(heights, worn, spacing, entry.uncertainty)
                 far = [PRIOR_SHIFT * size for size in model.grid.size]
             depth, noise = on_cells(heights, worn.shape, spacing, shift.shift)
-            _check(depth[np.isfinite(depth)], entry.uncertainty, deepest)
+            if error := data_error(DEPTH_MAP, entry.uncertainty, depth[np.isfinite(depth)]):
+                raise CaseError(error)
+            _check_volume(entry, depth, worn)
         depths[entry.body], placed[entry.body] = (depth, entry.uncertainty * noise), far
         priors[entry.body] = Prior(entry.spread, entry.length)
         read.append(_Read(place, entry, depth, worn, shift.shift))
-    doubts = [doubt for each in read for doubt in each.doubts()]
-    for each in read:
-        each.check_volume()
     try:
         found = fit_maps(model, depths, priors, placed=placed, on_run=on_run)
     except NumericalError as error:
-        words = "check the maps' pitch, level and uncertainty, and the coefficients of the case"
         raise type(error)(
-            "the fit went too far from the case to be computed: "
-            f"{'; '.join(doubts) if doubts else words}; {error}"
+            "the fit went too far from the case to be computed: check the maps' pitch, level and "
+            f"uncertainty, and the coefficients of the case; {error}"
         ) from error
-    places = [
-        place
-        for each in read
-        for place in each.off_middle(found.maps[each.entry.body].off, model.grid.spacing)
-    ]
-    return replace(found, remarks=(*places, *doubts, *map(str, last.state.notices)))
+    more = [Finding("run", str(notice)) for notice in last.state.notices]
+    for each in read:
+        more += each.findings(found.maps[each.entry.body].off, model.grid.spacing)
+    return replace(found, findings=(*found.findings, *more))
 
 
-def _check(depths: Array, sigma: float, worn: float) -> None:
-    """Check that measured depths may be those of the case, whose largest is `worn`."""
-    if error := data_error(DEPTH_MAP, sigma, depths):
-        raise CaseError(error)
-    largest = float(np.max(depths))
-    if not worn / REFUSED < max(largest, sigma) < worn * REFUSED:
+def _check_volume(entry: MapEntry, depth: Array, worn: Array) -> None:
+    """Refuse a loss further from the case's than two standard deviations of the prior."""
+    known = np.isfinite(depth) & (worn > 0)
+    lost, own = float(np.sum(depth[known])), float(np.sum(worn[known]))
+    noise = SIGNIFICANT * entry.uncertainty * float(np.sum(known)) ** 0.5
+    far = math.exp(FAR * entry.spread)
+    if not (lost + noise > own / far and lost - noise < own * far):
+        times = f"{lost / own:.3g} times" if lost > noise else "none of"
         raise CaseError(
-            f"the largest depth was read as {in_si(largest, 'm')}, and the case gives "
-            f"{in_si(worn, 'm')}: check the file, which has depths in m, and the case"
+            f"it has {times} the volume that the case wears there, which a spread of "
+            f"{entry.spread:g} does not allow for: check the map, or first fit the case's k to "
+            "it, as a depth_map in [[measured]]"
         )
 
 
@@ -126,42 +104,18 @@ class _Read(NamedTuple):
     worn: Array
     shift: tuple[float, float]
 
-    @property
-    def name(self) -> str:
-        """The map in words."""
-        return f"the map of {self.entry.body!r}"
-
-    def off_middle(self, off: Sequence[float], spacing: tuple[float, float]) -> Iterator[str]:
-        """Name a map that is off the middle of the contact, further `off` in m."""
-        along, shift = slopes(self.worn, spacing), [0.0, 0.0]
+    def findings(self, off: Sequence[float], spacing: tuple[float, float]) -> Iterator[Finding]:
+        """Report a map further `off` the middle, in m, than its noise hides, or not levelled."""
+        name, along, shift = (
+            f"map of {self.entry.body!r}",
+            slopes(self.worn, spacing),
+            [*self.shift],
+        )
         for axis, further in zip(along, off, strict=True):
-            shift[axis] = self.shift[axis] + further
+            shift[axis] += further
         moved = sum(shift[axis] * slope for axis, slope in along.items())
         if np.std(np.asarray(moved)[self.worn > 0]) > self.entry.uncertainty:
-            for note in off_middle(self.name, ScarShift((shift[0], shift[1]))):
-                yield f"{note}, as far as a coefficient that differs from side to side lets it tell"
-
-    def doubts(self) -> Iterator[str]:
-        """Name a map that is not levelled or turned."""
-        yield from off_level(self.name, self.depth, self.worn, self.entry.uncertainty)
-        yield from off_turn(self.name, self.depth, self.worn)
-
-    def check_volume(self) -> None:
-        """Refuse a loss that is far from the case's, where the prior has the coefficient.
-
-        Not that of a scar's rim alone, which follows its width.
-        """
-        known = np.isfinite(self.depth) & (self.worn > 0)
-        lost, own = float(np.sum(self.depth[known])), float(np.sum(self.worn[known]))
-        noise = SIGNIFICANT * self.entry.uncertainty * float(np.sum(known)) ** 0.5
-        far = math.exp(FAR * self.entry.spread + BY_GRID)
-        if np.max(self.worn[known], initial=0.0) < LEAST * np.max(self.worn):
-            return
-        if not (lost + noise > own / far and lost - noise < own * far):
-            fit = "check the map, or first fit the case's k to it, as a depth_map in [[measured]]"
-            times = f"{lost / own:.3g} times" if lost > noise else "none of"
-            raise CaseError(
-                f"it has {times} the volume that the case wears there, which a spread of "
-                f"{self.entry.spread:g} does not allow for: {'; '.join([*self.doubts(), fit])}",
-                f"{self.place}.depth",
-            )
+            but = ", as far as a coefficient that differs from side to side lets it tell"
+            for axis in along:
+                yield off_middle(name, self.place, axis, shift[axis], but=but)
+        yield from off_level(name, self.place, self.depth, self.worn, self.entry.uncertainty)

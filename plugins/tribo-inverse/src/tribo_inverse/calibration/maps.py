@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from scipy.fft import dctn, idctn
 from scipy.special import chdtrc, ndtri
-from tribo import Array, Case, CaseError, NumericalError, Simulation
+from tribo import Array, Case, CaseError, Finding, NumericalError, Simulation
 from tribo.kernel_api import Mask, Model, assemble, begin, march, varied
 
 from tribo_inverse.adjoint.backwards import swept_back
@@ -24,8 +24,8 @@ from tribo_inverse.calibration.cells import cell_means, surface_shape
 from tribo_inverse.calibration.descent import descended
 from tribo_inverse.calibration.lanczos import eigenpairs
 from tribo_inverse.calibration.map_errors import MapErrors
-from tribo_inverse.calibration.notes import TOO_SMALL, UNLIKELY
 from tribo_inverse.calibration.prior import Prior
+from tribo_inverse.findings import UNLIKELY, of_maps
 
 STEP = 1e-2
 """Largest change of a logarithm for the finite difference of all depths along a direction."""
@@ -94,8 +94,8 @@ class FittedMaps:
     of where the maps lie."""
     by_grid: float = 0.0
     """Degrees of freedom that count for errors of the grid, which may be less than stated."""
-    remarks: tuple[str, ...] = ()
-    """Notes on the measured maps."""
+    findings: tuple[Finding, ...] = ()
+    """What is to be known of the maps and the fit."""
 
     @property
     def p_value(self) -> float:
@@ -109,29 +109,8 @@ class FittedMaps:
 
     @property
     def notes(self) -> list[str]:
-        """Notes on the maps and the fit."""
-        notes = []
-        if self.is_refuted:
-            notes.append(
-                "no map that varies so smoothly explains the depths: χ² is "
-                f"{self.chi_square:.4g} where about {self.degrees_of_freedom:.4g} is expected; the "
-                "model leaves something out, or the uncertainty is larger, or the length shorter"
-            )
-        least = self.degrees_of_freedom - self.by_grid
-        if least > 1 and chdtrc(least, self.chi_square) > 1 - TOO_SMALL:
-            notes.append(
-                f"the depths differ from the fit by less than their uncertainty: χ² is "
-                f"{self.chi_square:.3g} where at least {least:.3g} is expected; is "
-                "it that of a cell, or of a line along a track, and not of a pixel?"
-            )
-        notes += self.remarks
-        notes += [
-            f"{name}: the data say nothing of {np.sum(~each.told)} cells, mostly where nothing was "
-            "worn or measured: there the coefficient is the case's, as uncertain as before"
-            for name, each in self.maps.items()
-            if not np.all(each.told)
-        ]
-        return notes
+        """The findings in words."""
+        return [each.words for each in self.findings]
 
 
 def fit_maps(
@@ -196,7 +175,7 @@ def fit_maps(
         for name, (depth, sigma) in depths.items()
     )
     made = int(np.sum(np.isnan(misfits)))
-    return FittedMaps(
+    found = FittedMaps(
         maps=maps,
         gradients=len(misfits) - made,
         products=made,
@@ -204,6 +183,7 @@ def fit_maps(
         degrees_of_freedom=read - float(np.sum(values / (1 + values))) - of_places,
         by_grid=by_grid,
     )
+    return replace(found, findings=tuple(of_maps(found)))
 
 
 class _Posterior:

@@ -99,6 +99,15 @@ def in_words(name: str, value: float, digits: int = 3) -> str:
     return f"{QUANTITIES[name].per_unit * value:.{digits}g} {QUANTITIES[name].shown}"
 
 
+def row_name(row: Any) -> str:
+    """Return which value a row of data or predictions is of, as ``"heavy: ball, mass at 9 s"``."""
+    test = f"{row.test}: " if getattr(row, "test", "") else ""
+    time, place = (getattr(row, name, math.nan) for name in ("time_s", "position_m"))
+    when = "" if pd.isna(time) else f" at {time:g} s"
+    where = "" if pd.isna(place) else f" at {1e3 * place:g} mm"
+    return f"{test}{row.body}, {row.quantity}{when}{where}"
+
+
 def in_si(value: float, unit: str, digits: int = 3) -> str:
     """Return a value in SI with its unit, as ``"7.08e-15 1/Pa"``."""
     return f"{value:.{digits}g}" if unit == "1" else f"{value:.{digits}g} {unit}"
