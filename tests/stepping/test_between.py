@@ -186,7 +186,7 @@ class Runaway(Effect):
 def test_a_state_that_leaves_its_limits_ends_the_run_by_name():
     words = r"'left' of effect 'test\.runaway' goes on beyond its limits of 0 to 1"
     with pytest.raises(PluginError, match=words):
-        states(model(archard(), effects=[Runaway()]))
+        states(model(archard(), effects=[Runaway()], grid=Grid((0.7e-3, 0.7e-3), (10, 10))))
 
 
 class Twice(Bath):
