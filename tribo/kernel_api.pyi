@@ -139,7 +139,7 @@ from tribo.stepping.evolution import layered_bodies as layered_bodies
 from tribo.stepping.evolution import limits_of as limits_of
 from tribo.stepping.evolution import memory_with as memory_with
 from tribo.stepping.evolution import with_loads as with_loads
-from tribo.stepping.extrapolation import Plan as Plan
+from tribo.stepping.extrapolation import Division as Division
 from tribo.stepping.layers import in_layers as in_layers
 from tribo.stepping.layers import only as only
 from tribo.stepping.layers import over_increment as over_increment

@@ -10,7 +10,7 @@ from contact_problems import HARDNESS, MODULUS, RADIUS, ball, problem
 from pydantic import ValidationError
 
 from tribo.closed_forms import hertz
-from tribo.contact.winkler import Layer, Winkler
+from tribo.contact.winkler import FoundationLayer, Winkler
 from tribo.core.contact import ContactSystem, WearCompliance
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
@@ -72,7 +72,7 @@ def test_matched_foundation_reproduces_that_feature_of_a_line(match: str) -> Non
 
 
 def test_bonded_layer() -> None:
-    layer = Layer(thickness=1.0, young=207e9, poisson=0.3)
+    layer = FoundationLayer(thickness=1.0, young=207e9, poisson=0.3)
     assert layer.foundation_modulus == pytest.approx(278.65e9, rel=1e-4)
     solver = Winkler(layer=layer)
     assert solver.smallest_compliance(SYSTEM) == pytest.approx(1 / 278.65e9, rel=1e-4, abs=0)

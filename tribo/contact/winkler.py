@@ -44,7 +44,7 @@ class Springs:
         return np.full((self.shape[0], self.shape[1] // 2 + 1), 1.0 / self.modulus)
 
 
-class Layer(Table):
+class FoundationLayer(Table):
     """A thin elastic layer bonded to a rigid body."""
 
     thickness: Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
@@ -76,7 +76,7 @@ class Winkler(ContactSolver):
     modulus: Annotated[float, Quantity("Pa/m", above=0, usual=(1e6, 1e20))] | None = None
     """Foundation modulus K_w, pressure per depth."""
 
-    layer: Layer | None = None
+    layer: FoundationLayer | None = None
     """A bonded layer from which the foundation modulus follows."""
 
     match: Match | None = None

@@ -10,7 +10,7 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 
 if TYPE_CHECKING:
-    from tribo.stepping.extrapolation import Plan
+    from tribo.stepping.extrapolation import Division
     from tribo.stepping.memory import Memory
     from tribo.stepping.rates import Moment
 
@@ -29,7 +29,7 @@ class Worn:
     increment: float
     moment: Moment
     before: Memory
-    plan: Plan
+    plan: Division
     ahead: bool = False
 
 

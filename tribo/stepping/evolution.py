@@ -13,7 +13,7 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import WearRate
 from tribo.stepping.contacts import in_stripes
-from tribo.stepping.extrapolation import Plan, integrated
+from tribo.stepping.extrapolation import Division, integrated
 from tribo.stepping.layers import in_layers
 from tribo.stepping.memory import Memory, laid
 from tribo.stepping.rates import CycleRates, Moment, wear_rates
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from tribo.stepping.model import Model
 
 
-COARSE = Plan(((0.25, True), (0.75, True)), np.inf)
+COARSE = Division(((0.25, True), (0.75, True)), np.inf)
 """Where an increment has more parts than these, they do to find slopes."""
 
 
@@ -37,7 +37,7 @@ class Course:
         Mean rates over it, by position and body; no slopes where something is remembered.
     memory : Memory
         What is remembered at its end.
-    plan : Plan
+    plan : Division
         How the increment is divided for that to be accurate.
     begun : callable or None
         The course over the first metres of it; None where no body has layers.
@@ -45,7 +45,7 @@ class Course:
 
     rates: CycleRates
     memory: Memory
-    plan: Plan = field(default_factory=Plan)
+    plan: Division = field(default_factory=Division)
     begun: Callable[[float], Course] | None = None
 
 
@@ -55,7 +55,7 @@ def course(
     contacts: Sequence[ContactSolution],
     increment: float,
     moment: Moment,
-    plan: Plan | None = None,
+    plan: Division | None = None,
 ) -> Course:
     """Return what an increment (m; s of a rest) comes to, from what is remembered before it.
 
@@ -91,7 +91,7 @@ def accumulated(
     contacts: Sequence[ContactSolution],
     increment: float,
     moment: Moment,
-    plan: Plan,
+    plan: Division,
     rate: Callable[[Memory, float], float],
 ) -> float:
     """Return what a rate per metre comes to over a course, as it follows what is remembered.
@@ -107,7 +107,7 @@ def accumulated(
         now = memory_with(before, layered, values)
         return [*found[:states], np.array(rate(now, passed))]
 
-    _, (total,), _ = _followed(model, before, layered, rates, increment, Plan(plan.parts))
+    _, (total,), _ = _followed(model, before, layered, rates, increment, Division(plan.parts))
     return float(total)
 
 
@@ -203,8 +203,8 @@ def _followed(
     layered: Sequence[str],
     rates: Rates,
     increment: float,
-    plan: Plan | None,
-) -> tuple[Values, Values, Plan]:
+    plan: Division | None,
+) -> tuple[Values, Values, Division]:
     """Integrate, as `integrated`, rates of what is remembered and of the depths in layers."""
     return integrated(
         rates,

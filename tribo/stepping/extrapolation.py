@@ -36,7 +36,7 @@ FADED = 0.01
 
 
 @dataclass(frozen=True)
-class Plan:
+class Division:
     """How an increment is divided to be accurate.
 
     Parameters
@@ -50,14 +50,14 @@ class Plan:
     parts: tuple[tuple[float, bool], ...] = ((1.0, False),)
     accuracy: float = ACCURACY
 
-    def until(self, share: float) -> Plan:
+    def until(self, share: float) -> Division:
         """Return the parts of the first share of the increment, to be taken as they are."""
         parts, left = [], share
         for part, relaxes in self.parts:
             if left > 0:
                 parts.append((min(part, left) / share, relaxes))
             left -= part
-        return Plan(tuple(parts), math.inf)
+        return Division(tuple(parts), math.inf)
 
 
 def integrated(
@@ -65,11 +65,11 @@ def integrated(
     start: Sequence[Array],
     length: float,
     limits: Sequence[Limits],
-    plan: Plan | None = None,
+    plan: Division | None = None,
     *,
     knows_means: bool = False,
     layered: Sequence[bool] = (),
-) -> tuple[Values, Values, Plan]:
+) -> tuple[Values, Values, Division]:
     """Return states after an increment, what other rates come to over it, and how it was divided.
 
     Each part is solved by Euler steps, extrapolated; where that is not accurate, by exponential
@@ -88,7 +88,7 @@ def integrated(
         The increment, in the unit that rates are per.
     limits : sequence of Limits
         One for each state: trial values are held to them.
-    plan : Plan, optional
+    plan : Division, optional
         Parts to begin with; they are divided, but never joined, so that the answer follows
         smoothly from the rates.
     knows_means : bool, optional
@@ -112,7 +112,7 @@ def integrated(
     Solving Ordinary Differential Equations II, section IV.9. Hochbruck, M., Ostermann, A. (2010),
     Exponential integrators, Acta Numerica 19, 209-286.
     """
-    plan = plan or Plan()
+    plan = plan or Division()
     problem = _Problem(rates, length, limits, knows_means, layered, math.isinf(plan.accuracy))
     here = begin = problem.begin(start)
     waiting, done, missed = list(plan.parts), list[tuple[float, bool]](), 0.0
@@ -308,10 +308,10 @@ def _cut(waiting: list[tuple[float, bool]], accurate: float) -> None:
         waiting[:1] = [(cut, True), (whole - cut, True)]
 
 
-def _looser(plan: Plan) -> Plan:
+def _looser(plan: Division) -> Division:
     if LOOSER * plan.accuracy <= LOOSEST:
         return replace(plan, accuracy=LOOSER * plan.accuracy)
-    return Plan(((1 / MOST_PARTS, False),) * MOST_PARTS, math.inf)
+    return Division(((1 / MOST_PARTS, False),) * MOST_PARTS, math.inf)
 
 
 def _along(

@@ -14,7 +14,7 @@ from tribo.core.contact import ContactSolution
 from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.core.state import State
 from tribo.stepping.evolution import accumulated
-from tribo.stepping.extrapolation import Plan
+from tribo.stepping.extrapolation import Division
 from tribo.stepping.memory import Memory, remembered, under
 from tribo.stepping.rates import Moment, local_fields
 
@@ -72,7 +72,7 @@ def _mean(model: Model, pressures: Sequence[Array], memory: Memory, moment: Mome
 
 
 def with_friction_work(
-    model: Model, before: State, after: State, contacts: Sequence[ContactSolution], plan: Plan
+    model: Model, before: State, after: State, contacts: Sequence[ContactSolution], plan: Division
 ) -> State:
     """Return `after`, the end of a step, with the work of friction over it.
 
@@ -89,7 +89,7 @@ def with_friction_work(
 
 
 def _varying_work(
-    model: Model, before: State, after: State, contacts: Sequence[ContactSolution], plan: Plan
+    model: Model, before: State, after: State, contacts: Sequence[ContactSolution], plan: Division
 ) -> float:
     """Return the integral of what effects give, times the load, over a step, in J."""
     time, increment = after.time - before.time, after.distance - before.distance

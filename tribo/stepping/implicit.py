@@ -19,7 +19,7 @@ from tribo.core.units import Quantity
 from tribo.stepping.contacts import solve_cycle
 from tribo.stepping.events import Worn
 from tribo.stepping.evolution import Course, course, sloped
-from tribo.stepping.extrapolation import Plan
+from tribo.stepping.extrapolation import Division
 from tribo.stepping.friction import with_friction_work
 from tribo.stepping.linear_wear import linear_wear
 from tribo.stepping.memory import filling, remembered
@@ -78,7 +78,7 @@ class Trial:
     state: State
     forward: Mapping[str, Array]
     contacts: Sequence[ContactSolution]
-    plan: Plan
+    plan: Division
 
     def ended(self, model: Model, before: State) -> State:
         """Return its end, with the work of friction over it."""

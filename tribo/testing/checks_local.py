@@ -12,7 +12,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.units import quantities
-from tribo.stepping.extrapolation import Plan, integrated
+from tribo.stepping.extrapolation import Division, integrated
 from tribo.stepping.relaxation import Limits
 from tribo.testing import samples
 from tribo.testing.ageing import aged
@@ -22,7 +22,7 @@ from tribo.testing.rescaling import UNITS, factor, renewed
 
 _SPANS = (1e-2, 1.0, 30.0)
 """Over which a model is asked to advance, in m or s."""
-_CLOSELY = Plan(accuracy=1e-8)
+_CLOSELY = Division(accuracy=1e-8)
 """Of the state, of which what it changes by may be a small part."""
 
 

@@ -21,7 +21,7 @@ from tribo_inverse.calibration.calibrate import calibrate
 from tribo_inverse.calibration.measured import read_measurements
 from tribo_inverse.calibration.parameters import find_parameters
 from tribo_inverse.calibration.quantities import Reading, read
-from tribo_inverse.calibration.setups import Run, make_run
+from tribo_inverse.calibration.setups import SetupRun, make_run
 from tribo_inverse.tables import estimates_table, predictions_table
 
 TRUE = {"bodies.ball.wear.k": 3.11e-16, "bodies.disk.wear.k": 1.5e-16}
@@ -173,7 +173,7 @@ def test_the_start_leaves_no_trace_in_the_uncertainties(monkeypatch):
         off = np.array([0.2 * (each.quantity == "crown") for each in wanted])
         crown = 5e-6 * (values[0] / BALL) ** 0.25
         found = [crown if each.quantity == "crown" else mass(values[0]) for each in wanted]
-        return Run(np.array(found), off * found, {}, ())
+        return SetupRun(np.array(found), off * found, {}, ())
 
     monkeypatch.setattr("tribo_inverse.calibration.experiment.make_run", made)
     data, told = [BALL_LOSS, measured("ball", "crown", 6e-6)], []

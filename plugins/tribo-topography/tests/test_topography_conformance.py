@@ -4,7 +4,7 @@ from pathlib import Path
 
 from tribo.testing import parametrize_checks
 
-from tribo_topography import Measured, describe
+from tribo_topography import MeasuredSurface, describe
 
 WAVES = Path(__file__).parent / "data" / "waves.asc"  # 30 × 30 pixels on 1.5 × 1.5 mm
 KNOWN = {"path": WAVES, "expect_size": ["1.5 mm", "1.5 mm"]}
@@ -12,7 +12,7 @@ SMALL = ["0.75 mm", "0.9 mm"]
 
 # Cells of the kit are smaller than these pixels, and are sampled at points.
 test_sampled_at_points = parametrize_checks(
-    Measured,
+    MeasuredSurface,
     configs=[
         {**KNOWN, "detrend": "none", "expect_range": "2.55 um"},
         {**KNOWN, "detrend": "tilt", "expect_range": "2.57 um"},
@@ -30,7 +30,7 @@ test_sampled_at_points = parametrize_checks(
 
 # Here they are larger than the pixels.
 test_averaged_over_cells = parametrize_checks(
-    Measured,
+    MeasuredSurface,
     configs=[
         {
             **KNOWN,

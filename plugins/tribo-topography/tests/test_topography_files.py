@@ -7,7 +7,7 @@ import pytest
 from tribo import CaseError, Grid, TriboWarning, read_heights
 
 import tribo_topography.read
-from tribo_topography import Measured, describe
+from tribo_topography import MeasuredSurface, describe
 
 SIZE = (0.864e-3, 0.9e-3)
 PIXELS = (72, 60)
@@ -18,7 +18,7 @@ SCALE = {"npy": {"size": SIZE, "unit": "1 m"}}
 def surface(path, **config):
     kind = path.suffix[1:]
     config = {"detrend": "none", "expect_within": 0.02, **SCALE.get(kind, {}), **config}
-    return Measured(path=path, **config)
+    return MeasuredSurface(path=path, **config)
 
 
 def quiet(path, heights, **config):

@@ -39,7 +39,7 @@ from tribo_scar.findings import (
     warn_of_zeros,
 )
 from tribo_scar.registration import Registration, register
-from tribo_scar.widths import LINES, Width, scar_width
+from tribo_scar.widths import LINES, WidthReading, scar_width
 from tribo_scar.worn_area import MARGIN, WornArea, worn_area
 
 MOST = 0.65
@@ -298,8 +298,8 @@ def _small(marked: Mask) -> Mask:
 class _Sizes(NamedTuple):
     """Widths of a scar, section and volume of a track, and volumes by formulas; None if unknown."""
 
-    along: Width | tuple[None, None] = (None, None)
-    across: Width | tuple[None, None] = (None, None)
+    along: WidthReading | tuple[None, None] = (None, None)
+    across: WidthReading | tuple[None, None] = (None, None)
     section: float | None = None
     track_volume: float | None = None
     formulas: Sequence[InferredVolume] = ()
@@ -324,7 +324,7 @@ def _sizes(
             )
         whole = planimetric_volume(section, length)
         formulas = _track_volumes(whole, worn.track.value, length, radius)
-        ends = (Width(math.inf, 0.0), worn.track)
+        ends = (WidthReading(math.inf, 0.0), worn.track)
         along, across = ends if worn.is_open[0] else ends[::-1]
         return _Sizes(along, across, section, whole if track_length else None, formulas)
     # Correlated noise does not average out over neighbours.

@@ -29,7 +29,7 @@ BESIDE = 0.1
 """Part of a line along a track that may be worn where it tells the noise."""
 
 
-class Width(NamedTuple):
+class WidthReading(NamedTuple):
     """A width and its standard uncertainty, in m; infinite along a track."""
 
     value: float
@@ -38,7 +38,7 @@ class Width(NamedTuple):
 
 def scar_width(
     depth: Array, smooth: Array, scar: Mask, noise: tuple[float, float], axis: int, pitch: float
-) -> Width:
+) -> WidthReading:
     """Return the width along an axis of a scar that ends within the map, through its middle.
 
     It is read off the mean of five lines, of smoothed depths where noise needs it.
@@ -79,7 +79,7 @@ def track_across(
     noise: float,
     axis: int,
     pitch: tuple[float, float],
-) -> tuple[Mask, Width, float]:
+) -> tuple[Mask, WidthReading, float]:
     """Return the band of a track, straight or an arc, along an axis, its width and length in m.
 
     The mean profile along the track has less noise than single depths, and shows how far it is
@@ -134,7 +134,7 @@ def track_across(
     return band, _read(within, noise, 0.0, askew * pitch[1 - axis]), length
 
 
-def _read(profile: Array, noise: float, blur: float, pitch: float) -> Width:
+def _read(profile: Array, noise: float, blur: float, pitch: float) -> WidthReading:
     """Return the width of a profile: where the parabola through two of its levels comes to 0.
 
     The depth of a ball worn flat is a parabola. How far another scar is from it shows in the
@@ -148,14 +148,16 @@ def _read(profile: Array, noise: float, blur: float, pitch: float) -> Width:
     levels = (low, 2 * low, min(4 * low, 0.9))
     squares = [_crossed(profile, level * peak) ** 2 for level in levels]
     if math.sqrt(squares[0]) - half < STEEP:
-        return Width(pitch * half, pitch * PIXEL)
+        return WidthReading(pitch * half, pitch * PIXEL)
     width, other = (
         math.sqrt(max((high * wide - low * narrow) / (high - low), 0.0))
         for low, high, wide, narrow in zip(levels, levels[1:], squares, squares[1:], strict=False)
     )
     # Noise moves the edge by about half of its part of the peak, and the parabola doubles it.
     of_noise = width * noise / peak
-    return Width(pitch * width, pitch * math.hypot(width - other, of_noise, PIXEL, SMEARS * blur))
+    return WidthReading(
+        pitch * width, pitch * math.hypot(width - other, of_noise, PIXEL, SMEARS * blur)
+    )
 
 
 def _crossed(profile: Array, level: float) -> float:

@@ -12,7 +12,7 @@ from tribo.kernel_api import Mask, interpolated, smoothed
 
 from tribo_scar.alignment import robust_deviation
 from tribo_scar.registration import DEEP, Registration
-from tribo_scar.widths import Width, track_across
+from tribo_scar.widths import WidthReading, track_across
 
 SPOT = 0.1
 """Part of the largest scar's volume below which a worn area is left out."""
@@ -57,7 +57,7 @@ class WornArea:
         Whether it goes on beyond the edge, other than at the ends of a track.
     is_ring : bool
         Whether it encloses what is not worn, as a whole circular track does.
-    track : Width or None
+    track : WidthReading or None
         The width of a track, across its direction; None for a scar that ends within the map.
     length : float or None
         The length of a track within the map, along its direction, in m.
@@ -74,7 +74,7 @@ class WornArea:
     is_open: list[bool]
     cut_off: bool
     is_ring: bool
-    track: Width | None
+    track: WidthReading | None
     length: float | None
 
 

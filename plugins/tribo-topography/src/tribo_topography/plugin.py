@@ -9,13 +9,13 @@ from tribo import CaseError, Component, ExportFormat, HeightFormat, Heights, hoo
 from tribo_topography.config import MeasuredFile
 from tribo_topography.export import export_xyz
 from tribo_topography.read import Unreadable, read
-from tribo_topography.surface import Measured
+from tribo_topography.surface import MeasuredSurface
 
 
 @hookimpl
 def tribo_components() -> tuple[type[Component], ...]:
     """Offer surfaces measured by an instrument."""
-    return (Measured,)
+    return (MeasuredSurface,)
 
 
 @hookimpl

@@ -15,7 +15,7 @@ from tribo_topography.sample import resolution, sampled
 _MUCH = 4.0
 
 
-class Measured(Surface, MeasuredFile):
+class MeasuredSurface(Surface, MeasuredFile):
     """Heights that an instrument measured, sampled on the window's cells.
 
     A warning tells the scale of a file whose size and range the case does not

@@ -13,7 +13,7 @@ from tribo.kernel_api import CELLS, Memory, over
 from tribo_inverse.adjoint.course import Before, Other
 from tribo_inverse.adjoint.linear import Carrier
 from tribo_inverse.adjoint.passing import lowered, with_bottoms
-from tribo_inverse.adjoint.replay import Part, replayed, weight
+from tribo_inverse.adjoint.replay import ReplayedPart, replayed, weight
 from tribo_inverse.adjoint.response import ALONE, Arrays, Field
 from tribo_inverse.adjoint.slopes import Slopes, Sloping
 from tribo_inverse.adjoint.stages import together
@@ -155,7 +155,7 @@ class Remembering:
         return total + _dot(along.by_cell, rates, along.found) if asks else total
 
     @cached_property
-    def _parts(self) -> list[Part[Slopes]]:
+    def _parts(self) -> list[ReplayedPart[Slopes]]:
         return replayed(self.stages)
 
     def _back(self, depth: Sequence[Field], after: Sequence[Field]) -> _Back:
@@ -200,7 +200,7 @@ class Remembering:
         return _Back(pressure, load, square, factors, after, _Along(along, self.stages))
 
     def _join_relaxing(
-        self, seeded: list[_Seeded], part: Part[Slopes], bends: Sequence[Field]
+        self, seeded: list[_Seeded], part: ReplayedPart[Slopes], bends: Sequence[Field]
     ) -> None:
         """Add derivatives in the rates that tell how fast states relax, from those in that."""
         own = len(self.stages.own)

@@ -13,15 +13,15 @@ import numpy as np
 from tribo import Array
 from tribo.kernel_api import EXACT, PLAIN, RELAXING, apart, bending, lasting, part_of, relaxing
 
+from tribo_inverse.adjoint.rate_stage import RatePlace, RateStage
 from tribo_inverse.adjoint.response import NUDGE, Arrays, Field
 from tribo_inverse.adjoint.slopes import Slopes, Sloping
-from tribo_inverse.adjoint.stages import Place, Stage
 
-Kind = TypeVar("Kind", bound=Stage)
+Kind = TypeVar("Kind", bound=RateStage)
 
 
 @dataclass(frozen=True)
-class Part(Generic[Kind]):
+class ReplayedPart(Generic[Kind]):
     """A part of an increment: its stages along each row of the extrapolation.
 
     `moved` has each state that relaxes, the stage where it is moved by a little, and by how much.
@@ -48,12 +48,14 @@ class Part(Generic[Kind]):
         return [*chain(*self.rows), *(stage for _, stage, _ in self.moved)]
 
 
-def replayed(increment: Sloping) -> list[Part[Slopes]]:
+def replayed(increment: Sloping) -> list[ReplayedPart[Slopes]]:
     """Go through an increment as it was divided, once more."""
     passed = 0.0
-    states, divided = increment.begin, list[Part[Stage]]()
+    states, divided = increment.begin, list[ReplayedPart[RateStage]]()
     if not increment.along:
-        divided.append(Part(increment.slid.increment, [0.0] * len(states), [[increment.start]], []))
+        divided.append(
+            ReplayedPart(increment.slid.increment, [0.0] * len(states), [[increment.start]], [])
+        )
     for share, relaxes in increment.slid.plan.parts if increment.along else ():
         part, states = _part(increment, states, passed, share, relaxes=relaxes)
         divided.append(part)
@@ -61,7 +63,7 @@ def replayed(increment: Sloping) -> list[Part[Slopes]]:
     stages = {id(stage): stage for part in divided for stage in part.stages}
     slopes = dict(zip(stages, increment.sloped(list(stages.values())), strict=True))
     return [
-        Part(
+        ReplayedPart(
             part.length,
             part.relaxing,
             [[slopes[id(stage)] for stage in row] for row in part.rows],
@@ -73,10 +75,10 @@ def replayed(increment: Sloping) -> list[Part[Slopes]]:
 
 def _part(
     increment: Sloping, states: Arrays, passed: float, share: float, *, relaxes: bool
-) -> tuple[Part[Stage], Arrays]:
+) -> tuple[ReplayedPart[RateStage], Arrays]:
     """Return the stages of a part of the increment, and the states at its end."""
     span, own = share * increment.slid.increment, len(increment.own)
-    begin = Place(passed, span)
+    begin = RatePlace(passed, span)
     start = increment.at([states], [begin])[0] if passed else increment.start
     of_states: list[Field] = [0.0] * len(states)
     moved = []
@@ -97,19 +99,19 @@ def _part(
         np.sum([by * end[at] for by, end in zip(counts, ends, strict=True)], axis=0)
         for at in range(len(states))
     ]
-    return Part(span, of_states, rows, moved), increment.held(total)
+    return ReplayedPart(span, of_states, rows, moved), increment.held(total)
 
 
 def _rows(
     increment: Sloping,
     states: Arrays,
-    start: Stage,
+    start: RateStage,
     of_states: Sequence[Field],
     passed: float,
     share: float,
     *,
     relaxes: bool,
-) -> tuple[list[list[Stage]], list[Arrays]]:
+) -> tuple[list[list[RateStage]], list[Arrays]]:
     """Return the stages of each row of Euler steps, and the states at its end.
 
     The rows are gone along side by side. Where means over one step and over two agree, as exact
@@ -117,12 +119,12 @@ def _rows(
     """
     own = len(increment.own)
     exact = increment.advances and increment.model.laws.advances and not increment.loads_change
-    rows: list[list[Stage]] = [[] for _ in (RELAXING if relaxes else PLAIN)]
+    rows: list[list[RateStage]] = [[] for _ in (RELAXING if relaxes else PLAIN)]
     ends = [states] * len(rows)
     for taken in range(len(rows)):
         going = range(taken, len(rows))
         begin = [
-            Place(passed + share * taken / (1 + i), share * increment.slid.increment / (1 + i))
+            RatePlace(passed + share * taken / (1 + i), share * increment.slid.increment / (1 + i))
             for i in going
         ]
         if taken or increment.of_steps:

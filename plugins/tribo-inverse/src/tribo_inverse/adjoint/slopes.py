@@ -14,6 +14,7 @@ from tribo.kernel_api import CELLS, only, over
 from tribo_inverse.adjoint.linear import Carrier
 from tribo_inverse.adjoint.local import localised
 from tribo_inverse.adjoint.passing import Layered
+from tribo_inverse.adjoint.rate_stage import RatePlace, RateStage
 from tribo_inverse.adjoint.response import (
     AGREES,
     ALONE,
@@ -33,7 +34,7 @@ from tribo_inverse.adjoint.response import (
     reached,
     shared,
 )
-from tribo_inverse.adjoint.stages import Place, Stage, Stages, together
+from tribo_inverse.adjoint.stages import Stages, together
 
 
 class Reach(NamedTuple):
@@ -47,7 +48,7 @@ class Reach(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Slopes(Stage):
+class Slopes(RateStage):
     """A stage with the derivatives of its rates in each cell.
 
     They are those at given shares of the layers; `passing` has how these follow all else.
@@ -56,11 +57,11 @@ class Slopes(Stage):
     by_pressure: Sequence[Response]
     by_state: Sequence[Sequence[Response]]
     by_factor: Sequence[Sequence[Response]]
-    passing: Passing | None
+    passing: PassedLayers | None
 
 
 @dataclass(frozen=True)
-class Passing:
+class PassedLayers:
     """Bodies of which points pass from layer to layer, by name.
 
     `by_share` has what the rates follow of the share of each layer, and `of_layers` the slopes
@@ -77,10 +78,10 @@ class Sloping(Stages):
     """Stages with the derivatives of their rates."""
 
     @cached_property
-    def start(self) -> Stage:
+    def start(self) -> RateStage:
         """The stage with which the increment begins."""
         increment, (share, _) = self.slid.increment, self.slid.plan.parts[0]
-        place = Place(0.0, share * increment) if self.along else Place(1.0, increment)
+        place = RatePlace(0.0, share * increment) if self.along else RatePlace(1.0, increment)
         return self.at([self.begin], [place])[0]
 
     @cached_property
@@ -107,7 +108,7 @@ class Sloping(Stages):
             "effects",
         )
 
-    def sloped(self, stages: Sequence[Stage]) -> list[Slopes]:
+    def sloped(self, stages: Sequence[RateStage]) -> list[Slopes]:
         """Return stages with their derivatives."""
         if not self.model.laws.effects:
             return self._sloped(stages, Reach(ALONE, [ALONE] * len(self.begin)))
@@ -194,7 +195,7 @@ class Sloping(Stages):
             return found
         return carrier.gathered(over(self.shares) * found, self.box)
 
-    def _sloped(self, stages: Sequence[Stage], reach: Reach) -> list[Slopes]:
+    def _sloped(self, stages: Sequence[RateStage], reach: Reach) -> list[Slopes]:
         """Return stages with their derivatives, of all at once, where points reach so far."""
         states, rates = (together([vars(s)[of] for s in stages]) for of in ("states", "rates"))
         places = [stage.place for stage in stages]
@@ -216,7 +217,7 @@ class Sloping(Stages):
             for i, stage in enumerate(stages)
         ]
 
-    def _passing(self, stage: Stage, reach: Reach) -> Passing | None:
+    def _passing(self, stage: RateStage, reach: Reach) -> PassedLayers | None:
         """Return how points pass from layer to layer; None where all stay in theirs."""
         place, states = stage.place, stage.states
         shares = [share for of_body in place.shares.values() for share in of_body.values()]
@@ -239,10 +240,10 @@ class Sloping(Stages):
                 self._by_share(name, self.own[at], layer, stage, reach.pressure or ALONE)
                 for layer in range(len(rates))
             ]
-        return Passing(bodies, by_share, of_layers)
+        return PassedLayers(bodies, by_share, of_layers)
 
     def _by_share(
-        self, name: str, carrier: Carrier, layer: int, stage: Stage, reach: Offset
+        self, name: str, carrier: Carrier, layer: int, stage: RateStage, reach: Offset
     ) -> Sequence[Response]:
         place, key = stage.place, f"rate {layer}"
         of_body, states = place.shares[name], [state[None] for state in stage.states]
@@ -256,7 +257,7 @@ class Sloping(Stages):
         return _at(0, near(rates, found, share, nudge, reach, self._seen_by(carrier)))
 
     def _by_pressure(
-        self, states: Arrays, places: Sequence[Place], found: Arrays, reach: Offset | None
+        self, states: Arrays, places: Sequence[RatePlace], found: Arrays, reach: Offset | None
     ) -> Sequence[Response]:
         def rates(pressure: Array) -> Arrays:
             return self.rates(states, places, self.told(places, pressure))
@@ -281,7 +282,7 @@ class Sloping(Stages):
         at: int,
         states: Arrays,
         nudge: Array,
-        places: Sequence[Place],
+        places: Sequence[RatePlace],
         found: Arrays,
         reach: Offset,
     ) -> Sequence[Response]:
@@ -295,7 +296,7 @@ class Sloping(Stages):
         return near(rates, found, states[at], nudge, reach, self._seen_by(self.kept[at]))
 
     def _by_factor(
-        self, states: Arrays, places: Sequence[Place], found: Arrays, reach: Offset
+        self, states: Arrays, places: Sequence[RatePlace], found: Arrays, reach: Offset
     ) -> Sequence[Sequence[Response]]:
         names = list(self.model.laws.wear)
         if not self.slid.before.between:

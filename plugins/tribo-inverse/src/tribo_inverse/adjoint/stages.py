@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import groupby
-from typing import NamedTuple
 
 import numpy as np
 from tribo import Array, ContactSolution, LocalConditions
@@ -31,37 +30,12 @@ from tribo.kernel_api import (
 
 from tribo_inverse.adjoint.course import pressed, stacked
 from tribo_inverse.adjoint.linear import Carrier, carriers_between
+from tribo_inverse.adjoint.rate_stage import RatePlace, RateStage
 from tribo_inverse.adjoint.response import ASIDE, Arrays, Field
 from tribo_inverse.adjoint.tape import Slid
 
 AT_ONCE = 1 << 18
 """Cells of which laws are asked at once, so that what they compute does not grow with a step."""
-
-
-class Place(NamedTuple):
-    """Which part of an increment has passed, and over how much (m) of it rates are means.
-
-    `shares` are those of the layers over it, by body.
-    """
-
-    passed: float
-    over: float
-    shares: Mapping[str, Mapping[str, Array]] = {}
-
-
-@dataclass(frozen=True)
-class Stage:
-    """Rates at one place along an increment, at states that are held within their limits.
-
-    The rates are those at each cell of each position, and `means` those over each point of what
-    they change. `inside` tells by state where it was within its limits already.
-    """
-
-    place: Place
-    states: Arrays
-    inside: Sequence[Array]
-    rates: Arrays
-    means: Arrays
 
 
 @dataclass(frozen=True)
@@ -193,12 +167,14 @@ class Stages:
         full[(slice(None), *self.box.slices)] = values
         return full
 
-    def at(self, states: Sequence[Sequence[Array]], places: Sequence[Place]) -> list[Stage]:
+    def at(self, states: Sequence[Sequence[Array]], places: Sequence[RatePlace]) -> list[RateStage]:
         """Return the stages at some states, each at a place of its own."""
         divided = [self.with_shares(*each) for each in zip(states, places, strict=True)]
         return self.at_shares(states, divided)
 
-    def at_shares(self, states: Sequence[Sequence[Array]], places: Sequence[Place]) -> list[Stage]:
+    def at_shares(
+        self, states: Sequence[Sequence[Array]], places: Sequence[RatePlace]
+    ) -> list[RateStage]:
         """Return the same where the places have the shares of the layers already."""
         held = [self.held(each) for each in states]
         rates = self.rates(together(held), places)
@@ -206,10 +182,10 @@ class Stages:
         for i, place in enumerate(places):
             inside = [given == kept for given, kept in zip(states[i], held[i], strict=True)]
             here = [each[i] for each in rates]
-            stages.append(Stage(place, held[i], inside, here, self.means(here)))
+            stages.append(RateStage(place, held[i], inside, here, self.means(here)))
         return stages
 
-    def told(self, places: Sequence[Place], pressure: Array | None = None) -> Array:
+    def told(self, places: Sequence[RatePlace], pressure: Array | None = None) -> Array:
         """Return the pressures that laws are told at some places, (places, positions, nx, ny).
 
         They are in proportion to a load that changes along the increment. Others may be given
@@ -229,7 +205,7 @@ class Stages:
     def rates(
         self,
         states: Sequence[Array],
-        places: Sequence[Place],
+        places: Sequence[RatePlace],
         told: Array | None = None,
         model: Model | None = None,
     ) -> Arrays:
@@ -242,7 +218,7 @@ class Stages:
         ----------
         states : sequence of ndarray, shape (places, rows, ny)
             What is remembered, and the depths in layers.
-        places : sequence of Place
+        places : sequence of RatePlace
             Where along the increment.
         told : ndarray, shape (places, positions, nx, ny), optional
             The pressures; those of `told` if left out.
@@ -268,7 +244,7 @@ class Stages:
         """Return these states, and the depths in layers, as laws and effects know them."""
         return memory_with(self.slid.before, self.layered, states)
 
-    def with_shares(self, states: Sequence[Array], place: Place) -> Place:
+    def with_shares(self, states: Sequence[Array], place: RatePlace) -> RatePlace:
         """Return a place with the shares of the layers."""
         if not self.layered:
             return place
@@ -278,7 +254,7 @@ class Stages:
         shared, _ = in_layers(self.model, memory, told, place.over, moment)
         return place._replace(shares=shared.shares)
 
-    def _alike(self, places: Sequence[Place], most: int) -> Iterator[slice]:
+    def _alike(self, places: Sequence[RatePlace], most: int) -> Iterator[slice]:
         """Yield runs of places, of so many at most, over which means are of one length."""
         first = 0
         for _, group in groupby(places, self._over):
@@ -287,11 +263,11 @@ class Stages:
                 yield slice(start, min(start + most, end))
             first = end
 
-    def _over(self, place: Place) -> float:
+    def _over(self, place: RatePlace) -> float:
         """Return the length (m) over which rates are means there; 0 where they are of one place."""
         return place.over if self.advances else 0.0
 
-    def _moment(self, place: Place) -> Moment:
+    def _moment(self, place: RatePlace) -> Moment:
         if not self.along:
             return self.slid.moment
         return self.slid.moment.back((1 - place.passed) * self.slid.increment)
@@ -303,7 +279,7 @@ class Stages:
         return with_loads(self.model, contacts, end.back(half).time, end.time, passed)
 
     def _in_window(
-        self, model: Model, states: Arrays, places: Sequence[Place], told: Array
+        self, model: Model, states: Arrays, places: Sequence[RatePlace], told: Array
     ) -> Arrays:
         """Return the rates at one place, of laws and of effects, which see the whole window."""
         (place,) = places
@@ -314,7 +290,7 @@ class Stages:
         return [each[(None, slice(None), *self.box.slices)] for each in rates]
 
     def _of_laws(
-        self, model: Model, states: Arrays, places: Sequence[Place], told: Array
+        self, model: Model, states: Arrays, places: Sequence[RatePlace], told: Array
     ) -> Arrays:
         """Return the rates of the laws at some places, means over the same length (m) each."""
         depths, changes = Arrays(), Arrays()
@@ -393,7 +369,7 @@ def together(states: Sequence[Sequence[Array]]) -> Arrays:
 
 
 def _shares_told(
-    bottoms: Sequence[float], name: str, worn: Mapping[str, Array], places: Sequence[Place]
+    bottoms: Sequence[float], name: str, worn: Mapping[str, Array], places: Sequence[RatePlace]
 ) -> dict[str, Array]:
     """Return what the law of a body in layers is told of them, shape (places, rows, ny)."""
     if not bottoms:

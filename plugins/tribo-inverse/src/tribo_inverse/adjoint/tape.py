@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 from tribo import Array, CaseError, State
 from tribo.kernel_api import (
+    Division,
     Drawn,
     Event,
     Memory,
     Model,
     Moment,
-    Plan,
     Region,
     Worn,
     Yielded,
@@ -43,7 +43,7 @@ class Slid:
     increment: float
     moment: Moment
     before: Memory
-    plan: Plan
+    plan: Division
     ahead: bool
 
 

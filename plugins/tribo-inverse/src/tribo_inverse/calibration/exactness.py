@@ -24,11 +24,11 @@ _SIGNIFICANT = 3.0
 """Standard deviations by which a mean depth below 0 is not noise."""
 
 
-class Part(float):
+class Share(float):
     """An uncertainty as a part of each value, as ``"5 %"``."""
 
 
-def part_of(text: str, quantity: str) -> Part:
+def part_of(text: str, quantity: str) -> Share:
     """Return the part of a value that a text in per cent says; CaseError if it cannot be one."""
     if quantity in FIELDS:
         raise CaseError(f"{text!r}: of depths at many places give it with a unit, as '10 nm'")
@@ -38,7 +38,7 @@ def part_of(text: str, quantity: str) -> Part:
         raise CaseError(f"{text!r} is no number of per cent; write '5 %'") from None
     if not 0 < part < 1:
         raise CaseError(f"{text!r}: an uncertainty is above 0 % and below 100 %")
-    return Part(part)
+    return Share(part)
 
 
 def data_error(quantity: str, sigma: Array | float, values: Array) -> str:

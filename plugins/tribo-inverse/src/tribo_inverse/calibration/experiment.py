@@ -38,7 +38,14 @@ from tribo_inverse.calibration.quantities import (
     edge_sigma,
 )
 from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes
-from tribo_inverse.calibration.setups import READ, Run, Setup, find_setups, make_run, unmeasured
+from tribo_inverse.calibration.setups import (
+    READ,
+    Setup,
+    SetupRun,
+    find_setups,
+    make_run,
+    unmeasured,
+)
 
 LINEAR_BELOW = 0.1
 """Part of the largest depth of a profile or map below which depths are taken as linear."""
@@ -63,7 +70,7 @@ class Experiment:
     """From test to test; None to estimate it."""
     shifts: Mapping[int, ScarShift] = field(default_factory=dict)
     """Shift of the scar of a map, by its row of the table."""
-    runs: dict[bytes, Run] = field(default_factory=dict)
+    runs: dict[bytes, SetupRun] = field(default_factory=dict)
     """Runs by the bytes of the parameters, with the readings of the table and those predicted."""
 
     @classmethod
@@ -169,11 +176,11 @@ class Experiment:
                 found[reading] = shift.unless_near(self.shifts.get(reading, ScarShift()), spacing)
         return self.moved(found) if found else self
 
-    def run(self, values: Array) -> Run:
+    def run(self, values: Array) -> SetupRun:
         """Return a run with one response per row of the data, then per prediction."""
         return self.of_data(self._readings_of(values))
 
-    def of_data(self, made: Run) -> Run:
+    def of_data(self, made: SetupRun) -> SetupRun:
         """Return a run of readings with one response per row of the data, then per prediction."""
         predicted = len(self.table) + np.arange(len(self.predicted))
         reading = np.append(self.data["reading"], predicted).astype(int)
@@ -186,7 +193,7 @@ class Experiment:
             grid_sigma[rows] = np.sqrt(grid_sigma[rows] ** 2 + at_edge)
         return made._replace(responses=responses, grid_sigma=grid_sigma)
 
-    def _readings_of(self, values: Array) -> Run:
+    def _readings_of(self, values: Array) -> SetupRun:
         """Return the readings of a run, which is cached."""
         key = values.tobytes()
         if key in self.runs:
@@ -214,7 +221,7 @@ class Experiment:
             notice if len(of) == len(self.setups) else f"{', '.join(of)}: {notice}"
             for notice, of in notices.items()
         )
-        self.runs[key] = Run(responses, grid_sigma, maps, tuple(notes))
+        self.runs[key] = SetupRun(responses, grid_sigma, maps, tuple(notes))
         return self.runs[key]
 
     def problem(self, values: Array) -> Problem:
@@ -240,7 +247,7 @@ class Experiment:
             common=self._common(run),
         )
 
-    def _common(self, run: Run) -> Array:
+    def _common(self, run: SetupRun) -> Array:
         """Return `Problem.common`: errors of the grid, and shifts of maps, in a whole field."""
         columns = []
 

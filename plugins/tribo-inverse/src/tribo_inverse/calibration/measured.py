@@ -19,7 +19,7 @@ from pydantic import (
 from tribo import Array, CaseError, Quantity, Table
 from tribo.kernel_api import Mask, by_path, case_error, read_toml
 
-from tribo_inverse.calibration.exactness import Part, data_error, part_of
+from tribo_inverse.calibration.exactness import Share, data_error, part_of
 from tribo_inverse.calibration.quantities import DEPTH_MAP, PROFILES, QUANTITIES
 
 
@@ -74,7 +74,7 @@ class MeasuredEntry(Table):
     pitch: Annotated[float, Quantity("m", above=0)] | None = None
     """Pixel pitch of a depth map."""
     uncertainty: float | None = None
-    """Standard deviation, or a `Part`; of a profile that of each depth, of a map of each cell."""
+    """Standard deviation, or a `Share`; of a profile that of each depth, of a map of each cell."""
     resolution: float | None = None
     """Smallest step that the instrument shows."""
     time: Annotated[float, Quantity("s", above=0)] | None = None
@@ -165,7 +165,7 @@ class MeasuredEntry(Table):
                 "say how well it was measured: uncertainty (a standard deviation), resolution, "
                 "or both"
             )
-        if isinstance(self.uncertainty, Part) and np.isnan(self.values).any():
+        if isinstance(self.uncertainty, Share) and np.isnan(self.values).any():
             raise ValueError(
                 f"uncertainty: {100 * self.uncertainty:.3g} % of a value that is not given; to "
                 "plan tests, give it with a unit"
@@ -218,7 +218,7 @@ class MeasuredEntry(Table):
     def sigma(self) -> Array | float:
         """Standard deviation of each value, from uncertainty and resolution."""
         own: Array | float = self.uncertainty or 0.0
-        if isinstance(self.uncertainty, Part):
+        if isinstance(self.uncertainty, Share):
             own = self.uncertainty * self.values
         return np.hypot(own, self.from_resolution[0])
 

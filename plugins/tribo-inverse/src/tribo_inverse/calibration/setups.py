@@ -49,7 +49,7 @@ class Setup:
     model: Model
 
 
-class Run(NamedTuple):
+class SetupRun(NamedTuple):
     """Responses of a run."""
 
     responses: Array
@@ -128,7 +128,7 @@ def make_run(
     values: Array,
     wanted: Sequence[Reading],
     name: str = "run",
-) -> Run:
+) -> SetupRun:
     """Run a case with other values of its parameters, and compute the readings."""
     # Taking logarithms may round to just beyond a bound.
     settings = {
@@ -143,7 +143,7 @@ def make_run(
             case = validate_case(apply_settings(tables, settings))
             result = Simulation(case).run()
     with result:
-        return Run(*read_all(result, wanted), result.notices)
+        return SetupRun(*read_all(result, wanted), result.notices)
 
 
 def _check_entry(model: Model, entry: MeasuredEntry, place: str) -> None:
