@@ -14,6 +14,10 @@ from rich.segment import Segment
 from rich.table import Table
 
 from tribo.cli.streams import harmless
+from tribo.core.data_table import DataTable
+
+WIDE = 10_000
+"""More characters than any table needs."""
 
 
 class Console(RichConsole):
@@ -33,15 +37,44 @@ class Console(RichConsole):
         """Return what is written, without the blanks at the ends of lines."""
         return re.sub(" +$", "", super()._render_buffer(buffer), flags=re.MULTILINE)
 
+    def table(self, table: DataTable) -> None:
+        """Print a table and its notes; if it is too wide, without columns that it can spare."""
+        spare = [i for i, heading in enumerate(table.headings) if heading.spare]
+        spare.sort(key=lambda i: table.headings[i].spare)
+        kept, unbounded = set(range(len(table.headings))), self.options.update(width=WIDE)
+        left_out, drawn = [], _drawn(table)
+        for i in spare:
+            if self.measure(drawn, options=unbounded).minimum <= self.width:
+                break
+            left_out.append(table.headings[i].label)
+            kept.remove(i)
+            drawn = _drawn(table.columns(kept))
+        self.print(drawn)
+        if left_out:
+            self.print(f"Left out for want of width: {', '.join(left_out)}.")
+        for note in table.notes:
+            self.print(note, markup=False)
 
-def titled(title: str, *columns: str) -> Table:
-    """Return an empty table in the house style: a column of names, and those of values.
 
-    A heading that is too long is broken before a number is.
-    """
-    table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
-    if columns:
-        table.add_column("", overflow="fold")
-    for column in columns:
-        table.add_column(escape(column), justify="right", overflow="fold")
-    return table
+def _drawn(table: DataTable) -> Table:
+    """Return a table in the house style: a heading that is too long is broken before a number."""
+    title = escape(table.title) if table.title else None
+    drawn = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
+    rows = table.cells()
+    for i, heading in enumerate(table.headings):
+        words = (word for row in rows if row[1:] for word in row[i].split())
+        drawn.add_column(
+            escape(str(heading)),
+            justify="right" if i or heading.label else "left",
+            overflow="fold",
+            no_wrap=heading.whole,
+            min_width=max(map(len, words), default=0) if i else None,
+        )
+    for row in rows:
+        if not row[1:]:
+            drawn.add_section()
+            row = [f"[bold]{escape(row[0])}[/]"]
+        else:
+            row = list(map(escape, row))
+        drawn.add_row(*row)
+    return drawn

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import isnan
 from typing import Any, NamedTuple
@@ -100,6 +100,21 @@ def lab_report(result: Result) -> LabReport:
         rows=tuple(row for rows in from_plugins_of(result, "tribo_lab_rows") for row in rows),
         worn_through=tuple(result.worn_through),
     )
+
+
+def lab_sentences(result: Result, lab: LabReport) -> Iterator[str]:
+    """Yield what stands below the tables: first contact, yield, friction, rows of plugins."""
+    yield lab.first_contact_words
+    saves = result.saves()
+    last = saves[-1]
+    plastic = [save["plastic_area_m2"] / save["contact_area_m2"] for save in (saves[0], last)]
+    if max(plastic) > 0:
+        start, end = (f"{100 * part:.2g} %" for part in plastic)
+        yield f"At the hardness: {start} of the contact at first, {end} at the end."
+    if "friction_energy_J" in last:
+        force, work = last["friction_force_N"], last["friction_energy_J"]
+        yield f"Friction: {force:.4g} N at the end, {work:.4g} J dissipated."
+    yield from map(str, lab.rows)
 
 
 def _said(body: BodyReport) -> str:

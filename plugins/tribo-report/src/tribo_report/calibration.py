@@ -32,7 +32,6 @@ from tribo_report.maps import maps_page
 from tribo_report.page import render, stills
 from tribo_report.printed import printed_by
 from tribo_report.result import CITATION, facts
-from tribo_report.tables import for_page
 
 
 def calibration_file_page(path: Path) -> str:
@@ -83,7 +82,7 @@ def calibration_page(found: Calibration, title: str) -> str:
         title=title,
         answers=list(_answers(found)),
         tables_title="What was fitted",
-        tables=[for_page(table) for table in tables],
+        tables=tables,
         remarks=list(fit_sentences(found)),
         notes=found.notes,
         has_moments=False,

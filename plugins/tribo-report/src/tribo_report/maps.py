@@ -13,7 +13,6 @@ from tribo_inverse.map_tables import fit_words, map_pictures, maps_table
 
 from tribo_report.page import render, stills
 from tribo_report.result import CITATION
-from tribo_report.tables import for_page
 
 
 def maps_page(found: FittedMaps, level: float, title: str) -> str:
@@ -26,7 +25,7 @@ def maps_page(found: FittedMaps, level: float, title: str) -> str:
         title=title,
         answers=list(_answers(found, level)),
         tables_title="Where coefficients differ",
-        tables=[for_page(maps_table(found, level))],
+        tables=[maps_table(found, level)],
         remarks=[fit_words(found)],
         notes=found.notes,
         has_moments=False,

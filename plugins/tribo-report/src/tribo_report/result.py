@@ -8,18 +8,15 @@ from typing import Any
 
 from tribo import CaseError, Friction, Layer, Load, Material, NumericalError, Result, Simulation
 from tribo.kernel_api import (
-    LabReport,
-    fields_table,
+    DataTable,
+    Heading,
+    TableRow,
     findings,
-    friction_words,
-    inferred_table,
     lab_report,
+    lab_sentences,
+    report_blocks,
     result_pictures,
-    rough_bodies,
-    roughness_table,
-    saves_table,
     to_toml,
-    wear_table,
 )
 
 from tribo_report.amounts import amount, component_words, value_words
@@ -27,7 +24,6 @@ from tribo_report.drawing import drawing
 from tribo_report.fields import charts
 from tribo_report.page import render, stills
 from tribo_report.sentence import Estimate, read_verified, sentence, trust
-from tribo_report.tables import PageTable, for_page
 
 LONGEST_CASE = 200_000
 """Characters of a case that a report holds; one with a measured surface has millions."""
@@ -58,8 +54,8 @@ def result_page(result: Result, verified: Path | None = None) -> str:
         title=Path(result.name).stem,
         answer=sentence(result, lab, estimates),
         trust=trust(estimates),
-        tables=list(_tables(result, lab, estimates)),
-        remarks=[lab.first_contact_words, *friction_words(result), *map(str, lab.rows)],
+        tables=_tables(result, estimates),
+        remarks=list(lab_sentences(result, lab)),
         notes=result.notices,
         drawing=drawing(case, swept) if _is_whole(case) else "",
         facts=facts(case),
@@ -78,22 +74,19 @@ def cited(result: Result) -> str:
     return CITATION.format(version=result.provenance["packages"].get("tribo", ""))
 
 
-def _tables(result: Result, lab: LabReport, estimates: Sequence[Estimate]) -> list[PageTable]:
-    tables = [for_page(wear_table(result, lab.bodies))]
+def _tables(result: Result, estimates: Sequence[Estimate]) -> list[DataTable]:
+    """Return the tables of the lab report, and the uncertainties after what they are of."""
+    tables = (block for block in report_blocks(result) if isinstance(block, DataTable))
+    saves, wear, *others = tables
+    uncertain = []
     if estimates:
-        rows = [
-            [row["name"], amount(row["value"], row["unit"]), _uncertainty(row)] for row in estimates
-        ]
-        head = ["", "value", "±"]
-        tables.append(PageTable("Numerical uncertainty at the end", head, rows, True))
-    tables.append(for_page(saves_table(result)))
-    if rough := rough_bodies(result):
-        tables.append(for_page(roughness_table(result, rough)))
-    if lab.inferred:
-        tables.append(for_page(inferred_table(lab.inferred)))
-    if (fields := fields_table(result)) is not None:
-        tables.append(for_page(fields))
-    return tables
+        rows = (
+            TableRow((row["name"], amount(row["value"], row["unit"]), _uncertainty(row)))
+            for row in estimates
+        )
+        headings = tuple(map(Heading, ("", "value", "±")))
+        uncertain = [DataTable("Numerical uncertainty at the end", headings, tuple(rows))]
+    return [wear, *uncertain, saves, *others]
 
 
 def _ruled(result: Result) -> dict[str, Any]:

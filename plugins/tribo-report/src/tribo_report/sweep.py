@@ -10,13 +10,22 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from tribo import CaseError, Result
-from tribo.kernel_api import cell, curves_by, is_text, labelled, sweep_pictures, varied_paths
+from tribo.kernel_api import (
+    DataTable,
+    Heading,
+    TableRow,
+    cell,
+    curves_by,
+    is_text,
+    labelled,
+    sweep_pictures,
+    varied_paths,
+)
 
 from tribo_report.page import render, stills
 from tribo_report.reduced import each_plain
 from tribo_report.result import case_text, cited, facts
 from tribo_report.sentence import DEPTHS, VOLUMES, quoted
-from tribo_report.tables import PageTable
 
 RUNS, RESULTS = "runs.csv", "results"
 MOST_PICTURES = 4
@@ -116,10 +125,11 @@ def _with_unit(name: str, runs: pd.DataFrame, index: Any) -> str:
     return f"{cell(name, runs, index)} {unit}".rstrip()
 
 
-def _table(runs: pd.DataFrame, varied: list[str], measures: list[str]) -> PageTable:
+def _table(runs: pd.DataFrame, varied: list[str], measures: list[str]) -> DataTable:
     shown = ["run", *(["status"] if (runs["status"] != "done").any() else []), *varied, *measures]
-    rows = [[cell(name, runs, index) for name in shown] for index in runs.index]
-    return PageTable("Each run at its end", [labelled(n, runs)[0] for n in shown], rows, True)
+    rows = (TableRow(tuple(cell(name, runs, index) for name in shown)) for index in runs.index)
+    headings = tuple(Heading(labelled(name, runs)[0]) for name in shown)
+    return DataTable("Each run at its end", headings, tuple(rows))
 
 
 def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[str, Any]:
