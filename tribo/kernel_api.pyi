@@ -67,6 +67,7 @@ from tribo.lab.inferred import track_section as track_section
 from tribo.lab.report import LabReport as LabReport
 from tribo.lab.report import lab_report as lab_report
 from tribo.lab.report import lab_sentences as lab_sentences
+from tribo.lab.report import run_sentences as run_sentences
 from tribo.lab.roughness import without_form as without_form
 from tribo.lab.running_in import rough_bodies as rough_bodies
 from tribo.lab.scar import Scar as Scar
@@ -160,6 +161,7 @@ from tribo.study.runs import file_names as file_names
 from tribo.study.side_by_side import comparison_table as comparison_table
 from tribo.study.sweeping.study_file import by_path as by_path
 from tribo.study.sweeping.summary import cell as cell
+from tribo.study.sweeping.summary import column_heading as column_heading
 from tribo.study.sweeping.summary import is_text as is_text
 from tribo.study.sweeping.summary import labelled as labelled
 from tribo.study.sweeping.summary import varied_paths as varied_paths

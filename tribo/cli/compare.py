@@ -107,8 +107,9 @@ def _print(comparison: Comparison, times: Sequence[float]) -> None:
     room = max(console.width - _NAME_WIDTH, 2 * _CELL_WIDTH)
     columns = max(2, room // max(_CELL_WIDTH, longest + _GAP))
     table = comparison_table(comparison, times)
-    for start in range(1, len(labels) + 1, columns):
-        console.table(table.columns({0, *range(start, start + columns)}))
+    indices = range(1, len(labels) + 1)
+    for start in indices[::columns]:
+        console.table(table, (0, *indices[start - 1 : start - 1 + columns]))
     for note in comparison.notes:
         console.print(f"[yellow]Note:[/] {escape(note)}")
 

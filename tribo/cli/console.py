@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from rich import box
@@ -37,44 +37,44 @@ class Console(RichConsole):
         """Return what is written, without the blanks at the ends of lines."""
         return re.sub(" +$", "", super()._render_buffer(buffer), flags=re.MULTILINE)
 
-    def table(self, table: DataTable) -> None:
-        """Print a table and its notes; if it is too wide, without columns that it can spare."""
-        spare = [i for i, heading in enumerate(table.headings) if heading.spare]
-        spare.sort(key=lambda i: table.headings[i].spare)
-        kept, unbounded = set(range(len(table.headings))), self.options.update(width=WIDE)
-        left_out, drawn = [], _drawn(table)
-        for i in spare:
-            if self.measure(drawn, options=unbounded).minimum <= self.width:
-                break
-            left_out.append(table.headings[i].label)
-            kept.remove(i)
-            drawn = _drawn(table.columns(kept))
+    def table(self, table: DataTable, kept: Iterable[int] = ()) -> None:
+        """Print the columns `kept` of a table, or all, and its notes.
+
+        If it is too wide, columns that it can spare are left out, and named.
+        """
+        shown, headings = list(kept or range(len(table.headings))), table.headings
+        spare = sorted((i for i in shown if headings[i].spare), key=lambda i: headings[i].spare)
+        left_out, unbounded = [], self.options.update(width=WIDE)
+        drawn = _drawn(table, shown)
+        while spare and self.measure(drawn, options=unbounded).minimum > self.width:
+            shown.remove(spare[0])
+            left_out.append(headings[spare.pop(0)].label)
+            drawn = _drawn(table, shown)
         self.print(drawn)
         if left_out:
-            self.print(f"Left out for want of width: {', '.join(left_out)}.")
+            self.print(f"Left out for want of width: {', '.join(left_out)}.", markup=False)
         for note in table.notes:
             self.print(note, markup=False)
 
 
-def _drawn(table: DataTable) -> Table:
-    """Return a table in the house style: a heading that is too long is broken before a number."""
+def _drawn(table: DataTable, shown: Sequence[int]) -> Table:
+    """Return columns of a table in the house style: a long heading is broken before a number is."""
     title = escape(table.title) if table.title else None
     drawn = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
-    rows = table.cells()
-    for i, heading in enumerate(table.headings):
-        words = (word for row in rows if row[1:] for word in row[i].split())
+    rows = table.cells(shown)
+    for place, heading in enumerate(table.headings[i] for i in shown):
+        words = (word for row in rows if row[1:] for word in row[place].split())
         drawn.add_column(
             escape(str(heading)),
-            justify="right" if i or heading.label else "left",
+            justify="right" if place or heading.label else "left",
             overflow="fold",
             no_wrap=heading.whole,
-            min_width=max(map(len, words), default=0) if i else None,
+            min_width=max(map(len, words), default=0) if place else None,
         )
-    for row in rows:
-        if not row[1:]:
-            drawn.add_section()
-            row = [f"[bold]{escape(row[0])}[/]"]
+    for name, *values in rows:
+        if values:
+            drawn.add_row(escape(name), *map(escape, values))
         else:
-            row = list(map(escape, row))
-        drawn.add_row(*row)
+            drawn.add_section()
+            drawn.add_row(f"[bold]{escape(name)}[/]")
     return drawn

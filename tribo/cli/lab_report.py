@@ -11,8 +11,7 @@ from rich.text import Text
 
 from tribo.cli.console import Console
 from tribo.core.data_table import DataTable
-from tribo.core.words import readable
-from tribo.lab.report import lab_report, lab_sentences
+from tribo.lab.report import lab_report, lab_sentences, run_sentences
 from tribo.lab.tables import lab_tables
 from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
@@ -47,14 +46,7 @@ def report_blocks(result: Result) -> Iterator[DataTable | str]:
         if (fields := fields_table(result)) is not None:
             yield fields
     yield from lab_sentences(result, lab)
-    totals, worst = result.totals(), result.worst()
-    took = "" if result.wall_time is None else f", {readable(result.wall_time, '.1f')} s"
-    yield f"{totals['steps']} steps, {totals['contact_solves']} contact solves{took}."
-    yield (
-        f"At worst: load off by {worst['force_error']:.0e}, worn volume by "
-        f"{worst['volume_error']:.0e}, gap under pressure {worst['complementarity_error']:.0e}, "
-        f"overlap {worst['penetration_error']:.0e}, chattering {worst['chattering']:.0e}."
-    )
+    yield from run_sentences(result)
 
 
 def status_words(result: Result) -> str:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from html import escape
 from math import isnan
 from typing import NamedTuple
@@ -16,20 +16,10 @@ Value = float | str | None
 
 
 class Heading(NamedTuple):
-    """The heading of a column.
+    """The heading of a column: label, "" for the rows' names, and unit and format of its numbers.
 
-    Parameters
-    ----------
-    label : str
-        A noun phrase; "" for the column of the rows' names.
-    unit : str, optional
-        That of the column's numbers.
-    form : str, optional
-        Format of its numbers.
-    whole : bool, optional
-        Whether neither the heading nor a cell may be broken into lines.
-    spare : int, optional
-        Order in which a narrow terminal leaves the column out, from 1; 0 for never.
+    A column that is `whole` is not broken into lines. A narrow terminal leaves out those that it
+    can `spare`, in this order from 1.
     """
 
     label: str
@@ -71,39 +61,24 @@ class DataTable:
     rows: tuple[TableRow, ...]
     notes: tuple[str, ...] = ()
 
-    def cells(self) -> list[list[str]]:
-        """Return the rows as text."""
-        forms = [heading.form for heading in self.headings]
-        return [
-            [_text(value, row.form or form) for value, form in zip(row.values, forms, strict=False)]
+    def cells(self, kept: Sequence[int] | None = None) -> list[list[str]]:
+        """Return the rows as text; of the columns `kept`, by their index, or of all."""
+        forms = dict(enumerate(heading.form for heading in self.headings))
+        rows = (
+            [_text(row.values[i], row.form or forms[i]) for i in kept or forms if row.values[i:]]
             for row in self.rows
-            if len(row.values) == 1 or any(map(_is_known, row.values[1:]))
-        ]
-
-    def columns(self, kept: Collection[int]) -> DataTable:
-        """Return the table of some of the columns, by their index."""
-
-        def of(row: TableRow) -> TableRow:
-            values = tuple(value for i, value in enumerate(row.values) if i in kept)
-            return row if len(row.values) == 1 else row._replace(values=values)
-
-        headings = tuple(heading for i, heading in enumerate(self.headings) if i in kept)
-        return replace(self, headings=headings, rows=tuple(map(of, self.rows)))
+        )
+        return [row for row in rows if set(row[1:]) != {NOTHING}]
 
     def html(self) -> str:
         """Return the headings and the rows as an HTML table."""
         heads = map(str, self.headings)
         lines = ["".join(f'<th scope="col">{escape(h)}</th>' if h else "<td></td>" for h in heads)]
+        kind = "td" if self.headings[0].label else 'th scope="row"'
+        part = f'th scope="colgroup" class="part" colspan="{len(self.headings)}"'
         for name, *values in self.cells():
-            cells = "".join(f"<td>{escape(value)}</td>" for value in values)
-            if not values:
-                span = len(self.headings)
-                first = f'<th scope="colgroup" class="part" colspan="{span}">{escape(name)}</th>'
-            elif self.headings[0].label:
-                first = f"<td>{escape(name)}</td>"
-            else:
-                first = f'<th scope="row">{escape(name)}</th>'
-            lines.append(first + cells)
+            first = f"<{kind if values else part}>{escape(name)}</{kind[:2]}>"
+            lines.append(first + "".join(f"<td>{escape(value)}</td>" for value in values))
         head, *body = (f"<tr>{line}</tr>\n" for line in lines)
         return f"<table>\n<thead>{head}</thead>\n<tbody>{''.join(body)}</tbody>\n</table>"
 
@@ -113,11 +88,7 @@ class DataTable:
         return f"<h4>{escape(self.title)}</h4>{self.html()}{notes}"
 
 
-def _is_known(value: Value) -> bool:
-    return isinstance(value, str) or (value is not None and not isnan(value))
-
-
 def _text(value: Value, form: str) -> str:
-    if value is None or isinstance(value, str):
-        return NOTHING if value is None else value
-    return NOTHING if isnan(value) else readable(value, form)
+    if isinstance(value, str):
+        return value
+    return NOTHING if value is None or isnan(value) else readable(value, form)

@@ -117,6 +117,18 @@ def lab_sentences(result: Result, lab: LabReport) -> Iterator[str]:
     yield from map(str, lab.rows)
 
 
+def run_sentences(result: Result) -> Iterator[str]:
+    """Yield the size of a run, and its worst residuals."""
+    totals, worst = result.totals(), result.worst()
+    took = "" if result.wall_time is None else f", {readable(result.wall_time, '.1f')} s"
+    yield f"{totals['steps']} steps, {totals['contact_solves']} contact solves{took}."
+    yield (
+        f"At worst: load off by {worst['force_error']:.0e}, worn volume by "
+        f"{worst['volume_error']:.0e}, gap under pressure {worst['complementarity_error']:.0e}, "
+        f"overlap {worst['penetration_error']:.0e}, chattering {worst['chattering']:.0e}."
+    )
+
+
 def _said(body: BodyReport) -> str:
     """Return the numbers of a body in a lab's units."""
     values = (

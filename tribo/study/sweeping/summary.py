@@ -28,7 +28,7 @@ def runs_table(runs: pd.DataFrame) -> DataTable | None:
     shown, headings = done[:ROWS], [Heading("run", whole=True)]
     columns: list[Sequence[float | str]] = [list(shown["run"])]
     for name in varied_paths(runs):
-        headings.append(Heading(labelled(name, done)[0]))
+        headings.append(column_heading(name, done))
         # The heading has the unit.
         columns.append([cell(name, done, index) for index in shown.index])
     for end, heading, factor in MEASURED:
@@ -70,18 +70,24 @@ def is_text(runs: pd.DataFrame, name: str) -> bool:
     return not pd.api.types.is_numeric_dtype(runs[name])
 
 
-def labelled(name: str, runs: pd.DataFrame) -> tuple[str, float]:
-    """Return what is said of a column, with its unit, and the unit's size."""
+def labelled(name: str, runs: pd.DataFrame) -> tuple[str, str, float]:
+    """Return what is said of a column, its unit, "" for none, and the unit's size."""
     from tribo.plotting.curves import column_label
 
     if is_text(runs, name):
-        return name.replace("_", " ").replace(".", " "), 1.0
+        return name.replace("_", " ").replace(".", " "), "", 1.0
     return column_label(name, runs[name].to_numpy(float))
+
+
+def column_heading(name: str, runs: pd.DataFrame) -> Heading:
+    """Return the heading of a column, its unit in brackets."""
+    words, unit, _ = labelled(name, runs)
+    return Heading(f"{words} ({unit})" if unit else words)
 
 
 def cell(name: str, runs: pd.DataFrame, index: Any) -> str:
     """Return a value of a run, in the unit of its column, which it leaves out."""
-    value, factor = runs.at[index, name], labelled(name, runs)[1]
+    value, (_, _, factor) = runs.at[index, name], labelled(name, runs)
     if pd.isna(value):
         return "–"
     if factor == 1 and not isinstance(value, float):

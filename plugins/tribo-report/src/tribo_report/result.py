@@ -16,6 +16,7 @@ from tribo.kernel_api import (
     lab_sentences,
     report_blocks,
     result_pictures,
+    run_sentences,
     to_toml,
 )
 
@@ -38,6 +39,7 @@ OF_A_CASE: Mapping[str, Callable[[Any], str]] = {
     **dict.fromkeys(("kinematics", "contact", "stepping"), component_words),
 }
 """What puts a part of a body, or of a case, in words."""
+STOPPED = "All are relative. A step that exceeds the limits of these stops a run."
 CITATION = (
     "tribo {version}, MIT licence. Its model: J. Andersson, A. Almqvist and R. Larsson, "
     "Simulation of a wear experiment, 29 April 2010."
@@ -62,7 +64,7 @@ def result_page(result: Result, verified: Path | None = None) -> str:
         data=charts(result),
         stills=stills(result_pictures(result)),
         ruled=_ruled(result),
-        held=_held(result),
+        held=" ".join([*run_sentences(result), STOPPED]),
         provenance=_provenance(result),
         citation=cited(result),
         case=case_text(case),
@@ -113,18 +115,6 @@ def _uncertainty(row: Estimate) -> str:
         return "diverges"
     percent = f" ({100 * found / abs(value):.2g} %)" if value else ""
     return f"{amount(found, row['unit'])}{percent}"
-
-
-def _held(result: Result) -> str:
-    totals, worst = result.totals(), result.worst()
-    took = "" if result.wall_time is None else f" in {result.wall_time:.1f} s"
-    return (
-        f"{totals['steps']} steps and {totals['contact_solves']} contact solves{took}. At worst "
-        f"the load is off by {worst['force_error']:.1g}, the worn volume by "
-        f"{worst['volume_error']:.1g}, the gap under pressure is "
-        f"{worst['complementarity_error']:.1g}, the overlap {worst['penetration_error']:.1g}, all "
-        "relative. A step that exceeds the limits of these stops a run."
-    )
 
 
 def _is_whole(case: Mapping[str, Any]) -> bool:

@@ -12,9 +12,9 @@ import pandas as pd
 from tribo import CaseError, Result
 from tribo.kernel_api import (
     DataTable,
-    Heading,
     TableRow,
     cell,
+    column_heading,
     curves_by,
     is_text,
     labelled,
@@ -116,19 +116,17 @@ def _notes(runs: pd.DataFrame) -> Iterator[str]:
 
 
 def _words(name: str, runs: pd.DataFrame) -> str:
-    return labelled(name, runs)[0].partition(" (")[0]
+    return labelled(name, runs)[0]
 
 
 def _with_unit(name: str, runs: pd.DataFrame, index: Any) -> str:
-    label, _ = labelled(name, runs)
-    unit = label.rpartition(" (")[2].removesuffix(")") if label.endswith(")") else ""
-    return f"{cell(name, runs, index)} {unit}".rstrip()
+    return f"{cell(name, runs, index)} {labelled(name, runs)[1]}".rstrip()
 
 
 def _table(runs: pd.DataFrame, varied: list[str], measures: list[str]) -> DataTable:
     shown = ["run", *(["status"] if (runs["status"] != "done").any() else []), *varied, *measures]
     rows = (TableRow(tuple(cell(name, runs, index) for name in shown)) for index in runs.index)
-    headings = tuple(Heading(labelled(name, runs)[0]) for name in shown)
+    headings = tuple(column_heading(name, runs) for name in shown)
     return DataTable("Each run at its end", headings, tuple(rows))
 
 
@@ -136,7 +134,7 @@ def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[
     """Return what is measured over each quantity that varies, a curve for each of the others."""
     axes = []
     for across in varied:
-        label, factor = labelled(across, done)
+        words, _, factor = labelled(across, done)
         groups, apart = _groups(
             done.sort_values(across), [name for name in varied if name != across]
         )
@@ -144,8 +142,7 @@ def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[
         low, high = (0.0, 0.0) if text else (done[across].min(), done[across].max())
         panels = []
         for name in measures:
-            words, size = labelled(name, done)
-            what, _, unit = words.rpartition(" (")
+            what, unit, size = labelled(name, done)
             curves = [
                 {
                     "name": called,
@@ -155,10 +152,11 @@ def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[
                 }
                 for called, rows in groups.items()
             ]
-            panel = {"name": what, "unit": unit.rstrip(")"), "log": False, "curves": curves}
+            panel = {"name": what, "unit": unit, "log": False, "curves": curves}
             panels.append(panel | {"note": "A mark for each run that is done, at its end."})
         log = bool(low > 0 and high >= DECADE * low)
-        axes.append({"name": _words(across, done), "label": label, "log": log, "panels": panels})
+        label = column_heading(across, done).label
+        axes.append({"name": words, "label": label, "log": log, "panels": panels})
     return {"axes": axes}
 
 
