@@ -72,7 +72,6 @@ def comparison_page(comparison: Comparison) -> str:
                 for time in ends
             }
         ),
-        always=False,
         provenance=_provenance(comparison),
         citation=cited(first),
         case=to_toml(first.case),

@@ -11,6 +11,7 @@ from tribo.kernel_api import (
     DataTable,
     Heading,
     TableRow,
+    environment,
     findings,
     lab_report,
     lab_sentences,
@@ -74,6 +75,14 @@ def result_page(result: Result, verified: Path | None = None) -> str:
 def cited(result: Result) -> str:
     """Return how to cite what made a result."""
     return CITATION.format(version=result.provenance["packages"].get("tribo", ""))
+
+
+def made_here() -> dict[str, Any]:
+    """Return the packages that make a report, and how to cite it."""
+    packages: Any = environment()["packages"]
+    words = ", ".join(f"{name} {version}" for name, version in packages.items())
+    citation = CITATION.format(version=packages.get("tribo", ""))
+    return {"provenance": [("report made with", words)], "citation": citation}
 
 
 def _tables(result: Result, estimates: Sequence[Estimate]) -> list[DataTable]:
