@@ -66,7 +66,7 @@ def _drawn(table: DataTable, shown: Sequence[int]) -> Table:
         words = (word for row in rows if row[1:] for word in row[place].split())
         drawn.add_column(
             escape(str(heading)),
-            justify="right" if place or heading.label else "left",
+            justify="left" if table.named and not place else "right",
             overflow="fold",
             no_wrap=heading.whole,
             min_width=max(map(len, words), default=0) if place else None,

@@ -114,7 +114,7 @@ def _table(average: Result, resolved: Result) -> DataTable:
         row("pressure at the centre, MPa", (e["centre_pressure_Pa"] for e in ends), 1e-6, ".0f"),
         row("volume of the disk, mm³", (b["disk"]["wear_volume_m3"] for b in bodies), 1e9, ".3g"),
     )
-    headings = tuple(map(Heading, ("", "average", "resolved")))
+    headings = list(map(Heading, ("", "average", "resolved")))
     return DataTable(f"After {ends[1]['distance_m']:.4g} m", headings, rows)
 
 

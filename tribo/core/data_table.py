@@ -57,9 +57,14 @@ class DataTable:
     """
 
     title: str
-    headings: tuple[Heading, ...]
-    rows: tuple[TableRow, ...]
-    notes: tuple[str, ...] = ()
+    headings: Sequence[Heading]
+    rows: Sequence[TableRow]
+    notes: Sequence[str] = ()
+
+    @property
+    def named(self) -> bool:
+        """Whether each row begins with a name."""
+        return all(isinstance(row.values[0], str) for row in self.rows)
 
     def cells(self, kept: Sequence[int] | None = None) -> list[list[str]]:
         """Return the rows as text; of the columns `kept`, by their index, or of all."""
@@ -74,7 +79,7 @@ class DataTable:
         """Return the headings and the rows as an HTML table."""
         heads = map(str, self.headings)
         lines = ["".join(f'<th scope="col">{escape(h)}</th>' if h else "<td></td>" for h in heads)]
-        kind = "td" if self.headings[0].label else 'th scope="row"'
+        kind = 'th scope="row"' if self.named else "td"
         part = f'th scope="colgroup" class="part" colspan="{len(self.headings)}"'
         for name, *values in self.cells():
             first = f"<{kind if values else part}>{escape(name)}</{kind[:2]}>"

@@ -75,8 +75,8 @@ def saves_table(result: Result) -> DataTable:
         headings.append(Heading(body, unit, ".2f"))
         columns.append([factor * depth for depth in worn])
     title = "Contact, full widths along and across sliding; wear depth of each body"
-    rows = tuple(map(TableRow, zip(*columns, strict=True)))
-    return DataTable(title, tuple(headings), rows, tuple(notes))
+    rows = list(map(TableRow, zip(*columns, strict=True)))
+    return DataTable(title, headings, rows, notes)
 
 
 def _shares_along(result: Result) -> list[float]:
@@ -106,7 +106,7 @@ def wear_table(result: Result, bodies: Mapping[str, BodyReport]) -> DataTable:
         row("largest plastic depth, µm", (s["max_plastic_depth_m"] for s in saves), 1e6, ".3g"),
     )
     title = f"Wear after {last['distance_m']:.4g} m{before}"
-    return DataTable(title, tuple(map(Heading, ("", *tracks))), rows)
+    return DataTable(title, list(map(Heading, ("", *tracks))), rows)
 
 
 def _scar_along(result: Result, name: str, body: BodyReport) -> float | str | None:
@@ -127,7 +127,7 @@ def roughness_table(result: Result, bodies: Sequence[str]) -> DataTable:
             cells = (factor * getattr(values, key) for _, key, factor in ROUGHNESS)
             rows.append(TableRow((f"{body}: {WHERE[where]}", *cells)))
     headings = (Heading(""), *(heading for heading, _, _ in ROUGHNESS))
-    return DataTable("Roughness in nm, form removed", headings, tuple(rows))
+    return DataTable("Roughness in nm, form removed", headings, rows)
 
 
 def inferred_table(volumes: Sequence[InferredVolume]) -> DataTable:
@@ -139,4 +139,4 @@ def inferred_table(volumes: Sequence[InferredVolume]) -> DataTable:
         rows.append(TableRow((name, 1e9 * each.volume_m3, each.off)))
     headings = Heading(""), Heading("mm³", form=".3g"), Heading("%")
     title = "Volume by a lab's formulas, and how far that is off"
-    return DataTable(title, headings, tuple(rows))
+    return DataTable(title, headings, rows)

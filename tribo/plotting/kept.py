@@ -69,9 +69,8 @@ def fields_table(result: Result) -> DataTable | None:
         name = f"{field.name}, {unit}" if unit else field.name
         values = float(np.min(last)), field.mean(result, -1), float(np.max(last))
         rows.append(TableRow((name, *(value / factor for value in values)), ".4g"))
-    headings = map(Heading, ("", "least", "mean in the contact", "largest"))
-    title = "Fields of effects and wear laws at the end"
-    return DataTable(title, tuple(headings), tuple(rows)) if rows else None
+    headings = list(map(Heading, ("", "least", "mean in the contact", "largest")))
+    return DataTable("Fields of effects and wear laws at the end", headings, rows) if rows else None
 
 
 def _fields(result: Result) -> Iterator[KeptField]:

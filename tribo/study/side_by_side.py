@@ -33,7 +33,7 @@ def comparison_table(comparison: Comparison, times: Sequence[float]) -> DataTabl
     for time in times:
         rows += [TableRow((f"at {time:g} s",)), *_at(comparison, time)]
     headings = Heading("", whole=True), *map(Heading, comparison.results)
-    return DataTable("", headings, tuple(rows))
+    return DataTable("", headings, rows)
 
 
 def _at(comparison: Comparison, time: float) -> Iterator[TableRow]:

@@ -38,8 +38,8 @@ def runs_table(runs: pd.DataFrame) -> DataTable | None:
             columns.append([factor * value for value in shown[name]])
     notes = (f"and {len(done) - ROWS} more, in runs.csv",) if len(done) > ROWS else ()
     title = "Runs: what varied; largest pressure, depth and volume of each body at the end"
-    rows = tuple(map(TableRow, zip(*columns, strict=True)))
-    return DataTable(title, tuple(headings), rows, notes)
+    rows = list(map(TableRow, zip(*columns, strict=True)))
+    return DataTable(title, headings, rows, notes)
 
 
 def draw_runs(runs: pd.DataFrame, folder: Path) -> list[Path]:

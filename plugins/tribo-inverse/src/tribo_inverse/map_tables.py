@@ -83,7 +83,7 @@ def maps_table(found: FittedMaps, level: float) -> DataTable:
         cells, *differ = (f"{np.sum(count)} cells" for count in counts)
         there = f"{ends.min():.2f} to {ends.max():.2f}"
         rows.append(TableRow((name, f"{cells} of {told.size}", there, *differ)))
-    return DataTable(title, tuple(map(Heading, columns)), tuple(rows))
+    return DataTable(title, list(map(Heading, columns)), rows)
 
 
 def fit_words(found: FittedMaps) -> str:

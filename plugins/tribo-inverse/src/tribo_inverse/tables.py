@@ -80,7 +80,7 @@ def _table(
     title: str, columns: Sequence[str], rows: Iterable[tuple[Any, ...]], *notes: str
 ) -> DataTable:
     """Return a table that breaks long names and intervals between words, and no other values."""
-    lines = tuple(map(TableRow, rows))
+    lines = list(map(TableRow, rows))
     names = [str(line.values[0]) for line in lines]
     whole = not any(" " in name or len(name) > LONGEST_NAME for name in names)
     headings = [Heading(column, whole=not column.endswith(BROKEN)) for column in columns]

@@ -89,15 +89,13 @@ def _tables(result: Result, estimates: Sequence[Estimate]) -> list[DataTable]:
     """Return the tables of the lab report, and the uncertainties after what they are of."""
     tables = (block for block in report_blocks(result) if isinstance(block, DataTable))
     saves, wear, *others = tables
-    uncertain = []
-    if estimates:
-        rows = (
-            TableRow((row["name"], amount(row["value"], row["unit"]), _uncertainty(row)))
-            for row in estimates
-        )
-        headings = tuple(map(Heading, ("", "value", "±")))
-        uncertain = [DataTable("Numerical uncertainty at the end", headings, tuple(rows))]
-    return [wear, *uncertain, saves, *others]
+    rows = [
+        TableRow((row["name"], amount(row["value"], row["unit"]), _uncertainty(row)))
+        for row in estimates
+    ]
+    headings = list(map(Heading, ("", "value", "±")))
+    uncertain = DataTable("Numerical uncertainty at the end", headings, rows)
+    return [wear, *([uncertain] if rows else []), saves, *others]
 
 
 def _ruled(result: Result) -> dict[str, Any]:

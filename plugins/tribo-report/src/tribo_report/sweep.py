@@ -122,9 +122,9 @@ def _with_unit(name: str, runs: pd.DataFrame, index: Any) -> str:
 
 def _table(runs: pd.DataFrame, varied: list[str], measures: list[str]) -> DataTable:
     shown = ["run", *(["status"] if (runs["status"] != "done").any() else []), *varied, *measures]
-    rows = (TableRow(tuple(cell(name, runs, index) for name in shown)) for index in runs.index)
-    headings = tuple(column_heading(name, runs) for name in shown)
-    return DataTable("Each run at its end", headings, tuple(rows))
+    rows = [TableRow(tuple(cell(name, runs, index) for name in shown)) for index in runs.index]
+    headings = [column_heading(name, runs) for name in shown]
+    return DataTable("Each run at its end", headings, rows)
 
 
 def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[str, Any]:

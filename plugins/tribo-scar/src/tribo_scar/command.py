@@ -222,8 +222,8 @@ def _print(found: MeasuredScar) -> None:
             rows.append(TableRow((name, f"{value:#.{digits}g}", f"{error:#.2g}")))
         elif value is not None:
             rows.append(TableRow((name, value, ""), ".3g"))
-    headings = tuple(map(Heading, ("", "", "±")))
-    console.table(DataTable("Scar, with standard uncertainties", headings, tuple(rows)))
+    headings = list(map(Heading, ("", "", "±")))
+    console.table(DataTable("Scar, with standard uncertainties", headings, rows))
     if found.inferred:
         console.table(inferred_table(found.inferred))
     told, untold = [], []
