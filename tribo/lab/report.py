@@ -20,6 +20,14 @@ from tribo.result.read import Result
 
 HALF_SPACE = "dcfft"
 """The contact type that Hertz's theory is the smooth limit of."""
+MEASURES = (
+    ("mass", "mg", "mass_kg", 1e6, ".3g"),
+    ("specific wear rate", "mm³/(N·m)", "specific_wear_rate_mm3_per_Nm", 1.0, ".3g"),
+    ("scar along sliding", "mm", "scar_along_m", 1e3, ".3f"),
+    ("scar across", "mm", "scar_across_m", 1e3, ".3f"),
+    ("section of the track", "mm²", "track_section_m2", 1e6, ".3g"),
+)
+"""Name, unit, key, factor to the unit, and format of what a lab measures of a body."""
 
 
 class BodyReport(NamedTuple):
@@ -131,17 +139,10 @@ def run_sentences(result: Result) -> Iterator[str]:
 
 def _said(body: BodyReport) -> str:
     """Return the numbers of a body in a lab's units."""
-    values = (
-        ("specific wear rate {} mm³/(N·m)", body.specific_wear_rate_mm3_per_Nm, 1.0, ".3g"),
-        ("mass {} mg", body.mass_kg, 1e6, ".3g"),
-        ("scar along sliding {} mm", body.scar_along_m, 1e3, ".3f"),
-        ("scar across {} mm", body.scar_across_m, 1e3, ".3f"),
-        ("section of the track {} mm²", body.track_section_m2, 1e6, ".3g"),
-    )
     return ", ".join(
-        words.format(readable(factor * value, form))
-        for words, value, factor, form in values
-        if value is not None
+        f"{name} {readable(factor * value, form)} {unit}"
+        for name, unit, key, factor, form in MEASURES
+        if (value := getattr(body, key)) is not None
     )
 
 

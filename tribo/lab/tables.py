@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from tribo.core.data_table import DataTable, Heading, TableRow
+from tribo.core.data_table import DataTable, Heading, TableRow, Value
 from tribo.core.words import readable
 from tribo.lab.inferred import InferredVolume
-from tribo.lab.report import BodyReport, LabReport
+from tribo.lab.report import MEASURES, BodyReport, LabReport
 from tribo.lab.running_in import groove_length, rough_bodies, worn_roughness
 from tribo.result.read import Result
 
@@ -22,8 +22,6 @@ COLUMNS = (
     (Heading("area", "mm²", ".3f", whole=True, spare=1), "contact_area_m2", 1e6),
 )
 """Heading, key in a save, and factor to the unit of each column."""
-VARYING = ("load",)
-"""Columns shown only where they vary from save to save."""
 ROUGHNESS = (
     (Heading("Sa", form=".3g"), "Sa_m", 1e9),
     (Heading("Sq", form=".3g"), "Sq_m", 1e9),
@@ -65,8 +63,8 @@ def saves_table(result: Result) -> DataTable:
         # Of a flat contact whole MPa are too coarse.
         if heading.unit == "MPa" and 0 < max(values) < LOW:
             heading = heading._replace(form=".2f")
-        steady = len({readable(value, heading.form) for value in values}) == 1
-        if heading.label not in VARYING or along or not steady:
+        # A load has a column only where it changes.
+        if heading.label != "load" or along or len({readable(v, heading.form) for v in values}) > 1:
             headings.append(heading)
             columns.append(values)
     for body in result.body_names:
@@ -90,31 +88,31 @@ def wear_table(result: Result, bodies: Mapping[str, BodyReport]) -> DataTable:
     last = result.saves()[-1]
     tracks = [f"{n} (track)" if body.scar_along_m is None else n for n, body in bodies.items()]
     before = ", what it began with included" if result.case.get("begin") else ""
-    saves, marks = [last["bodies"][name] for name in bodies], bodies.values()
-    sections = (each.track_section_m2 if each.scar_across_m > 0 else None for each in marks)
-    rates = (each.specific_wear_rate_mm3_per_Nm for each in marks)
-    along = (_scar_along(result, name, body) for name, body in bodies.items())
+    saves = [last["bodies"][name] for name in bodies]
+    marks = [_marks(result, name, body) for name, body in bodies.items()]
     row = TableRow.scaled
-    rows = (
+    rows = [
         row("volume, mm³", (save["wear_volume_m3"] for save in saves), 1e9, ".3g"),
-        row("mass, mg", (each.mass_kg for each in marks), 1e6, ".3g"),
-        row("specific wear rate, mm³/(N·m)", rates, 1, ".3g"),
-        row("scar along sliding, mm", along, 1e3, ".3f"),
-        row("scar across, mm", (each.scar_across_m or None for each in marks), 1e3, ".3f"),
-        row("section of the track, mm²", sections, 1e6, ".3g"),
+        *(
+            row(f"{name}, {unit}", (mark[key] for mark in marks), factor, form)
+            for name, unit, key, factor, form in MEASURES
+        ),
         row("largest depth, µm", (save["max_wear_depth_m"] for save in saves), 1e6, ".3g"),
         row("largest plastic depth, µm", (s["max_plastic_depth_m"] for s in saves), 1e6, ".3g"),
-    )
+    ]
     title = f"Wear after {last['distance_m']:.4g} m{before}"
     return DataTable(title, list(map(Heading, ("", *tracks))), rows)
 
 
-def _scar_along(result: Result, name: str, body: BodyReport) -> float | str | None:
-    """Return the length of a scar, or of a groove on its track, in m; None without a scar."""
-    if not body.scar_across_m > 0 or body.scar_along_m is not None:
-        return body.scar_along_m or None
-    length = groove_length(result, name)
-    return "whole track" if length is None else length
+def _marks(result: Result, name: str, body: BodyReport) -> dict[str, Value]:
+    """Return what a lab measures of a body; of a groove that is resolved, its length too."""
+    marks: dict[str, Value] = body._asdict()
+    if not body.scar_across_m > 0:
+        return marks | dict.fromkeys(("scar_along_m", "scar_across_m", "track_section_m2"))
+    if body.scar_along_m is None:
+        length = groove_length(result, name)
+        marks["scar_along_m"] = "whole track" if length is None else length
+    return marks
 
 
 def roughness_table(result: Result, bodies: Sequence[str]) -> DataTable:
