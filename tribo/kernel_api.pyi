@@ -1,23 +1,11 @@
 """What packages may use of the kernel beside the names of `tribo`; `kernel_api.py` reads it."""
 
 from tribo.cli.console import Console as Console
-from tribo.cli.console import titled as titled
+from tribo.cli.lab_report import report_blocks as report_blocks
 from tribo.cli.options import JSON as JSON
 from tribo.cli.options import PATH as PATH
 from tribo.cli.options import SET as SET
 from tribo.cli.options import echo_json as echo_json
-from tribo.cli.side_by_side import comparison_table as comparison_table
-from tribo.cli.side_by_side import how_compared as how_compared
-from tribo.cli.swept import cell as cell
-from tribo.cli.swept import is_text as is_text
-from tribo.cli.swept import labelled as labelled
-from tribo.cli.swept import varied_paths as varied_paths
-from tribo.cli.tables import fields_table as fields_table
-from tribo.cli.tables import friction_words as friction_words
-from tribo.cli.tables import inferred_table as inferred_table
-from tribo.cli.tables import roughness_table as roughness_table
-from tribo.cli.tables import saves_table as saves_table
-from tribo.cli.tables import wear_table as wear_table
 from tribo.config.load import case_tables as case_tables
 from tribo.config.load import read_toml as read_toml
 from tribo.config.load import validate_case as validate_case
@@ -36,6 +24,9 @@ from tribo.core.arrays import readonly as readonly
 from tribo.core.arrays import union as union
 from tribo.core.box import Box as Box
 from tribo.core.box import whole as whole
+from tribo.core.data_table import DataTable as DataTable
+from tribo.core.data_table import Heading as Heading
+from tribo.core.data_table import TableRow as TableRow
 from tribo.core.dimensions import scale as scale
 from tribo.core.errors import OutOfWindow as OutOfWindow
 from tribo.core.errors import OverTime as OverTime
@@ -77,11 +68,14 @@ from tribo.lab.inferred import inferred as inferred
 from tribo.lab.inferred import track_section as track_section
 from tribo.lab.report import LabReport as LabReport
 from tribo.lab.report import lab_report as lab_report
+from tribo.lab.report import lab_sentences as lab_sentences
+from tribo.lab.report import run_sentences as run_sentences
 from tribo.lab.roughness import without_form as without_form
 from tribo.lab.running_in import rough_bodies as rough_bodies
 from tribo.lab.scar import Scar as Scar
 from tribo.lab.scar import crown as crown
 from tribo.lab.scar import diameter as diameter
+from tribo.lab.tables import inferred_table as inferred_table
 from tribo.lab.track import circular_groove_area as circular_groove_area
 from tribo.lab.track import planimetric_volume as planimetric_volume
 from tribo.lab.track import reciprocating_track_volume as reciprocating_track_volume
@@ -163,7 +157,13 @@ from tribo.stepping.relaxation import lasting as lasting
 from tribo.stepping.relaxation import relaxing as relaxing
 from tribo.stepping.step import worn_depths as worn_depths
 from tribo.study.runs import file_names as file_names
+from tribo.study.side_by_side import comparison_table as comparison_table
 from tribo.study.sweeping.study_file import by_path as by_path
+from tribo.study.sweeping.summary import cell as cell
+from tribo.study.sweeping.summary import column_heading as column_heading
+from tribo.study.sweeping.summary import is_text as is_text
+from tribo.study.sweeping.summary import labelled as labelled
+from tribo.study.sweeping.summary import varied_paths as varied_paths
 from tribo.study.variation import short_labels as short_labels
 from tribo.study.variation import unknown_body as unknown_body
 from tribo.study.variation import valid_case as valid_case

@@ -9,7 +9,7 @@ from paper_models import archard, case, foundation, motion, pair
 
 from tribo import Effect, Field, Grid, Load, Simulation, Stage
 from tribo.cli.console import Console
-from tribo.cli.tables import print_report
+from tribo.cli.lab_report import print_report
 
 
 def printed(result, width=80):

@@ -20,7 +20,7 @@ def test_the_lab_block_is_that_of_the_worn_bodies():
     report = lab_report(made(densities=(7850.0, None), cap=H))
     printed = str(report).splitlines()
     assert printed[0].startswith(
-        "ball: specific wear rate 3.11e-07 mm³/(N·m), mass 0.0879 mg, scar"
+        "ball: mass 0.0879 mg, specific wear rate 3.11e-07 mm³/(N·m), scar"
     )
     assert printed[1].startswith("disk: specific wear rate 3.11e-07 mm³/(N·m), scar across ")
     lab = report.as_json()

@@ -13,7 +13,7 @@ from paper_models import archard, flat, named, small, steel
 from rich.console import Console
 
 from tribo import CaseError, Simulation
-from tribo.cli.tables import print_provenance
+from tribo.cli.lab_report import print_provenance
 from tribo.core.errors import PluginError
 from tribo.result.provenance import changed_components, origin, provenance, stated_facts
 from tribo.result.read import Result

@@ -38,7 +38,7 @@ from tribo import (
 )
 from tribo.cli.check import _facts
 from tribo.cli.console import Console
-from tribo.cli.tables import print_report
+from tribo.cli.lab_report import print_report
 from tribo.plotting.pressure import pressure_map
 from tribo.simulation.beginning import first_state
 from tribo.simulation.predict import predict

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from tribo.cli.options import JSON, PATH, SET, echo_json
 from tribo.core.errors import CaseError, located
+
+if TYPE_CHECKING:
+    from tribo.study.comparison import Comparison
+
+_NAME_WIDTH = 26
+_CELL_WIDTH = 16
+_GAP = 3
 
 
 @click.command()
@@ -47,7 +55,6 @@ def compare(
       tribo compare my.toml --vary load.normal='50 N,100 N' --vary grid.cells=64,128 -o grids
       tribo compare a.h5 b.h5 --at 0 --at '10 min'
     """
-    from tribo.cli.side_by_side import print_comparison
     from tribo.config.overrides import parse_value
     from tribo.core.units import Quantity
     from tribo.study.comparison import compare as run
@@ -67,7 +74,7 @@ def compare(
     with run(what, match={name: own for name, _, own in pairs}, **options) as comparison:
         chosen = comparison.chosen_times(times)
         if not as_json:
-            print_comparison(comparison, chosen)
+            _print(comparison, chosen)
         pictures = []
         if not no_plots:
             from tribo.plotting.overlays import save_overlays
@@ -78,6 +85,33 @@ def compare(
             return
     for path in pictures:
         click.echo(f"Wrote {path}")
+
+
+def _print(comparison: Comparison, times: Sequence[float]) -> None:
+    """Print what differs at `times`, as many results side by side as the width allows."""
+    from rich.markup import escape
+
+    from tribo.cli.console import Console
+    from tribo.study.side_by_side import comparison_table
+
+    console, labels = Console(), list(comparison.results)
+    if varied := comparison.varied:
+        console.print(f"Varied: {', '.join(varied)}")
+    console.print(
+        f"Percentages are relative to {escape(comparison.reference)}. Maps are compared cell by "
+        "cell, sections where grids differ: the L2 norm of the difference, then the largest, "
+        "which of a pressure is often that of a cell at the rim."
+    )
+    # A label is broken between its words, unless two of them would not fit.
+    longest = max((len(word) for label in labels for word in label.split()), default=0)
+    room = max(console.width - _NAME_WIDTH, 2 * _CELL_WIDTH)
+    columns = max(2, room // max(_CELL_WIDTH, longest + _GAP))
+    table = comparison_table(comparison, times)
+    indices = range(1, len(labels) + 1)
+    for start in indices[::columns]:
+        console.table(table, (0, *indices[start - 1 : start - 1 + columns]))
+    for note in comparison.notes:
+        console.print(f"[yellow]Note:[/] {escape(note)}")
 
 
 def _asked(

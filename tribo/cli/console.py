@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from rich import box
@@ -14,6 +14,10 @@ from rich.segment import Segment
 from rich.table import Table
 
 from tribo.cli.streams import harmless
+from tribo.core.data_table import DataTable
+
+WIDE = 10_000
+"""More characters than any table needs."""
 
 
 class Console(RichConsole):
@@ -33,15 +37,44 @@ class Console(RichConsole):
         """Return what is written, without the blanks at the ends of lines."""
         return re.sub(" +$", "", super()._render_buffer(buffer), flags=re.MULTILINE)
 
+    def table(self, table: DataTable, kept: Iterable[int] = ()) -> None:
+        """Print the columns `kept` of a table, or all, and its notes.
 
-def titled(title: str, *columns: str) -> Table:
-    """Return an empty table in the house style: a column of names, and those of values.
+        If it is too wide, columns that it can spare are left out, and named.
+        """
+        shown, headings = list(kept or range(len(table.headings))), table.headings
+        spare = sorted((i for i in shown if headings[i].spare), key=lambda i: headings[i].spare)
+        left_out, unbounded = [], self.options.update(width=WIDE)
+        drawn = _drawn(table, shown)
+        while spare and self.measure(drawn, options=unbounded).minimum > self.width:
+            shown.remove(spare[0])
+            left_out.append(headings[spare.pop(0)].label)
+            drawn = _drawn(table, shown)
+        self.print(drawn)
+        if left_out:
+            self.print(f"Left out for want of width: {', '.join(left_out)}.", markup=False)
+        for note in table.notes:
+            self.print(note, markup=False)
 
-    A heading that is too long is broken before a number is.
-    """
-    table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
-    if columns:
-        table.add_column("", overflow="fold")
-    for column in columns:
-        table.add_column(escape(column), justify="right", overflow="fold")
-    return table
+
+def _drawn(table: DataTable, shown: Sequence[int]) -> Table:
+    """Return columns of a table in the house style: a long heading is broken before a number is."""
+    title = escape(table.title) if table.title else None
+    drawn = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
+    rows = table.cells(shown)
+    for place, heading in enumerate(table.headings[i] for i in shown):
+        words = (word for row in rows if row[1:] for word in row[place].split())
+        drawn.add_column(
+            escape(str(heading)),
+            justify="left" if table.named and not place else "right",
+            overflow="fold",
+            no_wrap=heading.whole,
+            min_width=max(map(len, words), default=0) if place else None,
+        )
+    for name, *values in rows:
+        if values:
+            drawn.add_row(escape(name), *map(escape, values))
+        else:
+            drawn.add_section()
+            drawn.add_row(f"[bold]{escape(name)}[/]")
+    return drawn

@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tribo.cli.options import PATH
-from tribo.core.words import readable
 
 if TYPE_CHECKING:
-    from rich.table import Table
-
+    from tribo.core.data_table import DataTable
     from tribo.result.read import Result
 
 RESOLVED = ("kinematics.positions=33", "grid.cells=64")
@@ -52,7 +50,7 @@ def demo(directory: Path, force: bool) -> None:
       tribo demo -d somewhere
     """
     from tribo.cli.console import Console
-    from tribo.cli.tables import print_report
+    from tribo.cli.lab_report import print_report
     from tribo.config.load import load_case
     from tribo.core.writing import check_new, make_folder, write_file
     from tribo.observers.progress import Progress
@@ -75,7 +73,7 @@ def demo(directory: Path, force: bool) -> None:
         pictures = save_figures(average, directory)
         click.echo(AVERAGE)
         with resolved.run(followed, observers=[Progress()], overwrite=force) as cycle:
-            Console().print(_table(average, cycle))
+            Console().table(_table(average, cycle))
             deep, shallow = (_end(result)["bodies"]["disk"] for result in (average, cycle))
             excess = deep["max_wear_depth_m"] / shallow["max_wear_depth_m"] - 1
             click.echo(
@@ -95,24 +93,26 @@ def _end(result: Result) -> dict[str, Any]:
     return result.saves()[-1]
 
 
-def _table(average: Result, resolved: Result) -> Table:
+def _table(average: Result, resolved: Result) -> DataTable:
     """Set what is left at the end by the average against that of the resolved cycle."""
-    from tribo.cli.console import titled
+    from tribo.core.data_table import DataTable, Heading, TableRow
 
-    table = titled(f"After {_end(resolved)['distance_m']:.4g} m", "average", "resolved")
     ends = [_end(result) for result in (average, resolved)]
     bodies = [end["bodies"] for end in ends]
-    for name, factor, form, values in (
-        ("groove, largest depth, µm", 1e6, ".2f", [b["disk"]["max_wear_depth_m"] for b in bodies]),
-        ("groove where sliding turns, µm", 1e6, ".2f", list(map(_turning, (average, resolved)))),
-        ("ball, largest depth, µm", 1e6, ".2f", [b["ball"]["max_wear_depth_m"] for b in bodies]),
-        ("contact along, mm", 2e3, ".2f", [end["contact_half_width_x_m"] for end in ends]),
-        ("contact across, mm", 2e3, ".2f", [end["contact_half_width_y_m"] for end in ends]),
-        ("pressure at the centre, MPa", 1e-6, ".0f", [end["centre_pressure_Pa"] for end in ends]),
-        ("volume of the disk, mm³", 1e9, ".3g", [b["disk"]["wear_volume_m3"] for b in bodies]),
-    ):
-        table.add_row(name, *(readable(factor * value, form) for value in values))
-    return table
+    row, turning = TableRow.scaled, list(map(_turning, (average, resolved)))
+    rows = (
+        row(
+            "groove, largest depth, µm", (b["disk"]["max_wear_depth_m"] for b in bodies), 1e6, ".2f"
+        ),
+        row("groove where sliding turns, µm", turning, 1e6, ".2f"),
+        row("ball, largest depth, µm", (b["ball"]["max_wear_depth_m"] for b in bodies), 1e6, ".2f"),
+        row("contact along, mm", (end["contact_half_width_x_m"] for end in ends), 2e3, ".2f"),
+        row("contact across, mm", (end["contact_half_width_y_m"] for end in ends), 2e3, ".2f"),
+        row("pressure at the centre, MPa", (e["centre_pressure_Pa"] for e in ends), 1e-6, ".0f"),
+        row("volume of the disk, mm³", (b["disk"]["wear_volume_m3"] for b in bodies), 1e9, ".3g"),
+    )
+    headings = list(map(Heading, ("", "average", "resolved")))
+    return DataTable(f"After {ends[1]['distance_m']:.4g} m", headings, rows)
 
 
 def _turning(result: Result) -> float:

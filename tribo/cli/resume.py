@@ -21,8 +21,8 @@ def resume(output: Path, allow_changed: bool) -> None:
     Example:
       tribo resume my.h5
     """
+    from tribo.cli.lab_report import print_report
     from tribo.cli.streams import printing
-    from tribo.cli.tables import print_report
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
     from tribo.result.read import Result

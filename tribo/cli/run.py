@@ -26,8 +26,8 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     input, 3 numerical failure or output that cannot be written, 130
     interrupted.
     """
+    from tribo.cli.lab_report import print_report
     from tribo.cli.streams import printing
-    from tribo.cli.tables import print_report
     from tribo.config.load import load_case
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress

@@ -20,7 +20,7 @@ def show(output: Path, as_json: bool) -> None:
       tribo show my.h5
       tribo show my.h5 --json
     """
-    from tribo.cli.tables import print_provenance, print_report
+    from tribo.cli.lab_report import print_provenance, print_report
     from tribo.lab.report import lab_report
     from tribo.lab.running_in import worn_surfaces
     from tribo.result.read import Result

@@ -64,9 +64,11 @@ def sweep(
     if as_json:
         echo_json(swept.as_json())
     else:
-        from tribo.cli.swept import draw_runs, print_runs
+        from tribo.cli.console import Console
+        from tribo.study.sweeping.summary import draw_runs, runs_table
 
-        print_runs(swept.table)
+        if (table := runs_table(swept.table)) is not None:
+            Console().table(table)
         click.echo(f"{total - failed} of {total} runs are done.")
         click.echo(f"Wrote {swept.folder / 'runs.csv'} and {swept.folder / 'saves.csv'}")
         for path in draw_runs(swept.table, swept.folder):

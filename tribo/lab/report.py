@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import isnan
 from typing import Any, NamedTuple
@@ -20,6 +20,14 @@ from tribo.result.read import Result
 
 HALF_SPACE = "dcfft"
 """The contact type that Hertz's theory is the smooth limit of."""
+MEASURES = (
+    ("mass", "mg", "mass_kg", 1e6, ".3g"),
+    ("specific wear rate", "mm³/(N·m)", "specific_wear_rate_mm3_per_Nm", 1.0, ".3g"),
+    ("scar along sliding", "mm", "scar_along_m", 1e3, ".3f"),
+    ("scar across", "mm", "scar_across_m", 1e3, ".3f"),
+    ("section of the track", "mm²", "track_section_m2", 1e6, ".3g"),
+)
+"""Name, unit, key, factor to the unit, and format of what a lab measures of a body."""
 
 
 class BodyReport(NamedTuple):
@@ -102,19 +110,39 @@ def lab_report(result: Result) -> LabReport:
     )
 
 
+def lab_sentences(result: Result, lab: LabReport) -> Iterator[str]:
+    """Yield what stands below the tables: first contact, yield, friction, rows of plugins."""
+    yield lab.first_contact_words
+    saves = result.saves()
+    last = saves[-1]
+    plastic = [save["plastic_area_m2"] / save["contact_area_m2"] for save in (saves[0], last)]
+    if max(plastic) > 0:
+        start, end = (f"{100 * part:.2g} %" for part in plastic)
+        yield f"At the hardness: {start} of the contact at first, {end} at the end."
+    if "friction_energy_J" in last:
+        force, work = last["friction_force_N"], last["friction_energy_J"]
+        yield f"Friction: {force:.4g} N at the end, {work:.4g} J dissipated."
+    yield from map(str, lab.rows)
+
+
+def run_sentences(result: Result) -> Iterator[str]:
+    """Yield the size of a run, and its worst residuals."""
+    totals, worst = result.totals(), result.worst()
+    took = "" if result.wall_time is None else f", {readable(result.wall_time, '.1f')} s"
+    yield f"{totals['steps']} steps, {totals['contact_solves']} contact solves{took}."
+    yield (
+        f"At worst: load off by {worst['force_error']:.0e}, worn volume by "
+        f"{worst['volume_error']:.0e}, gap under pressure {worst['complementarity_error']:.0e}, "
+        f"overlap {worst['penetration_error']:.0e}, chattering {worst['chattering']:.0e}."
+    )
+
+
 def _said(body: BodyReport) -> str:
     """Return the numbers of a body in a lab's units."""
-    values = (
-        ("specific wear rate {} mm³/(N·m)", body.specific_wear_rate_mm3_per_Nm, 1.0, ".3g"),
-        ("mass {} mg", body.mass_kg, 1e6, ".3g"),
-        ("scar along sliding {} mm", body.scar_along_m, 1e3, ".3f"),
-        ("scar across {} mm", body.scar_across_m, 1e3, ".3f"),
-        ("section of the track {} mm²", body.track_section_m2, 1e6, ".3g"),
-    )
     return ", ".join(
-        words.format(readable(factor * value, form))
-        for words, value, factor, form in values
-        if value is not None
+        f"{name} {readable(factor * value, form)} {unit}"
+        for name, unit, key, factor, form in MEASURES
+        if (value := getattr(body, key)) is not None
     )
 
 

@@ -145,7 +145,7 @@ def sweep_curves(
         ):
             label = ", ".join(
                 f"{value / unit:.4g}" if isinstance(value, float) else str(value)
-                for value, (_, unit) in zip(values, named, strict=True)
+                for value, (_, _, unit) in zip(values, named, strict=True)
             )
             across, up = (rows[name].to_numpy(float) for name in (x, y))
             look = {**look, "marker": MARKS[i % len(MARKS)], "label": label}
@@ -154,7 +154,7 @@ def sweep_curves(
             curves += _draw(axes, across, up, x, y, every, **look)
         if by:
             legend_below(figure, curves)
-            figure.legends[0].set_title(", ".join(label for label, _ in named))
+            figure.legends[0].set_title(", ".join(_axis(words, unit) for words, unit, _ in named))
     return figure
 
 
@@ -169,18 +169,23 @@ def _draw(
 ) -> list[Line2D]:
     """Draw a curve in units that fit `every` value, and label the axes."""
     every = every or (x, y)
-    (below, scale), (beside, size_up) = column_label(across, every[0]), column_label(up, every[1])
-    axes.set_xlabel(below)
-    axes.set_ylabel(beside.replace(" (", "\n("))
+    (below, unit, scale), (beside, unit_up, size_up) = (
+        column_label(name, values) for name, values in zip((across, up), every, strict=True)
+    )
+    axes.set_xlabel(_axis(below, unit))
+    axes.set_ylabel(_axis(beside, unit_up, "\n"))
     return axes.plot(x / scale, y / size_up, **{"color": "#202020", **look})
 
 
-def column_label(name: str, values: Array) -> tuple[str, float]:
-    """Return what an axis says of a column, with the unit for its values, and the unit's size."""
+def _axis(words: str, unit: str, gap: str = " ") -> str:
+    return f"{words}{gap}({unit})" if unit else words
+
+
+def column_label(name: str, values: Array) -> tuple[str, str, float]:
+    """Return what is said of a column, the unit for its values, "" for none, and its size."""
     (unit, end), factor = _unit(name, values)
     words = name.removesuffix(end).replace("_", " ").replace(".", " ").removeprefix("bodies ")
-    words = words.replace("max ", "largest ")
-    return (f"{words} ({unit})" if unit else words), factor
+    return words.replace("max ", "largest "), unit, factor
 
 
 def _unit(name: str, values: Array) -> tuple[tuple[str, str], float]:

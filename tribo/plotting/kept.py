@@ -1,4 +1,4 @@
-"""Fields that effects provide and that models keep: at each save, and seen from above."""
+"""Fields that effects provide and models keep: at each save, in a table, seen from above."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribo.core.arrays import Array
+from tribo.core.data_table import DataTable, Heading, TableRow
 from tribo.plotting import style
 from tribo.plotting.maps import new_maps
 from tribo.plotting.units import shown_in, time_labels
@@ -57,6 +58,19 @@ def kept_fields(result: Result) -> list[KeptField]:
     One that all bodies have alike is there once; one that an effect failed to give is left out.
     """
     return [each for each in _fields(result) if np.isfinite(each.values).all()]
+
+
+def fields_table(result: Result) -> DataTable | None:
+    """Return the range and the mean of each field at the last save; None without fields."""
+    rows = []
+    for field in kept_fields(result):
+        last = field.values[-1]
+        unit, factor = shown_in(field.unit, last)
+        name = f"{field.name}, {unit}" if unit else field.name
+        values = float(np.min(last)), field.mean(result, -1), float(np.max(last))
+        rows.append(TableRow((name, *(value / factor for value in values)), ".4g"))
+    headings = list(map(Heading, ("", "least", "mean in the contact", "largest")))
+    return DataTable("Fields of effects and wear laws at the end", headings, rows) if rows else None
 
 
 def _fields(result: Result) -> Iterator[KeptField]:

@@ -90,6 +90,11 @@ class Comparison:
         return list(self.results[self.reference].body_names)
 
     @property
+    def varied(self) -> list[str]:
+        """Paths of the settings that vary."""
+        return list(dict.fromkeys(path for point in self.settings.values() for path in point))
+
+    @property
     def notes(self) -> list[str]:
         """Remarks on the comparison: other grids, matched bodies, warnings of the runs."""
         first, last = self.results[self.reference], self.times[-1]

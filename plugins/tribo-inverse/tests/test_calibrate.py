@@ -11,7 +11,7 @@ import pytest
 from calibrations import kept_runs
 from click.testing import CliRunner
 from command_line import tribo
-from rich.console import Console
+from tribo.cli.console import Console
 from tribo.cli.main import tribo as main
 from tribo.config.load import load_case
 from tribo.core.errors import CaseError
@@ -47,7 +47,7 @@ def done(asked):
 def test_it_prints_estimates_with_intervals_and_what_to_run(done):
     lines = done.stdout.splitlines()
     # Its tables break neither names nor numbers.
-    (row,) = (line.split() for line in lines if line.startswith(" bodies.disk.wear.k"))
+    (row,) = (line.split() for line in lines if line.startswith("  bodies.disk.wear.k"))
     assert " ".join(row) == "bodies.disk.wear.k 7.08e-16 1/Pa 4.25e-16 to 9.91e-16 ±40 %"
     assert max(len(line) for line in lines if line.startswith(" ")) <= 80
     for words in ("95 % interval", "relative", "ball, crown", "leaves ±50 % open"):
@@ -70,7 +70,7 @@ def test_narrow_intervals_stay_on_a_line_at_80_columns(capsys):
     estimate = {"path": "bodies.ball.wear.k", "unit": "1/Pa", "value": 1.8171e-16}
     estimate |= {"lower": 1.8092e-16, "upper": 1.8251e-16, "held": False, "limited": False}
     found = SimpleNamespace(level=0.95, runs=5, parameters=pd.DataFrame([estimate]))
-    Console(width=80).print(estimates_table(found))
+    Console(width=80).table(estimates_table(found))
     *_, row = (line for line in capsys.readouterr().out.splitlines() if line.strip())
     assert row.split(maxsplit=3)[3].split() == ["1.8092e-16", "to", "1.8251e-16", "±0.4", "%"]
 
@@ -87,7 +87,7 @@ def test_wide_tables_break_no_value_at_80_columns(capsys):
     estimate = {"path": "bodies.second_ball.wear.factor", "unit": "1/Pa", "value": 1.234e-15}
     estimate |= {"lower": 1.111e-16, "upper": 1.357e-14, "held": False, "limited": False}
     found = SimpleNamespace(level=0.95, runs=5, parameters=pd.DataFrame([estimate]))
-    Console(width=80).print(estimates_table(found))
+    Console(width=80).table(estimates_table(found))
     text = capsys.readouterr().out
     assert max(map(len, text.splitlines())) <= 80
     for whole in (estimate["path"], "1.23e-15 1/Pa", "1.36e-14", "relative"):

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from calibrations import cheap, kept_runs, of_kind
-from rich.console import Console
 from scipy.stats import binom
+from tribo.cli.console import Console
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.config.write import to_toml
@@ -99,7 +99,7 @@ def test_a_coefficient_and_an_exponent_are_found_from_maps_at_two_loads(found):
 
 @pytest.mark.slow
 def test_a_map_is_one_row_of_the_table_and_of_the_picture(found, capsys):
-    Console(width=80).print(data_table(found))
+    Console(width=80).table(data_table(found))
     text = capsys.readouterr().out
     (row,) = (line.split() for line in text.splitlines() if "heavy" in line)
     assert " ".join(row).startswith("heavy: ball, depth_map, mean 0.")

@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from calibrations import cheap, kept_runs, of_kind, on_springs
-from rich.console import Console
 from scipy.ndimage import shift as moved
 from scipy.stats import binom
+from tribo.cli.console import Console
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError, NumericalError, TriboError
@@ -79,7 +79,7 @@ def test_a_map_off_its_middle_is_met_and_told(fitted, capsys):
     assert found.degrees_of_freedom == len(found.data) - 3
     assert found.data["shift_x_m"].unique() == pytest.approx([52e-6], abs=1e-6)
     assert found.data["shift_y_m"].unique() == pytest.approx([-31e-6], abs=1e-6)
-    Console(width=120).print(data_table(found))
+    Console(width=120).table(data_table(found))
     assert "mean, off centre by +5" in capsys.readouterr().out
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from calibrations import cheap, kept_runs, of_kind, on_springs
-from rich.console import Console
 from scipy.stats import norm
+from tribo.cli.console import Console
 from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
@@ -381,7 +381,7 @@ def test_what_nothing_fitted_changes_is_predicted_without_an_interval():
     loss = found.predictions.query("body == 'disk' and quantity == 'mass'").iloc[0]
     assert loss["lower"] == loss["value"] == loss["upper"]
     console = Console(width=80, record=True)
-    console.print(predictions_table(found))
+    console.table(predictions_table(found))
     assert "disk, mass" in (text := console.export_text())
     assert "not fitted" in text
     assert "±0.0 %" not in text
@@ -462,7 +462,7 @@ def test_an_estimate_held_by_its_bound_has_no_interval_and_data_and_model_disagr
     assert ball.value == pytest.approx(1.2 * BALL, rel=1e-6, abs=0)
     assert (ball.held, disk.held) == (True, False)
     console = Console(width=80, record=True)
-    console.print(estimates_table(held))
+    console.table(estimates_table(held))
     assert console.export_text().count("held by its upper bound") == 1
     assert (ball.lower, ball.upper) == (0, 1.2 * BALL)
     assert held.chi_square == pytest.approx(64)

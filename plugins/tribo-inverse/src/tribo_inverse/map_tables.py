@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
-from rich.table import Table
 from tribo import CaseError, Finding
-from tribo.kernel_api import Console, check_new, titled, write_file
+from tribo.kernel_api import Console, DataTable, Heading, TableRow, check_new, write_file
 
 from tribo_inverse.calibration.maps import SILENT, FittedMaps, LocalMap
 from tribo_inverse.calibration.quantities import p_words
@@ -73,20 +72,18 @@ def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
     return FittedMaps(maps=maps, **numbers, **fit, findings=findings), found["level"]
 
 
-def maps_table(found: FittedMaps, level: float) -> Table:
+def maps_table(found: FittedMaps, level: float) -> DataTable:
     """Return the range of the factors, and the number of cells where it differs from 1."""
-    table = titled(f"Local coefficients, {found.gradients + found.products} runs and passes back")
-    table.add_column("")
-    for column in ("told", "factor there", f"below 1 at {100 * level:g} %", "above 1"):
-        table.add_column(column, justify="right")
+    title = f"Local coefficients, {found.gradients + found.products} runs and passes back"
+    columns, rows = ("", "told", "factor there", f"below 1 at {100 * level:g} %", "above 1"), []
     for name, each in found.maps.items():
         told, (lower, upper) = each.told, each.interval(level)
         ends = each.factor[told] if np.any(told) else np.ones(1)
         counts = told, told & (upper < 1), told & (lower > 1)
         cells, *differ = (f"{np.sum(count)} cells" for count in counts)
         there = f"{ends.min():.2f} to {ends.max():.2f}"
-        table.add_row(name, f"{cells} of {told.size}", there, *differ)
-    return table
+        rows.append(TableRow((name, f"{cells} of {told.size}", there, *differ)))
+    return DataTable(title, list(map(Heading, columns)), rows)
 
 
 def fit_words(found: FittedMaps) -> str:
@@ -101,7 +98,7 @@ def fit_words(found: FittedMaps) -> str:
 def print_maps(found: FittedMaps, level: float) -> None:
     """Print fitted maps."""
     console = Console()
-    console.print(maps_table(found, level))
+    console.table(maps_table(found, level))
     console.print(fit_words(found), markup=False)
     for note in found.notes:
         console.print(f"Note: {note}", markup=False)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 from rich.markup import escape
-from rich.table import Table
-from tribo.kernel_api import Console, digits_of, signed, titled
+from tribo.kernel_api import Console, DataTable, Heading, TableRow, digits_of, signed
 
 from tribo_inverse.calibration.calibrate import Calibration
 from tribo_inverse.calibration.choice import Choice
@@ -23,15 +22,17 @@ BLIND = 0.2
 """Singular value of the Jacobian below which a combination of parameters is unknown."""
 LONGEST_NAME = 30
 """Characters of a name that fit in a table of 80 columns."""
+BROKEN = ("interval", "relative")
+"""Ends of the headings of columns of intervals."""
 
 
 def print_fit(found: Calibration) -> None:
     """Print estimates, residuals, predictions, the goodness of fit and notes."""
     console = Console()
-    console.print(estimates_table(found))
-    console.print(data_table(found))
+    console.table(estimates_table(found))
+    console.table(data_table(found))
     if len(found.predictions):
-        console.print(predictions_table(found))
+        console.table(predictions_table(found))
     for line in fit_sentences(found):
         console.print(line, markup=False)
     for note in found.notes:
@@ -41,70 +42,53 @@ def print_fit(found: Calibration) -> None:
 def print_plan(found: Plan) -> None:
     """Print the number of tests of each kind, and the intervals expected."""
     names = [each or "the case as it is" for each in found.tests["test"]]
-    count = int(found.tests["count"].sum())
-    table = _table("Tests", names, "how many")
-    for name, each in zip(names, found.tests.itertuples(), strict=True):
-        table.add_row(name, str(each.count))
-    parameters = _table(
-        "Expected", list(found.parameters["path"]), f"{100 * found.level:g} % interval"
-    )
-    for each in found.parameters.itertuples():
-        parameters.add_row(each.path, f"±{percent(each.half_width)} %")
-    console = Console()
+    counts = list(map(int, found.tests["count"]))
+    level = f"{100 * found.level:g} % interval"
+    paths = list(found.parameters["path"])
+    ends = [f"±{percent(each)} %" for each in found.parameters["half_width"]]
+    console, count = Console(), sum(counts)
     part = f"±{percent(found.within)} %"
     console.print(f"{count} test{'s' * (count != 1)} give intervals within {part}.")
-    console.print(table)
-    console.print(parameters)
+    console.table(_table("Tests", ["how many"], zip(names, counts, strict=True)))
+    console.table(_table("Expected", [level], zip(paths, ends, strict=True)))
 
 
 def print_choice(found: Choice) -> None:
     """Print the comparison of several cases, and the estimates of each."""
-    console, names = Console(), list(found.cases["case"])
+    console, rows = Console(), []
     columns = ["criterion", "weight", "left out", "χ²", "d.o.f.", "parameters"]
-    table = _table("Cases", names, *columns)
     for each in found.cases.itertuples():
         own = found.calibrations[each.case]
         left_out = "" if math.isnan(each.left_out) else f"{each.left_out:.1f}"
-        table.add_row(
-            each.case,
-            f"{each.bic:.1f}",
-            f"{each.weight:.2g}",
-            left_out,
-            f"{own.chi_square:.3g}",
-            str(own.degrees_of_freedom),
-            str(each.parameters),
-        )
-    console.print(table)
-    console.print(
+        fit = f"{own.chi_square:.3g}", own.degrees_of_freedom
+        odds = f"{each.bic:.1f}", f"{each.weight:.2g}", left_out
+        rows.append((each.case, *odds, *fit, each.parameters))
+    note = (
         "criterion: Schwarz's, the lower the better; weight: the probability that follows from it; "
         "left out: ln of the probability of each test predicted from the others, the higher the "
         "better."
     )
-    for name in names:
+    console.table(_table("Cases", columns, rows, note))
+    for name in found.cases["case"]:
         console.print(f"\n{escape(name)}")
-        console.print(estimates_table(found.calibrations[name]))
+        console.table(estimates_table(found.calibrations[name]))
     console.print(f"In short: {escape(found.verdict)}.")
 
 
-def _table(title: str, names: list[str], *columns: str) -> Table:
-    """Return a table that wraps names and intervals between words, and never wraps values."""
-    table = titled(title)
-    table.pad_edge, table.collapse_padding = False, True
-    longest = max((len(word) for name in names for word in name.split()), default=0)
-    whole = longest <= LONGEST_NAME and not any(" " in name for name in names)
-    width = None if whole else min(longest, LONGEST_NAME)
-    table.add_column("", overflow="fold", no_wrap=whole, min_width=width)
-    for column in columns:
-        is_interval = column == "relative" or column.endswith("interval")
-        table.add_column(column, justify="right", overflow="fold", no_wrap=not is_interval)
-    return table
+def _table(
+    title: str, columns: Sequence[str], rows: Iterable[tuple[Any, ...]], *notes: str
+) -> DataTable:
+    """Return a table that breaks long names and intervals between words, and no other values."""
+    lines = list(map(TableRow, rows))
+    names = [str(line.values[0]) for line in lines]
+    whole = not any(" " in name or len(name) > LONGEST_NAME for name in names)
+    headings = [Heading(column, whole=not column.endswith(BROKEN)) for column in columns]
+    return DataTable(title, (Heading("", whole=whole), *headings), lines, notes)
 
 
-def estimates_table(found: Calibration) -> Table:
+def estimates_table(found: Calibration) -> DataTable:
     """Return the parameters with their intervals."""
-    names, level = list(found.parameters["path"]), f"{100 * found.level:g} % interval"
-    columns = ["estimate", level, "relative"]
-    table = _table(f"Fitted in {found.runs} runs", names, *columns)
+    rows, columns = [], ["estimate", f"{100 * found.level:g} % interval", "relative"]
     for each in found.parameters.itertuples():
         digits = digits_of(each.lower, each.upper)
         ends, relative = _interval(each, f"{each.lower:.{digits}g}", f"{each.upper:.{digits}g}")
@@ -115,38 +99,34 @@ def estimates_table(found: Calibration) -> Table:
             value, ends = f"below {in_si(each.upper, each.unit)}", "upper bound"
         if each.held or each.limited or math.isinf(each.upper):
             relative = ""
-        table.add_row(each.path, value, ends, relative)
-    return table
+        rows.append((each.path, value, ends, relative))
+    return _table(f"Fitted in {found.runs} runs", columns, rows)
 
 
-def data_table(found: Calibration) -> Table:
+def data_table(found: Calibration) -> DataTable:
     """Return the measured values with their computed values and residuals."""
-    data = list(found.brief.itertuples())
-    names = [_name(each) for each in data]
-    table = _table("Measured", names, "value", "uncertainty", "computed", "residual")
-    for name, each in zip(names, data, strict=True):
+    rows = []
+    for each in found.brief.itertuples():
         values = (each.measured, each.sigma, each.computed)
         shown = [in_words(each.quantity, value) for value in values]
         if each.below:
             shown[0] = f"< {shown[0]}"
         many = each.depths > 1
         residual = f"rms {each.residual:.1f}" if many else signed(each.residual, 1)
-        table.add_row(name, *shown, residual)
-    return table
+        rows.append((_name(each), *shown, residual))
+    return _table("Measured", ["value", "uncertainty", "computed", "residual"], rows)
 
 
-def predictions_table(found: Calibration) -> Table:
+def predictions_table(found: Calibration) -> DataTable:
     """Return the predictions of the fitted case."""
-    names = [row_name(each) for each in found.predictions.itertuples()]
-    level = f"{100 * found.level:g} % interval"
-    table = _table("Not measured, at the end", names, "computed", level, "relative")
-    for name, each in zip(names, found.predictions.itertuples(), strict=True):
+    rows, columns = [], ["computed", f"{100 * found.level:g} % interval", "relative"]
+    for each in found.predictions.itertuples():
         value, low, high = (
             in_words(each.quantity, value, digits_of(each.lower, each.upper))
             for value in (each.value, each.lower, each.upper)
         )
-        table.add_row(name, value, *_interval(each, low.split()[0], high))
-    return table
+        rows.append((row_name(each), value, *_interval(each, low.split()[0], high)))
+    return _table("Not measured, at the end", columns, rows)
 
 
 def fit_sentences(found: Calibration) -> Iterator[str]:

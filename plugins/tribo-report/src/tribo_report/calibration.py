@@ -17,7 +17,6 @@ from tribo import CaseError, Finding
 from tribo.kernel_api import (
     case_tables,
     digits_of,
-    environment,
     to_toml,
     validate_case,
 )
@@ -31,8 +30,7 @@ from tribo_inverse.tables import data_table, estimates_table, fit_sentences, pre
 from tribo_report.maps import maps_page
 from tribo_report.page import render, stills
 from tribo_report.printed import printed_by
-from tribo_report.result import CITATION, facts
-from tribo_report.tables import for_page
+from tribo_report.result import facts, made_here
 
 
 def calibration_file_page(path: Path) -> str:
@@ -77,28 +75,22 @@ def calibration_page(found: Calibration, title: str) -> str:
     tables = [estimates_table(found), data_table(found)]
     if len(found.predictions):
         tables.append(predictions_table(found))
-    packages: Any = environment()["packages"]
     return render(
         "study.html.j2",
         kind="Calibration",
         title=title,
         answers=list(_answers(found)),
         tables_title="What was fitted",
-        tables=[for_page(table) for table in tables],
+        tables=tables,
         remarks=list(fit_sentences(found)),
         notes=found.notes,
-        has_moments=False,
-        curves_title="",
         stills=stills(
             {"fit, relative to the measured values": partial(fit_picture, found.brief, found.data)}
         ),
-        always=True,
-        provenance=[("report made with", ", ".join(f"{k} {v}" for k, v in packages.items()))],
-        citation=CITATION.format(version=packages.get("tribo", "")),
+        **made_here(),
         case="\n".join(_cases(found)),
         whose=" as fitted",
         facts=_facts(found),
-        data=None,
     )
 
 

@@ -10,7 +10,6 @@ from tribo import Comparison
 from tribo.kernel_api import (
     comparison_picture,
     comparison_table,
-    how_compared,
     short_labels,
     signed,
     time_labels,
@@ -22,7 +21,6 @@ from tribo_report.fields import pressure_maps
 from tribo_report.page import render, stills
 from tribo_report.result import cited, facts
 from tribo_report.sentence import DEPTHS, VOLUMES, quoted
-from tribo_report.tables import for_page
 
 
 def readable(comparison: Comparison) -> Comparison:
@@ -54,8 +52,7 @@ def comparison_page(comparison: Comparison) -> str:
         "sections": sections(results, times),
         "history": history(results),
     }
-    table = for_page(comparison_table(comparison, list(results), ends))
-    varied = _varied(comparison)
+    table, varied = comparison_table(comparison, ends), comparison.varied
     title = " and ".join(results) if len(results) == 2 else f"{len(results)} results"
     return render(
         "study.html.j2",
@@ -65,7 +62,7 @@ def comparison_page(comparison: Comparison) -> str:
         answers=_answers(comparison),
         tables_title="Side by side",
         tables=[replace(table, title="At the first and the last common save")],
-        remarks=[*([f"Varied: {', '.join(varied)}."] if varied else []), how_compared(comparison)],
+        remarks=[*([f"Varied: {', '.join(varied)}."] if varied else []), _how_compared(comparison)],
         notes=comparison.notes,
         has_moments=True,
         curves_title="History",
@@ -75,7 +72,6 @@ def comparison_page(comparison: Comparison) -> str:
                 for time in ends
             }
         ),
-        always=False,
         provenance=_provenance(comparison),
         citation=cited(first),
         case=to_toml(first.case),
@@ -85,13 +81,21 @@ def comparison_page(comparison: Comparison) -> str:
     )
 
 
+def _how_compared(comparison: Comparison) -> str:
+    """Say what the percentages of the table are."""
+    return (
+        f"Percentages are relative to {comparison.reference}; those of fields and sections "
+        "are the L2 norm and the largest difference, of a pressure often that of a cell at the rim."
+    )
+
+
 def _answers(comparison: Comparison) -> list[str]:
     """Return what the bodies have lost in the first result, and how far the others are off."""
     first, last = comparison.reference, comparison.times[-1]
     saves = {label: comparison.save(label, last) for label in comparison.results}
     time = time_labels(comparison.results[first].times)[comparison.results[first].save_at(last)]
     # Values stand for a variant, file names for a place.
-    varied = _varied(comparison)
+    varied = comparison.varied
     of = f"{varied[0]} " if len(varied) == 1 else ""
     where = f"{'with' if comparison.settings else 'in'} {of}{first}"
     answers = []
@@ -105,10 +109,6 @@ def _answers(comparison: Comparison) -> list[str]:
         )
         answers.append(f"After {time} the {body} has lost {lost} {where} and is worn {deep} deep.")
     return answers
-
-
-def _varied(comparison: Comparison) -> list[str]:
-    return list(dict.fromkeys(path for point in comparison.settings.values() for path in point))
 
 
 def _others(worn: dict[str, dict[str, float]], key: str, first: str) -> str:

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
-from tribo.kernel_api import environment
 from tribo_inverse.calibration.maps import FittedMaps
 from tribo_inverse.calibration.quantities import p_words
 from tribo_inverse.map_tables import fit_words, map_pictures, maps_table
 
 from tribo_report.page import render, stills
-from tribo_report.result import CITATION
-from tribo_report.tables import for_page
+from tribo_report.result import made_here
 
 
 def maps_page(found: FittedMaps, level: float, title: str) -> str:
     """Return the report of local coefficients as HTML; see `tribo_report.write_report`."""
-    packages: Any = environment()["packages"]
     pictures = map_pictures(found, level)
     return render(
         "study.html.j2",
@@ -26,19 +22,11 @@ def maps_page(found: FittedMaps, level: float, title: str) -> str:
         title=title,
         answers=list(_answers(found, level)),
         tables_title="Where coefficients differ",
-        tables=[for_page(maps_table(found, level))],
+        tables=[maps_table(found, level)],
         remarks=[fit_words(found)],
         notes=found.notes,
-        has_moments=False,
-        curves_title="",
         stills=stills({_called(name): draw for name, draw in pictures.items()}),
-        always=True,
-        provenance=[("report made with", ", ".join(f"{k} {v}" for k, v in packages.items()))],
-        citation=CITATION.format(version=packages.get("tribo", "")),
-        case="",
-        whose="",
-        facts=[],
-        data=None,
+        **made_here(),
     )
 
 

@@ -26,7 +26,7 @@ WIDE = 4.0
 """Width from which a picture takes a whole line, in inches."""
 
 
-def render(template: str, *, data: Mapping[str, Any] | None, **values: Any) -> str:
+def render(template: str, *, data: Mapping[str, Any] | None = None, **values: Any) -> str:
     """Return a template of this package filled in, with styles, scripts and data inside.
 
     Without `data` there is nothing to draw, and Plotly is left out.

@@ -8,18 +8,17 @@ from typing import Any
 
 from tribo import CaseError, Friction, Layer, Load, Material, NumericalError, Result, Simulation
 from tribo.kernel_api import (
-    LabReport,
-    fields_table,
+    DataTable,
+    Heading,
+    TableRow,
+    environment,
     findings,
-    friction_words,
-    inferred_table,
     lab_report,
+    lab_sentences,
+    report_blocks,
     result_pictures,
-    rough_bodies,
-    roughness_table,
-    saves_table,
+    run_sentences,
     to_toml,
-    wear_table,
 )
 
 from tribo_report.amounts import amount, component_words, value_words
@@ -27,7 +26,6 @@ from tribo_report.drawing import drawing
 from tribo_report.fields import charts
 from tribo_report.page import render, stills
 from tribo_report.sentence import Estimate, read_verified, sentence, trust
-from tribo_report.tables import PageTable, for_page
 
 LONGEST_CASE = 200_000
 """Characters of a case that a report holds; one with a measured surface has millions."""
@@ -42,6 +40,7 @@ OF_A_CASE: Mapping[str, Callable[[Any], str]] = {
     **dict.fromkeys(("kinematics", "contact", "stepping"), component_words),
 }
 """What puts a part of a body, or of a case, in words."""
+STOPPED = "All are relative. A step that exceeds the limits of these stops a run."
 CITATION = (
     "tribo {version}, MIT licence. Its model: J. Andersson, A. Almqvist and R. Larsson, "
     "Simulation of a wear experiment, 29 April 2010."
@@ -58,15 +57,15 @@ def result_page(result: Result, verified: Path | None = None) -> str:
         title=Path(result.name).stem,
         answer=sentence(result, lab, estimates),
         trust=trust(estimates),
-        tables=list(_tables(result, lab, estimates)),
-        remarks=[lab.first_contact_words, *friction_words(result), *map(str, lab.rows)],
+        tables=_tables(result, estimates),
+        remarks=list(lab_sentences(result, lab)),
         notes=result.notices,
         drawing=drawing(case, swept) if _is_whole(case) else "",
         facts=facts(case),
         data=charts(result),
         stills=stills(result_pictures(result)),
         ruled=_ruled(result),
-        held=_held(result),
+        held=" ".join([*run_sentences(result), STOPPED]),
         provenance=_provenance(result),
         citation=cited(result),
         case=case_text(case),
@@ -78,22 +77,25 @@ def cited(result: Result) -> str:
     return CITATION.format(version=result.provenance["packages"].get("tribo", ""))
 
 
-def _tables(result: Result, lab: LabReport, estimates: Sequence[Estimate]) -> list[PageTable]:
-    tables = [for_page(wear_table(result, lab.bodies))]
-    if estimates:
-        rows = [
-            [row["name"], amount(row["value"], row["unit"]), _uncertainty(row)] for row in estimates
-        ]
-        head = ["", "value", "±"]
-        tables.append(PageTable("Numerical uncertainty at the end", head, rows, True))
-    tables.append(for_page(saves_table(result)))
-    if rough := rough_bodies(result):
-        tables.append(for_page(roughness_table(result, rough)))
-    if lab.inferred:
-        tables.append(for_page(inferred_table(lab.inferred)))
-    if (fields := fields_table(result)) is not None:
-        tables.append(for_page(fields))
-    return tables
+def made_here() -> dict[str, Any]:
+    """Return the packages that make a report, and how to cite it."""
+    packages: Any = environment()["packages"]
+    words = ", ".join(f"{name} {version}" for name, version in packages.items())
+    citation = CITATION.format(version=packages.get("tribo", ""))
+    return {"provenance": [("report made with", words)], "citation": citation}
+
+
+def _tables(result: Result, estimates: Sequence[Estimate]) -> list[DataTable]:
+    """Return the tables of the lab report, and the uncertainties after what they are of."""
+    tables = (block for block in report_blocks(result) if isinstance(block, DataTable))
+    saves, wear, *others = tables
+    rows = [
+        TableRow((row["name"], amount(row["value"], row["unit"]), _uncertainty(row)))
+        for row in estimates
+    ]
+    headings = list(map(Heading, ("", "value", "±")))
+    uncertain = DataTable("Numerical uncertainty at the end", headings, rows)
+    return [wear, *([uncertain] if rows else []), saves, *others]
 
 
 def _ruled(result: Result) -> dict[str, Any]:
@@ -120,18 +122,6 @@ def _uncertainty(row: Estimate) -> str:
         return "diverges"
     percent = f" ({100 * found / abs(value):.2g} %)" if value else ""
     return f"{amount(found, row['unit'])}{percent}"
-
-
-def _held(result: Result) -> str:
-    totals, worst = result.totals(), result.worst()
-    took = "" if result.wall_time is None else f" in {result.wall_time:.1f} s"
-    return (
-        f"{totals['steps']} steps and {totals['contact_solves']} contact solves{took}. At worst "
-        f"the load is off by {worst['force_error']:.1g}, the worn volume by "
-        f"{worst['volume_error']:.1g}, the gap under pressure is "
-        f"{worst['complementarity_error']:.1g}, the overlap {worst['penetration_error']:.1g}, all "
-        "relative. A step that exceeds the limits of these stops a run."
-    )
 
 
 def _is_whole(case: Mapping[str, Any]) -> bool:

@@ -10,13 +10,22 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from tribo import CaseError, Result
-from tribo.kernel_api import cell, curves_by, is_text, labelled, sweep_pictures, varied_paths
+from tribo.kernel_api import (
+    DataTable,
+    TableRow,
+    cell,
+    column_heading,
+    curves_by,
+    is_text,
+    labelled,
+    sweep_pictures,
+    varied_paths,
+)
 
 from tribo_report.page import render, stills
 from tribo_report.reduced import each_plain
 from tribo_report.result import case_text, cited, facts
 from tribo_report.sentence import DEPTHS, VOLUMES, quoted
-from tribo_report.tables import PageTable
 
 RUNS, RESULTS = "runs.csv", "results"
 MOST_PICTURES = 4
@@ -58,12 +67,9 @@ def sweep_page(folder: Path) -> str:
         answers=list(_answers(done, len(runs), names, bodies)),
         tables_title="The runs",
         tables=[_table(runs, names, measures)],
-        remarks=[],
         notes=list(_notes(runs)),
-        has_moments=False,
         curves_title="What varies, and what comes of it",
         stills=stills({_words(name, done): draw for name, draw in pictures.items()}),
-        always=False,
         provenance=[("folder", str(folder.name)), ("made with", made)],
         citation=citation,
         case=case_text(case),
@@ -107,26 +113,25 @@ def _notes(runs: pd.DataFrame) -> Iterator[str]:
 
 
 def _words(name: str, runs: pd.DataFrame) -> str:
-    return labelled(name, runs)[0].partition(" (")[0]
+    return labelled(name, runs)[0]
 
 
 def _with_unit(name: str, runs: pd.DataFrame, index: Any) -> str:
-    label, _ = labelled(name, runs)
-    unit = label.rpartition(" (")[2].removesuffix(")") if label.endswith(")") else ""
-    return f"{cell(name, runs, index)} {unit}".rstrip()
+    return f"{cell(name, runs, index)} {labelled(name, runs)[1]}".rstrip()
 
 
-def _table(runs: pd.DataFrame, varied: list[str], measures: list[str]) -> PageTable:
+def _table(runs: pd.DataFrame, varied: list[str], measures: list[str]) -> DataTable:
     shown = ["run", *(["status"] if (runs["status"] != "done").any() else []), *varied, *measures]
-    rows = [[cell(name, runs, index) for name in shown] for index in runs.index]
-    return PageTable("Each run at its end", [labelled(n, runs)[0] for n in shown], rows, True)
+    rows = [TableRow(tuple(cell(name, runs, index) for name in shown)) for index in runs.index]
+    headings = [column_heading(name, runs) for name in shown]
+    return DataTable("Each run at its end", headings, rows)
 
 
 def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[str, Any]:
     """Return what is measured over each quantity that varies, a curve for each of the others."""
     axes = []
     for across in varied:
-        label, factor = labelled(across, done)
+        words, _, factor = labelled(across, done)
         groups, apart = _groups(
             done.sort_values(across), [name for name in varied if name != across]
         )
@@ -134,8 +139,7 @@ def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[
         low, high = (0.0, 0.0) if text else (done[across].min(), done[across].max())
         panels = []
         for name in measures:
-            words, size = labelled(name, done)
-            what, _, unit = words.rpartition(" (")
+            what, unit, size = labelled(name, done)
             curves = [
                 {
                     "name": called,
@@ -145,10 +149,11 @@ def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[
                 }
                 for called, rows in groups.items()
             ]
-            panel = {"name": what, "unit": unit.rstrip(")"), "log": False, "curves": curves}
+            panel = {"name": what, "unit": unit, "log": False, "curves": curves}
             panels.append(panel | {"note": "A mark for each run that is done, at its end."})
         log = bool(low > 0 and high >= DECADE * low)
-        axes.append({"name": _words(across, done), "label": label, "log": log, "panels": panels})
+        label = column_heading(across, done).label
+        axes.append({"name": words, "label": label, "log": log, "panels": panels})
     return {"axes": axes}
 
 

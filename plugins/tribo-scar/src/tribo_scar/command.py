@@ -194,12 +194,11 @@ def _with_error(value: float, error: float) -> str:
 
 
 def _print(found: MeasuredScar) -> None:
-    from tribo.kernel_api import Console, inferred_table, titled
+    from tribo.kernel_api import Console, DataTable, Heading, TableRow, inferred_table
 
     laid, console = found.registration, Console()
-    table = titled("Scar, with standard uncertainties", "", "±")
     relative = found.volume_uncertainty / found.volume
-    rows: list[tuple[str, float | str | None, float | None]] = [
+    values: list[tuple[str, float | str | None, float | None]] = [
         ("volume in the map, mm³", 1e9 * found.volume, 1e9 * found.volume_uncertainty),
         ("largest depth, µm", 1e6 * found.depth, 1e6 * found.depth_uncertainty),
         ("along sliding, mm", *_width(found, found.along, found.along_uncertainty)),
@@ -216,15 +215,17 @@ def _print(found: MeasuredScar) -> None:
         ("missing in it, %", 100 * found.missing or None, None),
         ("outliers in both maps", str(found.outliers) if found.outliers else None, None),
     ]
-    for name, value, error in rows:
+    rows = []
+    for name, value, error in values:
         if isinstance(value, float) and error is not None:
             digits = min(digits_of(value - error, value + error), MOST_DIGITS)
-            table.add_row(name, f"{value:#.{digits}g}", f"{error:#.2g}")
+            rows.append(TableRow((name, f"{value:#.{digits}g}", f"{error:#.2g}")))
         elif value is not None:
-            table.add_row(name, value if isinstance(value, str) else f"{value:.3g}", "")
-    console.print(table)
+            rows.append(TableRow((name, value, ""), ".3g"))
+    headings = list(map(Heading, ("", "", "±")))
+    console.table(DataTable("Scar, with standard uncertainties", headings, rows))
     if found.inferred:
-        console.print(inferred_table(found.inferred))
+        console.table(inferred_table(found.inferred))
     told, untold = [], []
     for name, words, size, off, sure in (
         ("the shift along x", "{} µm along x", 1e6, laid.shift[0], laid.shift_uncertainty[0]),

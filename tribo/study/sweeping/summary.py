@@ -7,47 +7,39 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
-from rich.markup import escape
 
-from tribo.cli.console import Console, titled
+from tribo.core.data_table import DataTable, Heading, TableRow
 
 ROWS = 20
 """Most runs in the table."""
 MEASURED = (
-    ("max_pressure_Pa", "p max\nMPa", 1e-6, ".3g"),
-    (".max_wear_depth_m", "{}\nµm", 1e6, ".3g"),
-    (".wear_volume_m3", "{}\nmm³", 1e9, ".3g"),
+    ("max_pressure_Pa", Heading("p max", "MPa", ".3g", whole=True), 1e-6),
+    (".max_wear_depth_m", Heading("{}", "µm", ".3g", whole=True), 1e6),
+    (".wear_volume_m3", Heading("{}", "mm³", ".3g", whole=True, spare=1), 1e9),
 )
-"""End of a column's name, header, factor to its unit, and format."""
+"""End of a column's name, heading, and factor to its unit."""
 
 
-def print_runs(runs: pd.DataFrame, console: Console | None = None) -> None:
-    """Print what varied and what came out of each run that is done."""
-    console = console or Console()
+def runs_table(runs: pd.DataFrame) -> DataTable | None:
+    """Return what varied and what came out of each run that is done; None if none is."""
     done = runs[runs["status"] == "done"]
     if done.empty:
-        return
-    table = titled("Runs: what varied; largest pressure, depth and volume of each body at the end")
-    columns = [list(map(str, done["run"][:ROWS]))]
-    table.add_column("run", justify="right")
+        return None
+    shown, headings = done[:ROWS], [Heading("run", whole=True)]
+    columns: list[Sequence[float | str]] = [list(shown["run"])]
     for name in varied_paths(runs):
+        headings.append(column_heading(name, done))
         # The heading has the unit.
-        cells = [escape(cell(name, done, index)) for index in done.index[:ROWS]]
-        # A long name is broken before a value is.
-        widest = max(map(len, cells))
-        heading = escape(labelled(name, done)[0])
-        table.add_column(heading, justify="right", overflow="fold", min_width=widest)
-        columns.append(cells)
-    for end, header, factor, digits in MEASURED:
+        columns.append([cell(name, done, index) for index in shown.index])
+    for end, heading, factor in MEASURED:
         for name in [column for column in done if _measures(str(column), end)]:
             body = str(name).removeprefix("bodies.").removesuffix(end)
-            table.add_column(escape(header.format(body)), justify="right", no_wrap=True)
-            columns.append([f"{factor * value:{digits}}" for value in done[name][:ROWS]])
-    for row in zip(*columns, strict=True):
-        table.add_row(*row)
-    console.print(table)
-    if len(done) > ROWS:
-        console.print(f"and {len(done) - ROWS} more, in runs.csv")
+            headings.append(heading._replace(label=heading.label.format(body)))
+            columns.append([factor * value for value in shown[name]])
+    notes = (f"and {len(done) - ROWS} more, in runs.csv",) if len(done) > ROWS else ()
+    title = "Runs: what varied; largest pressure, depth and volume of each body at the end"
+    rows = list(map(TableRow, zip(*columns, strict=True)))
+    return DataTable(title, headings, rows, notes)
 
 
 def draw_runs(runs: pd.DataFrame, folder: Path) -> list[Path]:
@@ -78,18 +70,24 @@ def is_text(runs: pd.DataFrame, name: str) -> bool:
     return not pd.api.types.is_numeric_dtype(runs[name])
 
 
-def labelled(name: str, runs: pd.DataFrame) -> tuple[str, float]:
-    """Return what is said of a column, with its unit, and the unit's size."""
+def labelled(name: str, runs: pd.DataFrame) -> tuple[str, str, float]:
+    """Return what is said of a column, its unit, "" for none, and the unit's size."""
     from tribo.plotting.curves import column_label
 
     if is_text(runs, name):
-        return name.replace("_", " ").replace(".", " "), 1.0
+        return name.replace("_", " ").replace(".", " "), "", 1.0
     return column_label(name, runs[name].to_numpy(float))
+
+
+def column_heading(name: str, runs: pd.DataFrame) -> Heading:
+    """Return the heading of a column, its unit in brackets."""
+    words, unit, _ = labelled(name, runs)
+    return Heading(f"{words} ({unit})" if unit else words)
 
 
 def cell(name: str, runs: pd.DataFrame, index: Any) -> str:
     """Return a value of a run, in the unit of its column, which it leaves out."""
-    value, factor = runs.at[index, name], labelled(name, runs)[1]
+    value, (_, _, factor) = runs.at[index, name], labelled(name, runs)
     if pd.isna(value):
         return "–"
     if factor == 1 and not isinstance(value, float):

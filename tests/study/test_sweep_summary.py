@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from tribo.cli.console import Console
-from tribo.cli.swept import ROWS, draw_runs, print_runs
+from tribo.study.sweeping.summary import ROWS, draw_runs, runs_table
 
 
 def table(loads, contacts):
@@ -28,7 +28,7 @@ def table(loads, contacts):
 @pytest.mark.parametrize("width", [60, 80])
 def test_the_table_has_what_varied_and_what_came_out(width):
     console = Console(file=io.StringIO(), width=width, highlight=False)
-    print_runs(table([20.0, 40.0], ["dcfft", "winkler"]), console)
+    console.table(runs_table(table([20.0, 40.0], ["dcfft", "winkler"])))
     lines = console.file.getvalue().strip().splitlines()
     assert max(map(len, lines)) <= width
     assert lines[-1].split() == ["4", "40", "winkler", "400", "4", "0"]
@@ -40,16 +40,16 @@ def test_headings_are_words_with_units_and_texts_are_whole():
     runs.insert(3, "label", ["as ground", "as polished"])
     runs.insert(4, "grid.cells", [12800, 25600])
     console = Console(file=io.StringIO(), width=120, highlight=False)
-    print_runs(runs, console)
+    console.table(runs_table(runs))
     printed = console.file.getvalue()
     for text in ("ball wear k (1/Pa)", "load normal (N)", "1.5e-16", "as polished", "25600"):
         assert text in printed
 
 
 def test_a_long_table_ends_with_how_many_more_there_are():
-    console = Console(file=io.StringIO(), width=80)
-    print_runs(table([float(load) for load in range(1, ROWS + 4)], ["dcfft"]), console)
-    assert "and 3 more, in runs.csv" in console.file.getvalue()
+    runs = runs_table(table([float(load) for load in range(1, ROWS + 4)], ["dcfft"]))
+    assert len(runs.rows) == ROWS
+    assert runs.notes == ("and 3 more, in runs.csv",)
 
 
 def test_worn_bodies_are_drawn_of_plans_and_of_samples(tmp_path):

@@ -1,0 +1,99 @@
+"""A table as data: a terminal, a notebook and a report print it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from html import escape
+from math import isnan
+from typing import NamedTuple
+
+from tribo.core.words import readable
+
+NOTHING = "–"
+"""What is printed for a missing value."""
+Value = float | str | None
+
+
+class Heading(NamedTuple):
+    """The heading of a column: label, "" for the rows' names, and unit and format of its numbers.
+
+    A column that is `whole` is not broken into lines. A narrow terminal leaves out those that it
+    can `spare`, in this order from 1.
+    """
+
+    label: str
+    unit: str = ""
+    form: str = ""
+    whole: bool = False
+    spare: int = 0
+
+    def __str__(self) -> str:
+        """Return the label above the unit."""
+        return "\n".join(filter(None, (self.label, self.unit)))
+
+
+class TableRow(NamedTuple):
+    """The values of a row, None or NaN where missing; one alone is the title of the rows below.
+
+    The format of its numbers is `form`, or else that of their columns.
+    """
+
+    values: tuple[Value, ...]
+    form: str = ""
+
+    @classmethod
+    def scaled(cls, name: str, values: Iterable[Value], factor: float, form: str) -> TableRow:
+        """Return a row with the name of a quantity and its values times the factor to its unit."""
+        numbers = (factor * v if isinstance(v, float | int) else v for v in values)
+        return cls((name, *numbers), form)
+
+
+@dataclass(frozen=True)
+class DataTable:
+    """A table: its title, a heading for each column, its rows, and sentences below it.
+
+    A row of which nothing but the name is known is not printed.
+    """
+
+    title: str
+    headings: Sequence[Heading]
+    rows: Sequence[TableRow]
+    notes: Sequence[str] = ()
+
+    @property
+    def named(self) -> bool:
+        """Whether each row begins with a name."""
+        return all(isinstance(row.values[0], str) for row in self.rows)
+
+    def cells(self, kept: Sequence[int] | None = None) -> list[list[str]]:
+        """Return the rows as text; of the columns `kept`, by their index, or of all."""
+        forms = dict(enumerate(heading.form for heading in self.headings))
+        rows = (
+            [_text(row.values[i], row.form or forms[i]) for i in kept or forms if row.values[i:]]
+            for row in self.rows
+        )
+        return [row for row in rows if set(row[1:]) != {NOTHING}]
+
+    def html(self) -> str:
+        """Return the headings and the rows as an HTML table."""
+        heads = map(str, self.headings)
+        lines = ["".join(f'<th scope="col">{escape(h)}</th>' if h else "<td></td>" for h in heads)]
+        kind = 'th scope="row"' if self.named else "td"
+        part = f'th scope="colgroup" class="part" colspan="{len(self.headings)}"'
+        for name, *values in self.cells():
+            first = f"<{kind if values else part}>{escape(name)}</{kind[:2]}>"
+            lines.append(first + "".join(f"<td>{escape(value)}</td>" for value in values))
+        head, *body = (f"<tr>{line}</tr>\n" for line in lines)
+        return f"<table>\n<thead>{head}</thead>\n<tbody>{''.join(body)}</tbody>\n</table>"
+
+    def _repr_html_(self) -> str:
+        """Show the table in a notebook, with its title and notes."""
+        notes = "".join(f"<p>{escape(note)}</p>" for note in self.notes)
+        return f"<h4>{escape(self.title)}</h4>{self.html()}{notes}"
+
+
+def _text(value: Value, form: str) -> str:
+    if isinstance(value, str):
+        return value
+    return NOTHING if value is None or isnan(value) else readable(value, form)

@@ -1,0 +1,140 @@
+"""Tables of a result, in a laboratory's units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from tribo.core.data_table import DataTable, Heading, TableRow, Value
+from tribo.core.words import readable
+from tribo.lab.inferred import InferredVolume
+from tribo.lab.report import MEASURES, BodyReport, LabReport
+from tribo.lab.running_in import groove_length, rough_bodies, worn_roughness
+from tribo.result.read import Result
+
+COLUMNS = (
+    (Heading("time", "s", "g", whole=True), "time_s", 1),
+    (Heading("path", "m", ".4g", whole=True, spare=3), "distance_m", 1),
+    (Heading("load", "N", ".4g", whole=True), "load_N", 1),
+    (Heading("p max", "MPa", ".0f", whole=True), "max_pressure_Pa", 1e-6),
+    (Heading("p centre", "MPa", ".0f", whole=True, spare=2), "centre_pressure_Pa", 1e-6),
+    (Heading("along", "µm", ".0f", whole=True, spare=4), "contact_half_width_x_m", 2e6),
+    (Heading("across", "µm", ".0f", whole=True, spare=5), "contact_half_width_y_m", 2e6),
+    (Heading("area", "mm²", ".3f", whole=True, spare=1), "contact_area_m2", 1e6),
+)
+"""Heading, key in a save, and factor to the unit of each column."""
+ROUGHNESS = (
+    (Heading("Sa", form=".3g"), "Sa_m", 1e9),
+    (Heading("Sq", form=".3g"), "Sq_m", 1e9),
+    (Heading("Sz", form=".3g", spare=5), "Sz_m", 1e9),
+    (Heading("Ssk", form="z.2f", spare=4), "Ssk", 1),
+    (Heading("Sku", form="z.2f", spare=3), "Sku", 1),
+    (Heading("Ra along", form=".3g", spare=2), "Ra_along_m", 1e9),
+    (Heading("Ra across", form=".3g", spare=1), "Ra_across_m", 1e9),
+)
+"""Heading, key, and factor to nm of each column."""
+WHERE = {"scar": "scar", "unworn": "at first", "beside": "beside"}
+LOW = 20.0
+"""Largest pressure up to which those of a column have decimals, in MPa."""
+SHALLOW = 1e-7
+"""Depth below which the depths of a body are in nm."""
+
+
+def lab_tables(result: Result, lab: LabReport) -> Iterator[DataTable]:
+    """Yield the saves, and what a lab would measure and infer of the worn bodies."""
+    yield saves_table(result)
+    yield wear_table(result, lab.bodies)
+    if rough := rough_bodies(result):
+        yield roughness_table(result, rough)
+    if lab.inferred:
+        yield inferred_table(lab.inferred)
+
+
+def saves_table(result: Result) -> DataTable:
+    """Return the contact and the largest depths at each save."""
+    saves, along, notes = result.saves(), _shares_along(result), []
+    if along:
+        notes.append(
+            f"The load changes along the stroke, from {min(along):g} to {max(along):g} of the "
+            "normal load; the table has its mean over the path, and pressures in the middle."
+        )
+    headings, columns = [], []
+    for heading, key, factor in COLUMNS:
+        values = [factor * save[key] for save in saves]
+        # Of a flat contact whole MPa are too coarse.
+        if heading.unit == "MPa" and 0 < max(values) < LOW:
+            heading = heading._replace(form=".2f")
+        # A load has a column only where it changes.
+        if heading.label != "load" or along or len({readable(v, heading.form) for v in values}) > 1:
+            headings.append(heading)
+            columns.append(values)
+    for body in result.body_names:
+        worn = [save["bodies"][body]["max_wear_depth_m"] for save in saves]
+        unit, factor = ("nm", 1e9) if 0 < max(worn) < SHALLOW else ("µm", 1e6)
+        headings.append(Heading(body, unit, ".2f"))
+        columns.append([factor * depth for depth in worn])
+    title = "Contact, full widths along and across sliding; wear depth of each body"
+    rows = list(map(TableRow, zip(*columns, strict=True)))
+    return DataTable(title, headings, rows, notes)
+
+
+def _shares_along(result: Result) -> list[float]:
+    """Return the shares of a load that changes along the stroke; none if it does not."""
+    load = result.case.get("load", {})
+    return [place["share"] for place in load.get("along", ())] if isinstance(load, Mapping) else []
+
+
+def wear_table(result: Result, bodies: Mapping[str, BodyReport]) -> DataTable:
+    """Return what a lab would measure of each body at the end."""
+    last = result.saves()[-1]
+    tracks = [f"{n} (track)" if body.scar_along_m is None else n for n, body in bodies.items()]
+    before = ", what it began with included" if result.case.get("begin") else ""
+    saves = [last["bodies"][name] for name in bodies]
+    marks = [_marks(result, name, body) for name, body in bodies.items()]
+    row = TableRow.scaled
+    rows = [
+        row("volume, mm³", (save["wear_volume_m3"] for save in saves), 1e9, ".3g"),
+        *(
+            row(f"{name}, {unit}", (mark[key] for mark in marks), factor, form)
+            for name, unit, key, factor, form in MEASURES
+        ),
+        row("largest depth, µm", (save["max_wear_depth_m"] for save in saves), 1e6, ".3g"),
+        row("largest plastic depth, µm", (s["max_plastic_depth_m"] for s in saves), 1e6, ".3g"),
+    ]
+    title = f"Wear after {last['distance_m']:.4g} m{before}"
+    return DataTable(title, list(map(Heading, ("", *tracks))), rows)
+
+
+def _marks(result: Result, name: str, body: BodyReport) -> dict[str, Value]:
+    """Return what a lab measures of a body; of a groove that is resolved, its length too."""
+    marks: dict[str, Value] = body._asdict()
+    if not body.scar_across_m > 0:
+        return marks | dict.fromkeys(("scar_along_m", "scar_across_m", "track_section_m2"))
+    if body.scar_along_m is None:
+        length = groove_length(result, name)
+        marks["scar_along_m"] = "whole track" if length is None else length
+    return marks
+
+
+def roughness_table(result: Result, bodies: Sequence[str]) -> DataTable:
+    """Set the roughness of rough bodies in their scars against what it was, and beside them."""
+    rows = []
+    for body in bodies:
+        for where, values in worn_roughness(result, result.body(body), -1)._asdict().items():
+            # Less than a hundredth of a moment is noise.
+            values = values._replace(Ssk=round(values.Ssk, 2), Sku=round(values.Sku, 2))
+            cells = (factor * getattr(values, key) for _, key, factor in ROUGHNESS)
+            rows.append(TableRow((f"{body}: {WHERE[where]}", *cells)))
+    headings = (Heading(""), *(heading for heading, _, _ in ROUGHNESS))
+    return DataTable("Roughness in nm, form removed", headings, rows)
+
+
+def inferred_table(volumes: Sequence[InferredVolume]) -> DataTable:
+    """Set what a lab would infer from the scars against what was worn."""
+    rows = []
+    for each in volumes:
+        standard = f" ({each.standard})" if each.standard else ""
+        name = f"{each.body}: {each.method}{standard}"
+        rows.append(TableRow((name, 1e9 * each.volume_m3, each.off)))
+    headings = Heading(""), Heading("mm³", form=".3g"), Heading("%")
+    title = "Volume by a lab's formulas, and how far that is off"
+    return DataTable(title, headings, rows)

@@ -1,0 +1,84 @@
+"""The table of a comparison: a column a result, in a lab's units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from tribo.core.data_table import DataTable, Heading, TableRow
+from tribo.core.words import readable, signed
+from tribo.study.comparison import Comparison
+from tribo.study.differences import differences
+
+_TOTALS = (
+    ("steps", "steps", ".0f"),
+    ("contact solves", "contact_solves", ".0f"),
+    ("time to solution, s", "wall_time_s", ".1f"),
+)
+_SCALARS = (
+    ("largest pressure, MPa", "max_pressure_Pa", 1e-6, ".4g"),
+    ("centre pressure, MPa", "centre_pressure_Pa", 1e-6, ".4g"),
+    ("width along, µm", "contact_half_width_x_m", 2e6, ".0f"),
+    ("width across, µm", "contact_half_width_y_m", 2e6, ".0f"),
+)
+_OF_BODIES = (
+    ("depth, µm", "max_wear_depth_m", 1e6, ".4g"),
+    ("volume, mm³", "wear_volume_m3", 1e9, ".3g"),
+)
+
+
+def comparison_table(comparison: Comparison, times: Sequence[float]) -> DataTable:
+    """Return a column for each result, with what differs at `times`."""
+    totals = [result.totals() for result in comparison.results.values()]
+    rows = [TableRow((name, *(t[key] for t in totals)), form) for name, key, form in _TOTALS]
+    for time in times:
+        rows += [TableRow((f"at {time:g} s",)), *_at(comparison, time)]
+    headings = Heading("", whole=True), *map(Heading, comparison.results)
+    return DataTable("", headings, rows)
+
+
+def _at(comparison: Comparison, time: float) -> Iterator[TableRow]:
+    """Yield the rows at a time."""
+    labels, reference = list(comparison.results), comparison.reference
+    saves = {label: comparison.save(label, time) for label in labels}
+    rows = {name: (saves, key, factor, digits) for name, key, factor, digits in _SCALARS}
+    for body in comparison.bodies:
+        worn = {label: save["bodies"][body] for label, save in saves.items()}
+        for name, key, factor, digits in _OF_BODIES:
+            rows[f"{body} {name}"] = worn, key, factor, digits
+    for row, (tables, key, factor, digits) in rows.items():
+        values = {label: float(table[key]) for label, table in tables.items()}
+        if any(values.values()):
+            errors = {label: comparison.cell_error(label).get(key, 0.0) for label in labels}
+            cells = (
+                readable(factor * values[label], digits)
+                + (f" ± {readable(factor * errors[label], '.2g')}" if errors[label] else "")
+                + (_off(values, errors, label, reference) if label != reference else "")
+                for label in labels
+            )
+            yield TableRow((row, *cells))
+    first = comparison.results[reference]
+    off: dict[str, list[str | None]] = {}
+    for i, label in enumerate(labels[1:], start=1):
+        result = comparison.results[label]
+        of = "map" if result.grid == first.grid else "sections"
+        for name, each in differences(result, first, time).items():
+            name = name.removeprefix("bodies.").replace(".wear_depth", " depth")
+            cell = f"{_percent(each.l2)} %, {_percent(each.largest)} %"
+            off.setdefault(f"{name} {of}", [None] * len(labels))[i] = cell
+    yield from (TableRow((name, *shown)) for name, shown in off.items())
+
+
+def _off(
+    values: Mapping[str, float], errors: Mapping[str, float], label: str, reference: str
+) -> str:
+    """Return how far a value is off the reference's, ± what the errors of both add up to."""
+    if values[reference] == 0:
+        return ""
+    ratio = values[label] / values[reference]
+    off = signed(100 * (ratio - 1), 1)
+    error = 100 * (errors[label] + ratio * errors[reference]) / values[reference]
+    return f"\n{off} ± {error:.2g} %" if error else f" {off} %"
+
+
+def _percent(part: float) -> str:
+    return f"{100 * part:.2g}" if part < 0.1 else f"{100 * part:.0f}"
