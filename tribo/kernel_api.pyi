@@ -71,7 +71,6 @@ from tribo.lab.report import lab_report as lab_report
 from tribo.lab.report import lab_sentences as lab_sentences
 from tribo.lab.report import run_sentences as run_sentences
 from tribo.lab.roughness import without_form as without_form
-from tribo.lab.running_in import rough_bodies as rough_bodies
 from tribo.lab.scar import Scar as Scar
 from tribo.lab.scar import crown as crown
 from tribo.lab.scar import diameter as diameter

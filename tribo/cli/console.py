@@ -61,6 +61,7 @@ def _drawn(table: DataTable, shown: Sequence[int]) -> Table:
     """Return columns of a table in the house style: a long heading is broken before a number is."""
     title = escape(table.title) if table.title else None
     drawn = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
+    drawn.pad_edge, drawn.collapse_padding = not table.dense, table.dense
     rows = table.cells(shown)
     for place, heading in enumerate(table.headings[i] for i in shown):
         words = (word for row in rows if row[1:] for word in row[place].split())

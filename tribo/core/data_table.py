@@ -53,13 +53,15 @@ class TableRow(NamedTuple):
 class DataTable:
     """A table: its title, a heading for each column, its rows, and sentences below it.
 
-    A row of which nothing but the name is known is not printed.
+    A row of which nothing but the name is known is not printed. On a terminal the columns of a
+    `dense` table stand closer.
     """
 
     title: str
     headings: Sequence[Heading]
     rows: Sequence[TableRow]
     notes: Sequence[str] = ()
+    dense: bool = False
 
     @property
     def named(self) -> bool:

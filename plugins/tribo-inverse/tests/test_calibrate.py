@@ -47,7 +47,7 @@ def done(asked):
 def test_it_prints_estimates_with_intervals_and_what_to_run(done):
     lines = done.stdout.splitlines()
     # Its tables break neither names nor numbers.
-    (row,) = (line.split() for line in lines if line.startswith("  bodies.disk.wear.k"))
+    (row,) = (line.split() for line in lines if line.startswith(" bodies.disk.wear.k"))
     assert " ".join(row) == "bodies.disk.wear.k 7.08e-16 1/Pa 4.25e-16 to 9.91e-16 ±40 %"
     assert max(len(line) for line in lines if line.startswith(" ")) <= 80
     for words in ("95 % interval", "relative", "ball, crown", "leaves ±50 % open"):

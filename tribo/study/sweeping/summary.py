@@ -13,7 +13,7 @@ from tribo.core.data_table import DataTable, Heading, TableRow
 ROWS = 20
 """Most runs in the table."""
 MEASURED = (
-    ("max_pressure_Pa", Heading("p max", "MPa", ".3g", whole=True), 1e-6),
+    ("max_pressure_Pa", Heading("p max", "MPa", ".3g", whole=True, spare=2), 1e-6),
     (".max_wear_depth_m", Heading("{}", "µm", ".3g", whole=True), 1e6),
     (".wear_volume_m3", Heading("{}", "mm³", ".3g", whole=True, spare=1), 1e9),
 )

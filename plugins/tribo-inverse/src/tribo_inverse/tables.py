@@ -83,7 +83,7 @@ def _table(
     names = [str(line.values[0]) for line in lines]
     whole = not any(" " in name or len(name) > LONGEST_NAME for name in names)
     headings = [Heading(column, whole=not column.endswith(BROKEN)) for column in columns]
-    return DataTable(title, (Heading("", whole=whole), *headings), lines, notes)
+    return DataTable(title, (Heading("", whole=whole), *headings), lines, notes, dense=True)
 
 
 def estimates_table(found: Calibration) -> DataTable:
