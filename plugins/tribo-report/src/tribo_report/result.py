@@ -104,7 +104,7 @@ def _ruled(result: Result) -> dict[str, Any]:
         model = Simulation(result.case).model
         found = findings(model, result.saves()[0]["contact_half_width_x_m"])
     except (CaseError, NumericalError) as error:
-        return {"why": str(error), "rows": []}
+        return {"why": f"Not known for this case: {error}", "rows": []}
     ruling = [each for each in found if each.kind == "sensitivity"]
     longest = max((abs(each.value or 0.0) for each in ruling), default=0.0) or 1.0
     rows = [
