@@ -22,9 +22,9 @@ from tribo.core.contact import ContactSolution
 from tribo.core.grid import Grid
 from tribo.core.measures import centre, half_widths
 from tribo.lab.scar import crown
-from tribo.motion.averaging import groove_excess
+from tribo.motion.averaging_error import groove_excess
 from tribo.simulation.march import march
-from tribo.stepping.step import first_contact
+from tribo.stepping.first_contact import first_contact
 from tribo.verification.moving import to_and_fro
 from tribo.verification.problems import BALL, LOAD, RADIUS, WEAR_COEFFICIENT, on_flat
 from tribo.wear.archard import Archard

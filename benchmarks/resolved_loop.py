@@ -29,9 +29,10 @@ from tribo.contact.love import displacement
 from tribo.core.contact import ContactSolution
 from tribo.core.state import State
 from tribo.simulation.march import begin, march
+from tribo.stepping.contacts import undeformed
 from tribo.stepping.explicit import Explicit, largest_stable_increment
 from tribo.stepping.model import Model
-from tribo.stepping.step import moment_after, undeformed
+from tribo.stepping.step import moment_after
 
 EQUAL = "equal coefficients"
 OWN, AVERAGED = "tribo, resolved", "tribo, averaged"

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from tribo import Comparison, TriboWarning, compare
-from tribo.lab.first_contact import hertz_contact
+from tribo.lab.against_hertz import hertz_contact
 
 CASE = Path(__file__).with_name("ball_on_disk.toml")
 HALF_SPACE = "half-space"

@@ -35,11 +35,11 @@ from tribo.core.errors import located as located
 from tribo.core.explain import case_error as case_error
 from tribo.core.fields import PLACE_X as PLACE_X
 from tribo.core.fields import PLACE_Y as PLACE_Y
-from tribo.core.files import check_file as check_file
-from tribo.core.files import check_pixels as check_pixels
 from tribo.core.hdf5 import contained as contained
 from tribo.core.lazy import lazy as lazy
 from tribo.core.measures import between_cells as between_cells
+from tribo.core.number_tables import check_file as check_file
+from tribo.core.number_tables import check_pixels as check_pixels
 from tribo.core.units import number as number
 from tribo.core.units import parts as parts
 from tribo.core.words import did_you_mean as did_you_mean

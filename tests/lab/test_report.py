@@ -8,7 +8,7 @@ from paper_models import archard, case, flat, motion, named, steel
 from tribo import Grid, Simulation
 from tribo.closed_forms.hertz import first_yield_pressure
 from tribo.core.contact import ContactSystem
-from tribo.lab.first_contact import HertzContact, hertz_contact, yield_words
+from tribo.lab.against_hertz import HertzContact, hertz_contact, yield_words
 from tribo.lab.report import lab_report
 from tribo.surfaces.cylinder import Cylinder
 

@@ -8,8 +8,8 @@ from paper_models import case, motion, small
 
 from tribo import CaseError, Grid, Reciprocating
 from tribo.config.load import validate_case
-from tribo.motion.cycle import Stroke
 from tribo.motion.exposure import Passing
+from tribo.motion.stroke import Stroke
 from tribo.simulation.march import begin
 
 STROKES = [

@@ -7,7 +7,7 @@ from paper_models import case, foundation, last, motion, small
 from tribo import CaseError, Effect, Field, Grid, Measured, Reciprocating, Simulation
 from tribo.config.load import validate_case
 from tribo.core.grid import RepeatingGrid
-from tribo.motion.cycle import near
+from tribo.motion.stroke import near
 
 PATH = [(1, 0.0), (2, 0.0), (3, 4e-4), (5, 4e-4), (6, 2e-4), (8, 8e-4), (9, 0.0), (12, 0.0)]
 """It rests thrice and turns round thrice: 2 mm in 11 s."""

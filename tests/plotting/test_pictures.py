@@ -6,7 +6,7 @@ from made_results import GRID, TIMES, half_width, made
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.lab.first_contact import hertz_contact
+from tribo.lab.against_hertz import hertz_contact
 from tribo.plotting import (
     body_profiles,
     contact_history,

@@ -23,7 +23,7 @@ from tribo.simulation.positions import alike, chosen, composed
 from tribo.simulation.predict import predict
 from tribo.simulation.validity import check_stroke
 from tribo.stepping.explicit import Explicit
-from tribo.stepping.step import first_contact
+from tribo.stepping.first_contact import first_contact
 from tribo.surfaces.waves import Waves
 
 GRID = Grid((1.4e-3, 1.4e-3), (48, 48))

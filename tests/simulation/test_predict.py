@@ -10,7 +10,7 @@ from tribo_inverse.adjoint.sensitivity import sensitivity
 from tribo import CaseError, Effect, Field, Grid, NumericalError, Simulation, Waves
 from tribo.guards import trial_time
 from tribo.simulation.predict import predict
-from tribo.stepping import step
+from tribo.stepping import plastic_groove
 from tribo.stepping.explicit import Explicit
 
 
@@ -94,7 +94,7 @@ def test_a_step_allowed_to_be_unstable_is_still_said_to_be():
 
 
 def test_a_groove_that_does_not_settle_is_foreseen(monkeypatch):
-    monkeypatch.setattr(step, "SETTLE_PASSES", 1)
+    monkeypatch.setattr(plastic_groove, "SETTLE_PASSES", 1)
     model = small(bodies=bodies(hardness=1.5e9), contact=half_space())
     problems = predict(model).problems
     assert any("when sliding starts" in p and "still yields" in p for p in problems)

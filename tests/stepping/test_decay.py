@@ -11,9 +11,9 @@ from tribo.closed_forms.sinusoid import compliance, worn_amplitude
 from tribo.contact.periodic import Periodic
 from tribo.core.grid import Grid
 from tribo.stepping.explicit import Explicit, largest_stable_increment
+from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Implicit
 from tribo.stepping.rates import Moment
-from tribo.stepping.step import first_contact
 from tribo.surfaces.surface import Surface
 
 WAVELENGTH = 1e-4

@@ -7,8 +7,9 @@ from paper_models import K, archard, foundation, half_space, last, pair, power, 
 from tribo.core.contact import ContactProblem
 from tribo.core.fields import ContactConditions, Field, WearRate
 from tribo.effects.effect import Effect
+from tribo.stepping.contacts import undeformed
+from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Errors, Implicit
-from tribo.stepping.step import first_contact, undeformed
 from tribo.wear.law import WearLaw
 
 

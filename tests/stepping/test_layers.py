@@ -13,9 +13,9 @@ from tribo.core.errors import Interrupted
 from tribo.core.fields import LOAD_SHARE, WearRate
 from tribo.simulation.march import begin, march
 from tribo.simulation.predict import predict
-from tribo.stepping.contacts import solve_cycle
+from tribo.stepping.contacts import solve_cycle, undeformed
 from tribo.stepping.layers import over_increment
-from tribo.stepping.step import start_sliding, undeformed
+from tribo.stepping.step import start_sliding
 from tribo.wear.running_in import RunningIn
 
 K, PRESSURE, COATING = 1e-15, 10e6, 2e-6

@@ -6,7 +6,9 @@ from paper_models import archard, half_space, motion, pair, small, states
 
 from tribo import Grid, Load, Measured, Stage
 from tribo.core.contact import ContactProblem
-from tribo.stepping.step import first_contact, start_sliding, undeformed
+from tribo.stepping.contacts import undeformed
+from tribo.stepping.first_contact import first_contact
+from tribo.stepping.step import start_sliding
 
 HARDNESS = 4e9
 

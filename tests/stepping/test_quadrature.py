@@ -8,11 +8,12 @@ import stroke
 from paper_models import archard, last, named, sphere, steel
 
 from tribo import Grid, Rough, Simulation
-from tribo.motion.cycle import Stroke, missed_shares, spacing_for
+from tribo.motion.cycle import missed_shares
+from tribo.motion.stroke import Stroke, spacing_for
 from tribo.simulation import validity
 from tribo.simulation.predict import predict
+from tribo.stepping.first_contact import first_contact
 from tribo.stepping.quadrature import cycle_error
-from tribo.stepping.step import first_contact
 
 GRID = Grid((1.2e-3, 0.75e-3), (64, 20))
 resolved = partial(stroke.resolved, duration=50, grid=GRID)

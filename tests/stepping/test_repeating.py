@@ -35,7 +35,7 @@ from tribo import (
 )
 from tribo.simulation.march import begin
 from tribo.simulation.predict import predict
-from tribo.stepping.step import first_contact
+from tribo.stepping.first_contact import first_contact
 
 GRID = Grid((0.32e-3, 0.32e-3), (16, 16))
 (DX, DY), LOAD = GRID.spacing, 20.0

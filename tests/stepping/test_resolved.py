@@ -38,7 +38,8 @@ from tribo.core.errors import PluginError
 from tribo.lab.inferred import track_section
 from tribo.motion.exposure import Stationary
 from tribo.plotting.profiles import along_track
-from tribo.stepping.step import first_contact, undeformed
+from tribo.stepping.contacts import undeformed
+from tribo.stepping.first_contact import first_contact
 
 
 @pytest.fixture(scope="module")

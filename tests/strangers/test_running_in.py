@@ -9,8 +9,8 @@ from tribo import Grid
 from tribo.contact.winkler import Winkler
 from tribo.core.material import Material
 from tribo.motion.unidirectional import Unidirectional
+from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.step import first_contact
 from tribo.surfaces.flat import Flat
 
 SIDE, LOAD, TRACK = 2e-3, 40.0, 8e-3

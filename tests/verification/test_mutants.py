@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tribo.contact import dcfft, love, operator, periodic
+from tribo.contact import dcfft, half_space, love, periodic
 from tribo.core.fields import WearRate
 from tribo.guards.parts import GuardedSolver
 from tribo.lab import ball, track
-from tribo.motion.cycle import Stroke
 from tribo.motion.exposure import Track
+from tribo.motion.stroke import Stroke
 from tribo.simulation import assembly
-from tribo.stepping import layers, step
+from tribo.stepping import layers, plastic_groove, step
 from tribo.verification.suite import REFERENCES
 from tribo.wear.archard import Archard
 from tribo.wear.power import Power
@@ -93,12 +93,12 @@ MUTANTS = {
     "second modulus ignored": (MODULUS, lambda right: lambda each: right([each[0]] * 2), CASES),
     "second body rigid": (MODULUS, lambda right: lambda each: right(each[:1]), CASES),
     "Poisson's ratio left out": (MODULUS, without_poisson, CASES),
-    "sides of a cell swapped": ((operator, "wrapped_kernel"), sides_swapped, "oblong cells"),
+    "sides of a cell swapped": ((half_space, "wrapped_kernel"), sides_swapped, "oblong cells"),
     "sides swapped, periodic": ((periodic, "_cached"), sides_swapped, "full contact"),
     "groove not drawn out": ((Track, "envelope"), given_back, "draws a groove"),
-    "groove never settled": ((step, "_settle"), given_back, "draws a groove"),
+    "groove never settled": ((step, "settled"), given_back, "draws a groove"),
     "groove twice as deep": ((Track, "envelope"), times(2), "known depth"),
-    "overlaps of positions added up": ((step, "reduce"), added, "known depth"),
+    "overlaps of positions added up": ((plastic_groove, "reduce"), added, "known depth"),
     "mean pressure displaces": (
         (periodic.PeriodicHalfSpace, "apply"),
         mean_displaces,
@@ -106,7 +106,7 @@ MUTANTS = {
     ),
     "moving body the wrong way round": ((Stroke, "starts"), other_way_round, "lopsided"),
     "yields twice as deep": ((GuardedSolver, "solve"), twice_the_overlap, YIELDS),
-    "each body yields by the whole": ((assembly, "_plastic"), whole_depth_for_each, YIELDS),
+    "each body yields by the whole": ((assembly, "yielding"), whole_depth_for_each, YIELDS),
     "exponent one more": (
         (Power, "rate"),
         rate_times(lambda law, pressure: pressure / law.reference_pressure),

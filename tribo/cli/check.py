@@ -17,7 +17,7 @@ from tribo.cli.options import CASE, JSON, SET, echo_json
 from tribo.cli.waiting import waiting_for
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.words import readable
-from tribo.lab.first_contact import (
+from tribo.lab.against_hertz import (
     HertzContact,
     computed_pressure,
     hertz_half_width,

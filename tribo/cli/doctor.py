@@ -69,7 +69,7 @@ def _self_test() -> list[dict[str, Any]]:
     from tribo.config.load import validate_case
     from tribo.config.overrides import apply_settings
     from tribo.core.errors import TriboError
-    from tribo.lab.first_contact import hertz_contact
+    from tribo.lab.against_hertz import hertz_contact
     from tribo.simulation.run import Simulation
     from tribo.templates import template
 

@@ -10,9 +10,10 @@ import numpy as np
 
 from tribo.contact.bounded_cg import solve_together
 from tribo.contact.elastic import ElasticSolver
+from tribo.contact.half_space import HalfSpace
 from tribo.contact.love import nyquist_compliance
 from tribo.contact.nested_start import coarsen, prolong
-from tribo.contact.operator import HalfSpace, Operator, WornOperator
+from tribo.contact.operator import Operator, WornOperator
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array, Mask
 from tribo.core.box import Box, around, whole

@@ -16,7 +16,7 @@ from pydantic import Tag, field_validator, model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.core.files import read_pairs
+from tribo.core.number_tables import read_pairs
 from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, check_times, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity

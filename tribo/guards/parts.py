@@ -59,7 +59,7 @@ class GuardedLaw(Guard[WearLaw]):
     """A wear law that suits its body's material, and the initial values of its state fields."""
 
     bottoms: tuple[float, ...] = ()
-    """Depths at which layers end, in m, where a body has any (`tribo.guards.layers`)."""
+    """Depths at which layers end, in m, where a body has any (`tribo.guards.layered_law`)."""
     steady_above = False
     """Whether layers above the last remember nothing, so that points pass them at even rates."""
     advances = False

@@ -12,8 +12,8 @@ import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, TriboWarning
-from tribo.core.files import table_of_numbers
 from tribo.core.grid import Grid
+from tribo.core.number_tables import table_of_numbers
 from tribo.registry.registry import default_registry
 
 OWN = (".npy", ".csv", ".txt", ".h5", ".hdf5")

@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 from tribo.closed_forms.hertz import first_yield_pressure
 from tribo.core.measures import reaches_border
 from tribo.core.words import readable, signed
+from tribo.lab.against_hertz import computed_pressure, first_hertz, in_mpa, yield_words
 from tribo.lab.conversion import in_mm3_per_newton_metre, mass_from_volume, specific_wear_rate
-from tribo.lab.first_contact import computed_pressure, first_hertz, in_mpa, yield_words
 from tribo.lab.inferred import InferredVolume, inferred_volumes, track_section
 from tribo.lab.scar import scar
 from tribo.registry.hookspecs import LabRow

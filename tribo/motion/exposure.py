@@ -140,7 +140,7 @@ class Track(Exposure):
 
     Valid on a closed track. Where the contact reverses inside the track it is
     an approximation, too deep at mid-track (see
-    `tribo.motion.averaging.groove_excess`).
+    `tribo.motion.averaging_error.groove_excess`).
 
     Parameters
     ----------

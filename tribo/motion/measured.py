@@ -12,13 +12,14 @@ import numpy as np
 from pydantic import ConfigDict, Field, field_validator, model_validator
 
 from tribo.core.arrays import Array
-from tribo.core.files import read_pairs
 from tribo.core.grid import Grid
+from tribo.core.number_tables import read_pairs
 from tribo.core.units import Quantity
-from tribo.motion.cycle import Position, Stroke, check_spacing, odd
+from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Passing, one_swept_body
 from tribo.motion.kinematics import Kinematics
 from tribo.motion.reciprocating import Reciprocating
+from tribo.motion.stroke import Stroke, check_spacing, odd
 
 CLOSED = 0.01
 """Largest distance between the ends of a path that repeats, of its range."""

@@ -14,11 +14,12 @@ from tribo.core.grid import Grid
 from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.motion.averaging import GOOD, NOTICED, good_stroke, groove_excess, too_deep
-from tribo.motion.cycle import Position, Stroke, check_spacing, odd
+from tribo.motion.averaging_error import GOOD, NOTICED, good_stroke, groove_excess, too_deep
+from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
 from tribo.motion.held import Held, held
 from tribo.motion.kinematics import Kinematics
+from tribo.motion.stroke import Stroke, check_spacing, odd
 
 LONG, FEW = 4.0, 17
 """Stroke in half-widths up to which an estimate takes positions, and how many."""
@@ -50,9 +51,9 @@ class Reciprocating(Kinematics):
     The track average is the paper's model, and makes a groove too deep at mid-stroke. One as deep
     as the elastic approach is 4 % too deep where S is 10 half-widths of the contact and 12 % where
     it is 4; one several times deeper, twice as much, where both bodies wear alike (see
-    `tribo.motion.averaging`). Resolved into `positions`, as a run does by itself where the stroke
-    is shorter than 20 lengths of the first contact, it holds for any stroke of two cells and more,
-    gross slip in fretting among them.
+    `tribo.motion.averaging_error`). Resolved into `positions`, as a run does by itself where the
+    stroke is shorter than 20 lengths of the first contact, it holds for any stroke of two cells and
+    more, gross slip in fretting among them.
     """
 
     model_config = ConfigDict(

@@ -12,8 +12,9 @@ from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
 from tribo.motion.closed_track import ClosedTrack, check_axis
-from tribo.motion.cycle import WHOLE, Position, Stroke, odd
+from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
+from tribo.motion.stroke import WHOLE, Stroke, odd
 
 FEW = 9
 """Positions of an estimate."""

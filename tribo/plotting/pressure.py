@@ -19,7 +19,7 @@ from matplotlib.ticker import MaxNLocator
 from scipy.ndimage import gaussian_filter
 
 from tribo.core.arrays import Array, Mask
-from tribo.lab.first_contact import HertzContact, first_hertz
+from tribo.lab.against_hertz import HertzContact, first_hertz
 from tribo.plotting import style
 from tribo.plotting.maps import Map, new_maps
 from tribo.plotting.sections import Curve, Limits, Section, limits, through_centre

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from itertools import pairwise, zip_longest
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from tribo.core.fields import PLACE_X
 from tribo.core.grid import Grid, RepeatingGrid
 from tribo.core.loads import Loads
 from tribo.core.material import contact_modulus
-from tribo.guards.layers import LayeredLaw
+from tribo.guards.layered_law import LayeredLaw
 from tribo.guards.motion import GuardedMotion
 from tribo.guards.parts import (
     GuardedEffect,
@@ -31,6 +31,7 @@ from tribo.motion.exposure import Exposure
 from tribo.motion.unidirectional import Unidirectional
 from tribo.registry.plugins import check_requirements
 from tribo.simulation.effects import in_order
+from tribo.simulation.hardness import yielding
 from tribo.simulation.memory import check_memory, memory_needed
 from tribo.stepping.contact_setup import ContactSetup
 from tribo.stepping.cycle import Cycle
@@ -53,7 +54,7 @@ def assemble(case: Case) -> Model:
         cycle = Cycle(grid, motion.cycle(window), exposures)
         for exposure in exposures.values():
             motion.check_starts(exposure, len(cycle), window)
-    cap, share, hardness = _plastic(bodies, case.contact)
+    cap, share, hardness = yielding(bodies, case.contact)
     # Before the first array is made.
     check_memory(grid, memory_needed(case, exposures, plastic=cap is not None))
     surfaces, laws = {}, {}
@@ -131,43 +132,6 @@ def as_it_repeats(grid: Grid, contact: ContactSolver) -> Grid:
 def varied(case: Case, **changes: Any) -> Case:
     """Return `case` with other parts and without observers."""
     return case.model_copy(update={"observers": (), "requires": (), **changes})
-
-
-def _plastic(
-    bodies: Mapping[str, Body], contact: ContactSolver
-) -> tuple[float | None, dict[str, float], dict[str, tuple[float, ...]]]:
-    """Return the largest pressure at first, in Pa, who yields, and hardnesses that change.
-
-    Where a layer has a hardness of its own, each body yields where it is the softer one; elsewhere
-    it takes its part of what yields.
-    """
-    found = {
-        name: tuple(material.hardness or np.inf for material in body.materials())
-        for name, body in bodies.items()
-    }
-    # Below layers without a hardness another may be the first that limits.
-    softest = map(min, zip_longest(*found.values(), fillvalue=np.inf))
-    cap = next(filter(np.isfinite, softest), None)
-    if cap is None or not contact.plasticity:
-        return None, dict.fromkeys(bodies, 0.0), {}
-    if not contact.honours_cap:
-        raise CaseError(
-            f"contact.type = {contact.type!r} cannot limit the pressure to a hardness; "
-            "set contact.plasticity = false, or leave hardness out",
-            "contact.plasticity",
-        )
-    changing = [name for name, each in found.items() if len(set(each)) > 1]
-    if changing and not contact.takes_cap_map:
-        raise CaseError(
-            f"contact.type = {contact.type!r} limits the pressure to one hardness throughout; "
-            "set contact.plasticity = false where layers have one of their own, or take "
-            "'dcfft' or 'periodic'",
-            f"bodies.{changing[0]}.layers",
-        )
-    if changing:
-        return cap, {name: float(np.isfinite(min(each))) for name, each in found.items()}, found
-    soft = [name for name, each in found.items() if each[0] == cap]
-    return cap, {name: (name in soft) / len(soft) for name in bodies}, {}
 
 
 def _law(body: Body, name: str, grid: Grid, exposure: Exposure) -> GuardedLaw:

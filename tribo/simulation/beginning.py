@@ -16,8 +16,8 @@ from tribo.core.grid import Grid
 from tribo.core.state import BodyState, State
 from tribo.result.layout import BETWEEN, STATE, TRACK, TRACK_PLASTIC, TRACK_STATE
 from tribo.result.read import Result
+from tribo.stepping.first_contact import first_contact
 from tribo.stepping.model import Model
-from tribo.stepping.step import first_contact
 
 PLACE = "begin.result"
 SAME = 1e-6

@@ -12,16 +12,16 @@ from tribo.case import Begin, Case
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.measures import half_widths
 from tribo.core.words import readable
-from tribo.lab.first_contact import hertz_half_width
-from tribo.motion.cycle import Stroke, least_positions, spacing_for
+from tribo.lab.against_hertz import hertz_half_width
 from tribo.motion.reciprocating import Reciprocating
+from tribo.motion.stroke import Stroke, least_positions, spacing_for
 from tribo.result.read import Result
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.coarse import smoothed
 from tribo.simulation.validity import is_endless
 from tribo.stepping.explicit import Explicit
+from tribo.stepping.first_contact import first_contact
 from tribo.stepping.model import Model
-from tribo.stepping.step import first_contact
 
 LENGTHS = 20.0
 """Lengths of the first contact from which on a stroke is averaged.

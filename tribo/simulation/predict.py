@@ -18,7 +18,7 @@ from tribo.core.state import State
 from tribo.core.words import readable
 from tribo.guards.guard import Guard
 from tribo.guards.trial_time import limited
-from tribo.lab.first_contact import HertzContact, hertz_contact
+from tribo.lab.against_hertz import HertzContact, hertz_contact
 from tribo.result.provenance import stated_facts
 from tribo.simulation.beginning import first_state
 from tribo.simulation.coarse import MARGINS, coarsened

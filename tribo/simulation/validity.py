@@ -13,8 +13,8 @@ from tribo.core.errors import located
 from tribo.core.measures import Measures, half_widths
 from tribo.core.state import State
 from tribo.core.words import readable
-from tribo.lab.first_contact import hertz_contact
-from tribo.motion.cycle import check_spacing, spacing_for
+from tribo.lab.against_hertz import hertz_contact
+from tribo.motion.stroke import check_spacing, spacing_for
 from tribo.stepping.model import Model
 from tribo.stepping.quadrature import cycle_error
 

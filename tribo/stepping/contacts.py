@@ -11,9 +11,11 @@ import numpy as np
 from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactProblem, ContactSolution, CycleCompliance
 from tribo.core.loads import ByPosition
-from tribo.core.state import BodyState
+from tribo.core.state import BodyState, State
+from tribo.stepping.events import Solved
 from tribo.stepping.layers import caps
 from tribo.stepping.linear_wear import LinearWear
+from tribo.stepping.memory import filling, remembered
 
 if TYPE_CHECKING:
     from tribo.stepping.model import Model
@@ -50,6 +52,38 @@ def solve_cycle(
     one_side = None if coupling is None else _one_side(coupling, half)
     *left, middle = model.contact.solver.solve_cycle(problems[:half], starts[:half], one_side)
     return [*left, _symmetric(middle), *map(_mirrored, reversed(left))]
+
+
+def undeformed(model: Model, state: State) -> Array:
+    """Return the gap at each position, worn, plastically deformed and filled, in m.
+
+    Shape (positions, nx, ny).
+    """
+    gaps = np.stack(model.contact.gaps) - filling(model, remembered(state))
+    for position, gap in enumerate(gaps):
+        for name, body in state.bodies.items():
+            gap += model.cycle.maps[name].see(body.wear, position)
+            gap += model.cycle.maps[name].see(body.plastic, position)
+    return gaps
+
+
+def counted(state: State, contacts: Sequence[ContactSolution]) -> State:
+    """Return `state` with the solves of the contacts of a cycle counted."""
+    # Those that mirror others took no iterations.
+    iterations = [contact.iterations for contact in contacts if contact.iterations > 0]
+    return replace(
+        state,
+        contact_solves=state.contact_solves + len(iterations),
+        solver_iterations=state.solver_iterations + sum(iterations),
+    )
+
+
+def solved_anew(model: Model, state: State, loads: ByPosition) -> State:
+    """Return `state` with its contacts solved under other loads (N), and nothing worn."""
+    gaps = undeformed(model, state)
+    contacts = solve_cycle(model, gaps, loads, state.contacts, state.bodies)
+    model.tell(Solved(contacts))
+    return replace(counted(state, contacts), contacts=tuple(contacts), rates=())
 
 
 def in_stripes(

@@ -14,7 +14,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import WearRate
 from tribo.core.state import State
 from tribo.core.units import Quantity
-from tribo.stepping.contacts import in_stripes, solve_cycle
+from tribo.stepping.contacts import counted, in_stripes, solve_cycle, undeformed
 from tribo.stepping.events import Solved, Worn
 from tribo.stepping.evolution import Course, course
 from tribo.stepping.friction import with_friction_work
@@ -24,12 +24,10 @@ from tribo.stepping.rates import CycleRates, Moment, wear_rates
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     accepted,
-    counted,
     distance_until,
     moment_after,
     rested,
     start_sliding,
-    undeformed,
     worn_by,
     worn_depths,
 )

@@ -16,7 +16,7 @@ from tribo.core.contact import ContactSolution
 from tribo.core.errors import BadValues, NumericalError, PluginError
 from tribo.core.state import State
 from tribo.core.units import Quantity
-from tribo.stepping.contacts import solve_cycle
+from tribo.stepping.contacts import counted, solve_cycle, undeformed
 from tribo.stepping.events import Worn
 from tribo.stepping.evolution import Course, course, sloped
 from tribo.stepping.extrapolation import Division
@@ -29,14 +29,12 @@ from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     SMALLEST,
     accepted,
-    counted,
     distance_until,
     load_changes,
     moment_after,
     rested,
     start_sliding,
     time_at,
-    undeformed,
     worn_by,
     worn_depths,
 )

@@ -9,7 +9,7 @@ from pydantic import ConfigDict
 
 from tribo.core.state import State
 from tribo.core.table import Table
-from tribo.stepping.filling import check_filling
+from tribo.stepping.gap_filling import check_filling
 
 if TYPE_CHECKING:
     from tribo.stepping.model import Model

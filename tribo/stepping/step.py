@@ -4,146 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.core.contact import ContactProblem, ContactSolution
-from tribo.core.errors import CaseError, NumericalError, PluginError
+from tribo.core.contact import ContactSolution
+from tribo.core.errors import PluginError
 from tribo.core.loads import ByPosition
-from tribo.core.measures import Invariants, reaches_border
+from tribo.core.measures import Invariants
 from tribo.core.notices import Notice
-from tribo.core.state import BodyState, State
-from tribo.stepping.contacts import solve_cycle
-from tribo.stepping.events import Drawn, Solved, Worn, Yielded
+from tribo.core.state import State
+from tribo.stepping.contacts import solved_anew
+from tribo.stepping.events import Worn
 from tribo.stepping.evolution import Course, course
 from tribo.stepping.invariants import ONE_LOAD, wear_balance
-from tribo.stepping.layers import caps, plastic_share, worn_through
-from tribo.stepping.memory import filling, first_memory, remembered
+from tribo.stepping.layers import caps, worn_through
+from tribo.stepping.memory import remembered
+from tribo.stepping.plastic_groove import settled, yielded, yields
 from tribo.stepping.rates import CycleRates, Moment
 
 if TYPE_CHECKING:
     from tribo.stepping.model import Model
 
-# Each pass is one warm solve; a groove in a much softer body takes over a thousand.
-SETTLE_PASSES = 5000
-SETTLED = 1e-6
 ROUNDING = 1e-9
 SMALLEST = 1e-12
 """Of the distance until the next stop: a shorter step would drown in rounding."""
-
-
-def first_contact(
-    model: Model,
-    worn: Mapping[str, BodyState] | None = None,
-    between: Mapping[str, Array] | None = None,
-) -> State:
-    """Solve the contact before any sliding, plastic flow included.
-
-    Parameters
-    ----------
-    model : Model
-        The composed case.
-    worn : Mapping[str, BodyState], optional
-        The bodies, by name, if they are worn already.
-    between : Mapping[str, ndarray], optional
-        State fields of effects, by name, that do not start at their initial values.
-
-    Raises
-    ------
-    CaseError
-        If the contact does not fit the window.
-    NumericalError
-        If the solver fails.
-    """
-    state = State(
-        time=0.0,
-        distance=0.0,
-        bodies=_unworn(model) if worn is None else worn,
-        contacts=(),
-        increment=0.0,
-        reference_depth=0.0,
-        load_distance=0.0,
-        between={**first_memory(model), **(between or {})},
-    )
-    # Kept in a list, so that each gap has an identity of its own.
-    gaps = list(
-        undeformed(model, state) if worn is not None or model.laws.filling else model.contact.gaps
-    )
-    solutions: dict[tuple[int, float], ContactSolution] = {}
-    asked = [
-        (id(gap), load) for gap, load in zip(gaps, model.contact.loads.after(0.0), strict=True)
-    ]
-    for gap, key, cap in zip(gaps, asked, caps(model, state.bodies), strict=True):
-        # Where nothing varies along the path, one solve serves all positions.
-        if key not in solutions:
-            problem = ContactProblem(model.contact.system, gap, key[1], cap=cap)
-            start = next(reversed(solutions.values()), None)
-            solutions[key] = model.contact.solver.solve(problem, start)
-    contacts = tuple(solutions[key] for key in asked)
-    if any(reaches_border(each.pressure) for each in contacts) and not model.contact.may_reach_edge:
-        size = f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm"
-        remedy = "make it larger (or, for a body that ends there, set grid.ends_at_window = true)"
-        forms = [surface.ask(surface.component.smoothed) for surface in model.surfaces.values()]
-        if all(form.curvature == (0, 0) for form in forms):
-            remedy = (
-                "two flat bodies touch all over it, however large it is: give one an edge "
-                '(surface.type = "pin"), let the contact repeat with the window (contact.type = '
-                '"periodic"), or let a body end there (grid.ends_at_window = true)'
-            )
-        raise CaseError(
-            f"the first contact reaches the edge of the window of {size}; {remedy}", "grid.size"
-        )
-    model.tell(Solved(contacts))
-    middle = len(contacts) // 2
-    return replace(
-        state,
-        contacts=contacts,
-        contact_solves=len(solutions),
-        solver_iterations=sum(contact.iterations for contact in solutions.values()),
-        bodies=_yielded(model, state.bodies, contacts, [middle]),
-        # The approach counts from the lowest point of unworn bodies.
-        reference_depth=contacts[middle].approach - float(np.min(gaps[middle])),
-    )
-
-
-def _unworn(model: Model) -> dict[str, BodyState]:
-    bodies = {}
-    for name in model.case.bodies:
-        wear = np.zeros((model.cycle.maps[name].rows, model.grid.cells[1]))
-        initial = model.laws.wear[name].initial_state if name in model.laws.wear else {}
-        bodies[name] = BodyState(
-            wear=wear,
-            plastic=model.cycle.maps[name].lay(np.zeros(model.grid.cells), len(model.cycle) // 2),
-            law={field: np.full_like(wear, value) for field, value in initial.items()},
-        )
-    return bodies
-
-
-def undeformed(model: Model, state: State) -> Array:
-    """Return the gap at each position, worn, plastically deformed and filled, in m.
-
-    Shape (positions, nx, ny).
-    """
-    gaps = np.stack(model.contact.gaps) - filling(model, remembered(state))
-    for position, gap in enumerate(gaps):
-        for name, body in state.bodies.items():
-            gap += model.cycle.maps[name].see(body.wear, position)
-            gap += model.cycle.maps[name].see(body.plastic, position)
-    return gaps
-
-
-def counted(state: State, contacts: Sequence[ContactSolution]) -> State:
-    """Return `state` with the solves of the contacts of a cycle counted."""
-    # Those that mirror others took no iterations.
-    iterations = [contact.iterations for contact in contacts if contact.iterations > 0]
-    return replace(
-        state,
-        contact_solves=state.contact_solves + len(iterations),
-        solver_iterations=state.solver_iterations + sum(iterations),
-    )
 
 
 def moment_after(state: State, increment: float, time: float) -> Moment:
@@ -218,7 +104,7 @@ def start_sliding(model: Model, state: State) -> State:
         state = replace(_under(model, state, loads), increment=0.0)
     elif _too_soft(model, state):
         state = _under(model, state, loads)
-    return _settle(model, state, loads) if state.distance == 0 else state
+    return settled(model, state, loads) if state.distance == 0 else state
 
 
 def _too_soft(model: Model, state: State) -> bool:
@@ -310,14 +196,7 @@ def accepted(
 
 def _under(model: Model, state: State, loads: ByPosition) -> State:
     """Return `state` with its contacts solved anew under other loads (N), and nothing worn."""
-    return _at_rest(model, _solved_anew(model, state, loads), loads)
-
-
-def _solved_anew(model: Model, state: State, loads: ByPosition) -> State:
-    gaps = undeformed(model, state)
-    contacts = solve_cycle(model, gaps, loads, state.contacts, state.bodies)
-    model.tell(Solved(contacts))
-    return replace(counted(state, contacts), contacts=tuple(contacts), rates=())
+    return _at_rest(model, solved_anew(model, state, loads), loads)
 
 
 def _at_rest(model: Model, state: State, loads: ByPosition) -> State:
@@ -326,62 +205,5 @@ def _at_rest(model: Model, state: State, loads: ByPosition) -> State:
         return state
     # Before it slides the load stands in the middle alone.
     places = range(len(state.contacts)) if state.distance > 0 else [len(state.contacts) // 2]
-    state = replace(state, bodies=_yielded(model, state.bodies, state.contacts, places))
-    return _settle(model, state, loads) if state.distance > 0 else state
-
-
-def yields(contacts: Sequence[ContactSolution]) -> bool:
-    """Whether the bodies yield at any position."""
-    return any(np.any(contact.overlap > 0) for contact in contacts)
-
-
-def _yielded(
-    model: Model,
-    bodies: Mapping[str, BodyState],
-    contacts: Sequence[ContactSolution],
-    places: Sequence[int],
-) -> dict[str, BodyState]:
-    """Return the bodies with what yields at some positions, once where these overlap."""
-    if not yields(contacts):
-        return dict(bodies)
-    model.tell(Yielded(places))
-    yielded = {}
-    for name, body in bodies.items():
-        overlaps = (
-            plastic_share(model, bodies, name, position) * contacts[position].overlap
-            for position in places
-        )
-        own = (model.cycle.maps[name].lay(*each) for each in zip(overlaps, places, strict=True))
-        yielded[name] = replace(body, plastic=body.plastic + reduce(np.maximum, own))
-    return yielded
-
-
-def _settle(model: Model, state: State, loads: ByPosition) -> State:
-    """Draw grooves out along the track and re-solve until nothing yields any more."""
-    drawn_out = any(
-        name in model.cycle.swept and np.any(body.plastic > 0)
-        for name, body in state.bodies.items()
-    )
-    # What yields at one position alters the others, whichever body it is.
-    if not drawn_out and not (len(model.cycle) > 1 and yields(state.contacts)):
-        return state
-    for _ in range(SETTLE_PASSES):
-        model.tell(Drawn({name: body.plastic for name, body in state.bodies.items()}))
-        drawn = {}
-        for name, body in state.bodies.items():
-            envelope = model.cycle.maps[name].envelope(body.plastic)
-            plastic = np.array(np.broadcast_to(envelope, body.plastic.shape))
-            drawn[name] = replace(body, plastic=plastic)
-        state = _solved_anew(model, replace(state, bodies=drawn), loads)
-        deepest = max(float(np.max(body.plastic)) for body in drawn.values())
-        still = max(float(np.max(contact.overlap)) for contact in state.contacts)
-        if still <= SETTLED * deepest:
-            return state
-        everywhere = range(len(state.contacts))
-        state = replace(state, bodies=_yielded(model, drawn, state.contacts, everywhere))
-    raise NumericalError(
-        f"at {state.distance:.6g} m the groove still yields after {SETTLE_PASSES} passes of the "
-        f"contact, by {still:.2g} m a pass: sliding under {max(loads):g} N does not come to rest "
-        f"at a hardness of {1e-9 * (model.contact.system.cap or 0):g} GPa; lower load.normal, or "
-        "set contact.plasticity = false"
-    )
+    state = replace(state, bodies=yielded(model, state.bodies, state.contacts, places))
+    return settled(model, state, loads) if state.distance > 0 else state

@@ -11,8 +11,8 @@ from pydantic import ConfigDict, Field, field_validator
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.core.files import read_numbers
 from tribo.core.grid import Grid, Length
+from tribo.core.number_tables import read_numbers
 from tribo.core.units import Quantity
 from tribo.surfaces.laid import Laid
 from tribo.surfaces.surface import Surface

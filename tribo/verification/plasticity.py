@@ -13,8 +13,9 @@ from tribo.core.material import Material
 from tribo.core.measures import contact_area
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.assembly import assemble, varied
+from tribo.stepping.first_contact import first_contact
 from tribo.stepping.model import Model
-from tribo.stepping.step import first_contact, start_sliding
+from tribo.stepping.step import start_sliding
 from tribo.verification import problems as paper
 from tribo.verification.reference import Row, norm, reference
 

@@ -21,9 +21,9 @@ from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.stepping.explicit import Explicit
+from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Implicit
 from tribo.stepping.model import Model
-from tribo.stepping.step import first_contact
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid
 from tribo.surfaces.surface import Surface

@@ -12,8 +12,9 @@ from tribo.core.grid import Grid
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.simulation.positions import composed
+from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.step import distance_until, first_contact, rested, start_sliding
+from tribo.stepping.step import distance_until, rested, start_sliding
 from tribo.wear.running_in import RunningIn, Smoothing
 
 from tribo_inverse.adjoint.gradient import gradient

@@ -237,7 +237,7 @@ def test_pickles_are_not_opened(tmp_path):
 
 
 def test_too_large_a_file_is_refused_before_it_is_read(write, tmp_path, monkeypatch):
-    monkeypatch.setattr("tribo.core.files.MOST_PIXELS", 4000)
+    monkeypatch.setattr("tribo.core.number_tables.MOST_PIXELS", 4000)
     with pytest.raises(CaseError, match=r"72 × 60 pixels: .*4,000"):
         describe(write("x3p"))
     path = tmp_path / "packed.x3p"

@@ -128,7 +128,7 @@ def test_what_the_file_was_read_as_is_kept_in_the_result_and_what_is_worn_export
     words = "states no unit for its heights; export the map as .*, whose"
     with pytest.raises(CaseError, match=words):
         read_heights(tmp_path / "no_unit.xyz")
-    monkeypatch.setattr("tribo.core.files.MOST_PIXELS", 4000)
+    monkeypatch.setattr("tribo.core.number_tables.MOST_PIXELS", 4000)
     with pytest.raises(CaseError, match=r"96 × 96 pixels: .*4,000"):
         read_heights(path)
 

@@ -7,9 +7,9 @@ import h5py
 import numpy as np
 import pytest
 
-from tribo.core import files
+from tribo.core import number_tables
 from tribo.core.errors import CaseError
-from tribo.core.files import read_numbers, table_of_numbers
+from tribo.core.number_tables import read_numbers, table_of_numbers
 from tribo.core.units import Quantity
 
 
@@ -107,7 +107,7 @@ def test_a_map_with_too_many_pixels_is_refused_before_it_is_read(name, write, tm
 
 
 def test_a_text_with_too_many_numbers_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(files, "MOST_PIXELS", 99)
+    monkeypatch.setattr(number_tables, "MOST_PIXELS", 99)
     (tmp_path / "a.csv").write_text("1,2\n" * 60)
     with pytest.raises(ValueError, match=r"100 .* 99"):
         table_of_numbers(tmp_path / "a.csv")

@@ -1,0 +1,110 @@
+"""The contact before anything slides."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactProblem, ContactSolution
+from tribo.core.errors import CaseError
+from tribo.core.measures import reaches_border
+from tribo.core.state import BodyState, State
+from tribo.stepping.contacts import undeformed
+from tribo.stepping.events import Solved
+from tribo.stepping.layers import caps
+from tribo.stepping.memory import first_memory
+from tribo.stepping.plastic_groove import yielded
+
+if TYPE_CHECKING:
+    from tribo.stepping.model import Model
+
+
+def first_contact(
+    model: Model,
+    worn: Mapping[str, BodyState] | None = None,
+    between: Mapping[str, Array] | None = None,
+) -> State:
+    """Solve the contact before any sliding, plastic flow included.
+
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    worn : Mapping[str, BodyState], optional
+        The bodies, by name, if they are worn already.
+    between : Mapping[str, ndarray], optional
+        State fields of effects, by name, that do not start at their initial values.
+
+    Raises
+    ------
+    CaseError
+        If the contact does not fit the window.
+    NumericalError
+        If the solver fails.
+    """
+    state = State(
+        time=0.0,
+        distance=0.0,
+        bodies=_unworn(model) if worn is None else worn,
+        contacts=(),
+        increment=0.0,
+        reference_depth=0.0,
+        load_distance=0.0,
+        between={**first_memory(model), **(between or {})},
+    )
+    # Kept in a list, so that each gap has an identity of its own.
+    gaps = list(
+        undeformed(model, state) if worn is not None or model.laws.filling else model.contact.gaps
+    )
+    solutions: dict[tuple[int, float], ContactSolution] = {}
+    asked = [
+        (id(gap), load) for gap, load in zip(gaps, model.contact.loads.after(0.0), strict=True)
+    ]
+    for gap, key, cap in zip(gaps, asked, caps(model, state.bodies), strict=True):
+        # Where nothing varies along the path, one solve serves all positions.
+        if key not in solutions:
+            problem = ContactProblem(model.contact.system, gap, key[1], cap=cap)
+            start = next(reversed(solutions.values()), None)
+            solutions[key] = model.contact.solver.solve(problem, start)
+    contacts = tuple(solutions[key] for key in asked)
+    if any(reaches_border(each.pressure) for each in contacts) and not model.contact.may_reach_edge:
+        size = f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm"
+        remedy = "make it larger (or, for a body that ends there, set grid.ends_at_window = true)"
+        forms = [surface.ask(surface.component.smoothed) for surface in model.surfaces.values()]
+        if all(form.curvature == (0, 0) for form in forms):
+            remedy = (
+                "two flat bodies touch all over it, however large it is: give one an edge "
+                '(surface.type = "pin"), let the contact repeat with the window (contact.type = '
+                '"periodic"), or let a body end there (grid.ends_at_window = true)'
+            )
+        raise CaseError(
+            f"the first contact reaches the edge of the window of {size}; {remedy}", "grid.size"
+        )
+    model.tell(Solved(contacts))
+    middle = len(contacts) // 2
+    return replace(
+        state,
+        contacts=contacts,
+        contact_solves=len(solutions),
+        solver_iterations=sum(contact.iterations for contact in solutions.values()),
+        bodies=yielded(model, state.bodies, contacts, [middle]),
+        # The approach counts from the lowest point of unworn bodies.
+        reference_depth=contacts[middle].approach - float(np.min(gaps[middle])),
+    )
+
+
+def _unworn(model: Model) -> dict[str, BodyState]:
+    bodies = {}
+    for name in model.case.bodies:
+        wear = np.zeros((model.cycle.maps[name].rows, model.grid.cells[1]))
+        initial = model.laws.wear[name].initial_state if name in model.laws.wear else {}
+        bodies[name] = BodyState(
+            wear=wear,
+            plastic=model.cycle.maps[name].lay(np.zeros(model.grid.cells), len(model.cycle) // 2),
+            law={field: np.full_like(wear, value) for field, value in initial.items()},
+        )
+    return bodies
