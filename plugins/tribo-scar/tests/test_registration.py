@@ -1,0 +1,188 @@
+"""Two maps laid on each other."""
+
+import numpy as np
+import pytest
+import scipy.ndimage as ndimage
+from scar_maps import PITCH, RADIUS, SHIFT, TURN, WIDE, pair, seen, track
+from tribo import (
+    CaseError,
+    Grid,
+    Heights,
+    Sphere,
+    TriboWarning,
+)
+
+from tribo_scar import measured_scar
+from tribo_scar.registration import register
+
+
+@pytest.mark.parametrize(
+    "changes", [{"shift": (-8.6, 5.5), "turn": -0.03}, {"noise": 50e-9}, {"on": RADIUS}]
+)
+def test_maps_are_laid_on_each_other_within_a_tenth_of_a_pixel(changes):
+    before, after, lost = pair(**changes)
+    found = measured_scar(before, after)
+    laid = found.registration
+    shift, turn = changes.get("shift", SHIFT), changes.get("turn", TURN)
+    off = np.array(laid.shift) / PITCH - seen(shift, turn)
+    assert np.max(np.abs(off)) < 0.1
+    assert np.all(np.abs(off) < 4 * np.array(laid.shift_uncertainty) / PITCH)
+    assert laid.rotation == pytest.approx(-turn, abs=1e-3)
+    # Noise of both maps, the one before blurred as it is interpolated.
+    assert laid.noise == pytest.approx(1.3 * changes.get("noise", 10e-9), rel=0.1, abs=0)
+    volume = np.sum(lost) * PITCH**2
+    assert found.volume == pytest.approx(volume, rel=0.01, abs=0)
+    assert abs(found.volume - volume) < 3 * found.volume_uncertainty < 0.05 * volume
+
+
+def test_maps_of_two_bodies_are_refused():
+    """A flat before, a ball after."""
+    grid = Grid(160 * 15e-6, 160)
+    ball = Sphere(radius=3e-3).height(grid)
+    flat = np.random.default_rng(0).normal(0, 3e-8, ball.shape)
+    pitch = (15e-6, 15e-6)
+    with pytest.raises(CaseError, match="check that both maps are of one body"):
+        measured_scar(Heights(flat, pitch), Heights(np.minimum(ball, -1e-4) + flat[::-1], pitch))
+
+
+def test_shift_and_volume_are_known_as_well_as_they_say_in_correlated_noise():
+    before, after, lost = pair(noise=0)
+    random, off = np.random.default_rng(2), []
+    for _ in range(3):
+        maps = []
+        for each in (before, after):
+            noise = ndimage.gaussian_filter(random.normal(size=each.heights.shape), 1.5)
+            maps.append(Heights(each.heights + 20e-9 * noise / np.std(noise), each.pitch))
+        found = measured_scar(*maps)
+        laid, volume = found.registration, np.sum(lost) * PITCH**2
+        off += [(each / PITCH - sh) * PITCH for each, sh in zip(laid.shift, seen(), strict=True)]
+        off[-2:] = np.divide(off[-2:], laid.shift_uncertainty)
+        off.append((found.volume - volume) / found.volume_uncertainty)
+        assert found.volume_uncertainty < 0.02 * volume
+    assert np.max(np.abs(off)) < 3
+    assert np.std(off) < 1.5
+
+
+def test_the_border_of_a_ball_tells_no_shift():
+    """Where blur is one-sided."""
+    grid, ball = Grid(128 * 4e-6, 128), Sphere(radius=RADIUS)
+    x, y = grid.mesh
+    lost = np.maximum(1e-6 * (1 - (x**2 + y**2) / 100e-6**2), 0)
+    noise = 10e-9 * np.random.default_rng(3).normal(size=lost.shape)
+    found = measured_scar(ball, Heights(ball.height(grid) - lost + noise, (4e-6, 4e-6)))
+    assert np.all(np.isinf(found.registration.shift_uncertainty))
+    assert abs(found.volume - np.sum(lost) * grid.cell_area) < 2 * found.volume_uncertainty
+
+
+@pytest.mark.slow
+def test_smooth_balls_tell_no_shift_but_a_volume():
+    smooth = {"sq": 1e-12, "shift": (0, 0), "turn": 0, "on": RADIUS}
+    before, after, lost = pair(**smooth)
+    volume = np.sum(lost) * PITCH**2
+    for first in (before, Sphere(radius=RADIUS)):
+        found = measured_scar(first, after)
+        assert found.volume == pytest.approx(volume, rel=0.01, abs=0)
+        assert np.all(np.isinf(found.registration.shift_uncertainty))
+        assert found.registration.shift == (0, 0)
+
+
+def test_maps_of_half_the_pixels_are_refused():
+    before, after, _ = pair(missing=0)
+    with pytest.raises(CaseError, match="one map has 2 times as many pixels along both axes"):
+        measured_scar(before, Heights(after.heights[::2, ::2], np.multiply(1.0005, after.pitch)))
+
+
+@pytest.mark.parametrize("along", [0, 1])
+def test_an_arc_of_the_track_of_a_pin_on_a_disk_is_as_wide(along):
+    before, after, _ = pair(depth=0, shift=(0, 0), turn=0)
+    places, round_ = before.grid.mesh, 200 * PITCH
+    beside = np.hypot(places[along], places[1 - along] + round_) - round_
+    lost = 1e-6 * np.maximum(1 - beside**2 / WIDE**2, 0)
+    found = measured_scar(before, Heights(after.heights - lost, after.pitch))
+    assert (found.along, found.across)[1 - along] == pytest.approx(2 * WIDE, rel=0.05, abs=0)
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.02, 0.04])
+def test_a_direction_that_grooves_do_not_tell_adds_to_the_other_where_they_are_turned(turn):
+    """They run along x, in which the map is moved by 5.4 pixels."""
+    n, shift, random = 128, (5.4, 1.5), np.random.default_rng(0)
+    line = ndimage.gaussian_filter1d(random.normal(size=3 * n), 3.0)
+    relief = np.broadcast_to(1e-7 * line / np.std(line), (3 * n, 3 * n))
+    own, (c, s) = np.indices((n, n)) - 0.5 * (n - 1), (np.cos(turn), np.sin(turn))
+    at = np.stack([c * own[0] - s * own[1] + shift[0], s * own[0] + c * own[1] + shift[1]])
+    lost = np.maximum(1e-6 * (1 - np.sum(own**2, axis=0) / 22**2), 0)
+    before, after = (
+        Heights(
+            ndimage.map_coordinates(relief, place + 1.5 * n - 0.5, order=5)
+            - worn
+            + 5e-9 * random.normal(size=(n, n)),
+            (PITCH, PITCH),
+        )
+        for place, worn in ((own, 0), (at, lost))
+    )
+    laid = measured_scar(before, after).registration
+    off = np.array(laid.shift) / PITCH - seen(shift, turn)
+    sure = np.array(laid.shift_uncertainty) / PITCH
+    assert np.isinf(sure[0])
+    assert abs(off[1]) < 2 * sure[1] < 0.03 + 30 * turn
+    assert abs(laid.rotation + turn) < 3 * laid.rotation_uncertainty
+
+
+def test_rounding_of_smooth_balls_tells_no_shift():
+    pitch = 10e-6
+    x, y = Grid(96 * pitch, 96).mesh
+    ball = -(x**2 + y**2) / (2 * RADIUS)
+    lost = 2e-6 * np.maximum(1 - (x**2 + y**2) / 0.3e-3**2, 0)
+    found = measured_scar(Heights(ball, (pitch, pitch)), Heights(ball - lost, (pitch, pitch)))
+    assert found.registration.shift == (0, 0)
+    assert found.volume == pytest.approx(np.sum(lost) * pitch**2, rel=1e-3, abs=0)
+
+
+def test_maps_that_do_not_fit_are_refused(standard):
+    before, after, *_ = standard
+    with pytest.raises(
+        CaseError, match=r"a pixel every 1 × 1 µm, and that after every 1\.1 × 1 µm"
+    ):
+        register(before, Heights(after.heights, (1.1e-6, 1e-6)))
+    with pytest.raises(CaseError, match="swap the axes of one, or measure or resample"):
+        register(Heights(before.heights, (2e-6, 1e-6)), Heights(after.heights, (1e-6, 2e-6)))
+    with pytest.raises(CaseError, match="before and after are the same"):
+        measured_scar(before, before)
+    flat = Heights(np.zeros((96, 96)), before.pitch)
+    with pytest.raises(CaseError, match="every height of the map after is 0 m: nothing was meas"):
+        measured_scar(before, flat)
+    with pytest.warns(TriboWarning, match="map before is 0 m, an ideal flat; if it was measured"):
+        measured_scar(flat, after)
+    with pytest.raises(
+        CaseError, match=r"shape before does not cover the map after .*or the pitch"
+    ):
+        measured_scar(Sphere(radius=1e-6), after)
+    part = np.full(before.heights.shape, np.nan)
+    part[:20] = before.heights[:20]
+    rest = np.where(np.arange(96)[:, None] < 70, np.nan, after.heights)
+    with pytest.raises(CaseError, match=r"only \d+ % of the pixels in common; 20 % at least"):
+        register(Heights(part, before.pitch), Heights(rest, after.pitch))
+    with pytest.raises(CaseError, match="every height of the map is missing"):
+        Heights(np.full((32, 32), np.nan), (PITCH, PITCH))
+    with pytest.raises(CaseError, match=r"shape \(4, 32\) are no map: 16 × 16 at least"):
+        Heights(np.zeros((4, 32)), (PITCH, PITCH))
+    with pytest.raises(
+        CaseError, match=r"shape \(3, 32, 32\) .* two dimensions; save one map alone"
+    ):
+        Heights(np.zeros((3, 32, 32)), (PITCH, PITCH))
+    with pytest.raises(CaseError, match="1 of its 1024 heights are infinite; put NaN where"):
+        Heights(np.where(np.arange(1024) == 5, np.inf, 0.0).reshape(32, 32), (PITCH, PITCH))
+    with pytest.raises(CaseError, match=r"worn deeper than .* 4 times .*measure a larger area"):
+        measured_scar(*pair(depth=0)[:2])
+    with pytest.raises(CaseError, match=r"nothing is worn .*is the map after the test given first"):
+        measured_scar(after, before)
+    with pytest.raises(
+        CaseError, match=r"% of the 96 × 96 pixels differ|if over half of the map is worn"
+    ):
+        measured_scar(*track(wide=29 * PITCH)[:2])
+    with pytest.raises(
+        CaseError, match=r"radius: a ball of 0\.01 mm radius cannot have .* radius or pitch"
+    ):
+        measured_scar(before, after, radius=1e-5)
+    with pytest.raises(CaseError, match="form: form is 1"):
+        measured_scar(before, after, form=3)

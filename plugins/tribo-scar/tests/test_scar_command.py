@@ -1,0 +1,149 @@
+"""`tribo scar` as a user meets it, its pictures and its files."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from scar_maps import PITCH, RADIUS, WIDE, pair
+from tribo import (
+    CaseError,
+    Grid,
+    Heights,
+    Registry,
+    TriboWarning,
+    read_heights,
+)
+from tribo.lab import heights
+from tribo.registry.plugins import builtin
+
+from tribo_scar import measured_scar, measured_scar_map
+from tribo_scar.command import scar as command
+
+
+@pytest.mark.slow
+def test_the_command_measures_and_draws(tmp_path):
+    before, after, lost = pair(on=RADIUS)
+    np.save(tmp_path / "before.npy", before.heights)
+    np.savetxt(tmp_path / "after.csv", after.heights, delimiter=",")
+    files = [str(tmp_path / name) for name in ("before.npy", "after.csv")]
+    picture = tmp_path / "scar.png"
+    given = [*files, "--pitch", "1 um", "--radius", "5 mm", "-o", str(picture)]
+    given += ["-o", str(tmp_path / "depth.NPY")]
+    done = CliRunner().invoke(command, given, catch_exceptions=False)
+    volume = 1e9 * np.sum(lost) * PITCH**2
+    assert float(done.output.split("volume in the map, mm³")[1].split()[0]) == pytest.approx(
+        volume, rel=0.01, abs=0
+    )
+    for words in ("flat scar (ASTM G99)", "In the map after all lies -3.3", "Noise of the unworn"):
+        assert words in done.output
+    assert picture.stat().st_size > 10_000
+    assert done.output.count("Wrote ") == 2
+    depth = np.load(tmp_path / "depth.NPY")
+    # Whole, so that its middle is that of the map after.
+    assert depth.shape == after.heights.shape
+    assert np.nansum(depth) == pytest.approx(np.sum(lost), rel=0.1)
+    assert np.nanstd(depth - lost) < 0.1 * np.max(lost)
+    ideal = [files[1], *given[2:4], "--ideal", '{ type = "sphere", radius = "5 mm" }', "--json"]
+    told = CliRunner().invoke(command, ideal, catch_exceptions=False)
+    assert '"volume_uncertainty_m3"' in told.output
+    assert json.loads(told.output)["cut_off"] is False
+    with pytest.raises(CaseError, match="has heights and no scale; give the distance"):
+        CliRunner().invoke(command, files, catch_exceptions=False)
+    with pytest.raises(CaseError, match=r"--pitch: .*no unit"):
+        CliRunner().invoke(command, [*files, "--pitch", "5"], catch_exceptions=False)
+    with pytest.raises(CaseError, match="--pitch: 5 mm is too much between two pixels, 1 mm at"):
+        CliRunner().invoke(command, [*files, "--pitch", "5 mm"], catch_exceptions=False)
+    np.savetxt(tmp_path / "semicolons.csv", after.heights, delimiter=";")
+    with pytest.raises(CaseError, match=r"semicolons\.csv .* line 2, .* by commas"):
+        read_heights(tmp_path / "semicolons.csv", (PITCH, PITCH))
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ([], "1 file is given; give the maps before and after"),
+        (["a.npy", "a.npy"], "3 files are given"),
+        (["--radius", "5", "mm"], r"^'mm' is no file: quote a length, as --radius '5 mm'$"),
+        (["--ideal", "sphere"], "--ideal radius: missing"),
+        (["-o", "none/scar.png"], "there is no folder none; make it first"),
+        (["--ideal", "flat", "-o", "./a.npy"], r"--output: a\.npy is a measured map; give another"),
+        (["--ideal", '{ type = "sphere" r'], r'sphere" r is no TOML: Unclosed .*; .* put commas'),
+    ],
+)
+def test_wrong_words_of_the_command_are_told(given, words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    np.save("a.npy", np.zeros((32, 32)))
+    with pytest.raises(CaseError, match=words):
+        CliRunner().invoke(command, ["a.npy", "--pitch", "1 um", *given], catch_exceptions=False)
+
+
+def test_the_command_says_what_the_maps_do_not_tell_and_what_is_cut_off(tmp_path):
+    grid = Grid(96 * PITCH, 96)
+    x, y = grid.mesh
+    lost = 1e-6 * np.maximum(1 - ((x - 35e-6) ** 2 + y**2) / WIDE**2, 0)
+    np.save(tmp_path / "after.npy", 1e-9 * np.random.default_rng(1).normal(size=x.shape) - lost)
+    given = [str(tmp_path / "after.npy"), "--pitch", "1 um", "--ideal", "flat"]
+    with pytest.warns(TriboWarning, match="cuts the scar off"):
+        done = CliRunner().invoke(command, given, catch_exceptions=False)
+    assert "does not tell the shift along x, the shift along y" in done.output
+    assert "all lies" not in done.output
+    assert "inf" not in done.output
+    assert done.output.count("cut off") == 2
+
+
+def test_the_command_gives_the_volume_of_a_whole_track(tmp_path):
+    _, y = Grid(96 * PITCH, 96).mesh
+    lost = 1e-6 * np.maximum(1 - np.broadcast_to(y, (96, 96)) ** 2 / WIDE**2, 0)
+    np.save(tmp_path / "after.npy", 1e-8 * np.random.default_rng(1).normal(size=lost.shape) - lost)
+    given = [str(tmp_path / "after.npy"), "--pitch", "1 um", "--ideal", "flat"]
+    given += ["--track-length", "2 mm"]
+    done = CliRunner().invoke(command, given, catch_exceptions=False)
+    volume, sure = map(float, done.output.split("volume of the track, mm³")[1].split()[:2])
+    assert volume == pytest.approx(1e9 * np.sum(lost[0]) * PITCH * 2e-3, rel=0.01, abs=0)
+    assert 0 < sure < 0.02 * volume
+    assert "whole map" in done.output
+
+
+def test_heights_in_micrometres_and_fill_values_are_told_by_their_file(standard, tmp_path):
+    heights = standard[1].heights
+    filled = np.where(np.isnan(heights), -9999, heights)
+    for name, wrong in {"micro": 1e6 * heights, "filled": filled}.items():
+        np.save(tmp_path / f"{name}.npy", wrong)
+        words = rf"{name}\.npy: .* lie further .* wide, 0\.096 mm; .*put NaN for fill .* one in µm"
+        with pytest.raises(CaseError, match=words):
+            read_heights(tmp_path / f"{name}.npy", (PITCH, PITCH))
+    # An instrument may count heights from its own stage.
+    assert Heights(heights + 1.0, (PITCH, PITCH)).heights.shape == heights.shape
+
+
+def test_a_picture_leaves_what_is_missing_white(standard):
+    (image,) = measured_scar_map(standard[3]).axes[0].images
+    assert np.ma.getmaskarray(image.get_array()).any()
+
+
+def test_the_picture_outlines_what_is_piled_up():
+    ridge = lambda x, y: np.exp(-((np.hypot(x, y) - 26) ** 2) / 8)  # noqa: E731
+    before, after, *_ = pair(missing=0.0)
+    x, y = after.grid.mesh
+    raised = Heights(after.heights + 3e-7 * ridge(x / PITCH, y / PITCH), after.pitch)
+    figure = measured_scar_map(measured_scar(before, raised))
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["scar", "piled up"]
+    title = figure.axes[0].get_title("left")
+    value, power = re.match(r"Volume \(([\d.]+) ± .*10\^\{(-\d+)\}\$ mm³", title).groups()
+    assert 1e-9 * float(value) * 10.0 ** int(power) == pytest.approx(6.28e-16, rel=0.03, abs=0)
+
+
+def test_a_file_of_a_format_that_nothing_reads_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(heights, "default_registry", lambda: Registry([builtin()]))
+    with pytest.raises(
+        CaseError, match=r"map\.x3p is no NumPy, CSV or HDF5 file .* install tribo-t"
+    ):
+        read_heights(tmp_path / "map.x3p")
+    (tmp_path / "list.csv").write_text("1,2,3\n4,5,6\n")
+    with pytest.raises(CaseError, match=r"list\.csv: .* a list of x, y, z is no map"):
+        read_heights(tmp_path / "list.csv", (PITCH, PITCH))
+    with pytest.raises(CaseError, match=r"there is no file .*map\.npy"):
+        read_heights(tmp_path / "map.npy")

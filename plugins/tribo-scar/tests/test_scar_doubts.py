@@ -1,0 +1,198 @@
+"""What is told of maps that look wrong."""
+
+import warnings
+
+import numpy as np
+import pytest
+import scipy.ndimage as ndimage
+from scar_maps import PITCH, RADIUS, WIDE, pair
+from tribo import (
+    CaseError,
+    Flat,
+    Grid,
+    Heights,
+    Sphere,
+    TriboWarning,
+)
+from tribo.lab import heights
+
+from tribo_scar import measured_scar
+
+
+def test_a_radius_or_a_shape_that_the_unworn_surface_has_not_is_told():
+    before, after, _ = pair(on=RADIUS, sq=5e-9, noise=1e-9)
+    with pytest.warns(TriboWarning, match=r"radius of 5.* mm, and the ball one of 3 mm"):
+        measured_scar(before, after, radius=3e-3)
+    with (
+        pytest.warns(TriboWarning, match="differ by more than a tilt: check the shape given"),
+        pytest.warns(TriboWarning, match=r"radius of 5.* mm, and the ball one of 4 mm"),
+    ):
+        measured_scar(Sphere(radius=0.8 * RADIUS), after)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = measured_scar(before, after, radius=RADIUS)
+        # An ideal ball has a radius of its own.
+        ideal = measured_scar(Sphere(radius=RADIUS), after)
+        # But a track on a sphere is made by another ball.
+        ball, y = Sphere(radius=20e-3), after.grid.mesh[1]
+        groove = ball.height(after.grid) - np.maximum(1e-6 * (1 - (y / WIDE) ** 2), 0)
+        assert not measured_scar(ball, Heights(groove, (PITCH, PITCH))).inferred
+    assert len(found.inferred) == len(ideal.inferred) > 0
+
+
+@pytest.mark.parametrize(("missing", "told"), [(25, False), (36, False), (38, True), (44, True)])
+def test_a_volume_that_lies_in_a_gap_is_told(missing, told):
+    """The track begins 38 pixels from the middle of its circle."""
+    far = np.hypot(*Grid(160 * PITCH, 160).mesh) / PITCH
+    lost = 1e-6 * np.maximum(1 - ((far - 50) / 12) ** 2, 0)
+    after = np.random.default_rng(0).normal(0, 3e-9, far.shape) - lost
+    after = Heights(np.where(far < missing, np.nan, after), (PITCH, PITCH))
+    with warnings.catch_warnings(record=True) as warned:
+        warnings.simplefilter("always")
+        found = measured_scar(Flat(), after)
+    assert any("in one gap" in str(each.message) for each in warned) == told
+    off = abs(found.volume / (PITCH**2 * np.sum(lost)) - 1)
+    assert off > 0.2 if told else off < 0.1
+
+
+@pytest.mark.filterwarnings("ignore:pixels are missing where the scar is deepest")
+def test_pixels_that_are_missing_here_and_there_are_no_gap_however_many():
+    x, y = Grid(120 * PITCH, 120).mesh
+    lost = 1e-6 * np.maximum(1 - (x**2 + y**2) / (28 * PITCH) ** 2, 0)
+    random = np.random.default_rng(0)
+    after = np.where(random.random(lost.shape) < 0.8, np.nan, -lost)
+    after += random.normal(0, 1e-8, lost.shape)
+    found = measured_scar(Flat(), Heights(after, (PITCH, PITCH)))
+    assert abs(found.volume / (PITCH**2 * np.sum(lost)) - 1) < 0.02
+
+
+@pytest.mark.parametrize("radius", [5e-3, 6e-3, 30e-3, 300e-3])
+def test_a_radius_far_above_the_ball_s_is_told(radius):
+    before, after, _ = pair(on=3e-3, sq=5e-9, noise=1e-9)
+    words = rf"radius of [23]\.\d+ mm, and the ball one of {1e3 * radius:g} mm"
+    with pytest.warns(TriboWarning, match=words):
+        assert measured_scar(before, after, radius=radius).inferred == ()
+
+
+@pytest.mark.parametrize("powers", [(4, 0), (2, 2)])
+def test_a_form_of_fourth_order_is_told(powers):
+    """Legendre's, of which a curvature takes nothing off: volumes are off by 12 to 14 %."""
+    before, after, _ = pair()
+    x, y = (each / (48 * PITCH) for each in after.grid.mesh)
+    along, across = ([0] * power + [1] for power in powers)
+    bent = np.polynomial.legendre.legval(x, along) * np.polynomial.legendre.legval(y, across)
+    with pytest.warns(TriboWarning, match="unworn surfaces differ"):
+        measured_scar(before, Heights(after.heights + 80e-9 * bent, after.pitch))
+
+
+@pytest.mark.parametrize("height", [1e-6, 2e-5])
+def test_spikes_are_left_out_and_counted(height):
+    """In 0.4 % of the pixels, of a ball's scar."""
+    before, after, lost = pair(on=RADIUS)
+    volume, maps = np.sum(lost) * PITCH**2, []
+    random, spikes = np.random.default_rng(2), 0
+    for each in (before, after):
+        spiked = random.random(lost.shape) < 0.004
+        spikes += np.count_nonzero(spiked & np.isfinite(each.heights))
+        maps.append(Heights(each.heights + height * spiked, each.pitch))
+    with pytest.warns(TriboWarning, match="pixels of the map (before|after) are outliers"):
+        found = measured_scar(*maps)
+    assert found.as_json()["outliers"] == found.outliers
+    # A neighbour of one that is missing may go with it.
+    assert spikes <= found.outliers <= spikes + 4
+    assert abs(found.volume - volume) < 3 * found.volume_uncertainty < 0.02 * volume
+
+
+def test_neither_steep_sides_nor_relief_are_outliers(standard):
+    assert standard[3].outliers == 0
+    x, y = Grid(96 * PITCH, 96).mesh
+    for radius in (25.0e-6, 25.3e-6):
+        pin = np.where(np.hypot(x, y) < radius, 0.0, -1e-5)
+        assert not heights.outliers(
+            pin + 1e-8 * np.random.default_rng(2).normal(size=pin.shape)
+        ).any()
+
+
+def test_a_pit_in_a_corner_is_no_form():
+    """A corner weighs most in a form."""
+    grid = Grid(160 * PITCH, 160)
+    x, y = grid.mesh
+    lost = np.maximum(1e-6 * (1 - (x**2 + y**2) / (40 * PITCH) ** 2), 0)
+    after = np.random.default_rng(0).normal(0, 3e-9, lost.shape) - lost
+    after[2:8, 2:8] -= 1e-7
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        measured_scar(Flat(), Heights(after, (PITCH, PITCH)))
+
+
+def test_a_steep_ball_has_its_radius():
+    """A paraboloid through 0.6 of a radius bends a tenth more than its middle."""
+    grid = Grid(160 * 15e-6, 160)
+    ball, noise = Sphere(radius=3e-3).height(grid), np.random.default_rng(0)
+    maps = [
+        Heights(each + noise.normal(0, 3e-8, ball.shape), (15e-6, 15e-6))
+        for each in (ball, np.minimum(ball, -1e-4))
+    ]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        measured_scar(*maps, radius=3e-3)
+    with pytest.warns(TriboWarning, match=r"has a radius of 2.9.* mm, and the ball one of 3.3 mm"):
+        measured_scar(*maps, radius=3.3e-3)
+    with pytest.warns(TriboWarning, match="surfaces differ by more than a curvature: check the"):
+        measured_scar(Sphere(radius=3.1e-3), maps[1], form=2)
+
+
+@pytest.mark.parametrize("factor", [0.85, 1.15])
+def test_a_wrong_radius_is_told_under_the_relief_of_a_ball(factor):
+    """Though the curvature that is left is less than the relief."""
+    _, after, _ = pair(on=RADIUS, shift=(0, 0), turn=0, n=192)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        measured_scar(Sphere(radius=RADIUS), after)
+    with pytest.warns(TriboWarning, match="differ by more than a tilt: check the shape given"):
+        measured_scar(Sphere(radius=factor * RADIUS), after)
+
+
+@pytest.mark.parametrize("wide", [16, 24])
+def test_a_map_twice_as_wide_as_its_scar_is_large_enough(wide):
+    """With few pixels too, though smoothing widens the scar by some."""
+    y, random = np.arange(2 * wide) - wide + 0.5, np.random.default_rng(0)
+    shape = 2 * (2 * wide,)
+    relief = ndimage.gaussian_filter(random.normal(size=shape), 2, mode="wrap") * 0.7e-6
+    lost = 2e-6 * np.maximum(1 - (y[:, None] ** 2 + y**2) / (wide / 2) ** 2, 0)
+    before, after = (
+        Heights(relief - each + 20e-9 * random.normal(size=shape), (PITCH, PITCH))
+        for each in (0, lost)
+    )
+    found = measured_scar(before, after)
+    assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.02, abs=0)
+
+
+def test_few_pixels_are_told_where_the_margin_of_a_scar_is_much_of_the_map():
+    far = np.hypot(*Grid(24 * PITCH, 24).mesh) / PITCH
+    after = np.random.default_rng(0).normal(0, 1e-10, far.shape)
+    after -= np.maximum(1e-5 * (1 - (far / 5) ** 2), 0)
+    with pytest.raises(CaseError, match=r"of the 24 × 24 pixels differ, .*or with smaller pixels"):
+        measured_scar(Flat(), Heights(after, (PITCH, PITCH)))
+
+
+@pytest.mark.filterwarnings("ignore:.*are outliers")
+def test_zeros_in_place_of_what_is_missing_are_told(standard):
+    before, after, *_ = standard
+    zeros = np.nan_to_num(before.heights)
+    count = np.count_nonzero(zeros == 0)
+    with pytest.warns(
+        TriboWarning, match=rf"{count} heights of the map before are exactly 0; put NaN"
+    ):
+        measured_scar(Heights(zeros, before.pitch), after)
+    # Steps of an instrument, of which 0 is one, are no such sign.
+    steps = [Heights(1e-9 * np.round(1e9 * m.heights), m.pitch) for m in (before, after)]
+    assert measured_scar(*steps).volume == pytest.approx(standard[3].volume, rel=0.01, abs=0)
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+def test_nothing_is_known_of_a_radius_where_the_scar_covers_the_map():
+    x, y = Grid(32 * PITCH, 32).mesh
+    lost = np.maximum(1e-6 * (1 - (x**2 + y**2) / (6.4 * PITCH) ** 2), 0)
+    with pytest.warns(TriboWarning, match="fewer than 100 pixels lie beside the scar"):
+        measured_scar(Flat(), Heights(-lost, (PITCH, PITCH)), radius=1e-3)

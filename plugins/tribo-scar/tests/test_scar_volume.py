@@ -1,0 +1,197 @@
+"""Volume of a scar, and what is piled up beside it."""
+
+import numpy as np
+import pytest
+import scipy.ndimage as ndimage
+from scar_maps import PITCH, RADIUS, SHIFT, WIDE, pair, track
+from tribo import (
+    Flat,
+    Grid,
+    Heights,
+    TriboWarning,
+)
+
+from tribo_scar import measured_scar
+
+
+def test_a_shallow_scar_is_measured_out_to_its_edge():
+    before, after, lost = pair(depth=40e-9)
+    found = measured_scar(before, after)
+    assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.1, abs=0)
+
+
+@pytest.mark.filterwarnings("ignore:.*in one gap")
+def test_the_volume_of_a_hole_in_the_scar_is_interpolated_and_its_uncertainty_says_so(standard):
+    before, after, lost, whole = standard
+    x, y = after.grid.mesh
+    hole = np.hypot(x + SHIFT[0] * PITCH, y) < 6 * PITCH
+    holed = Heights(np.where(hole, np.nan, after.heights), after.pitch)
+    with pytest.warns(TriboWarning, match="missing where the scar is deepest"):
+        found = measured_scar(before, holed)
+    volume = np.sum(lost) * PITCH**2
+    assert found.missing > whole.missing + 0.03
+    assert found.volume_uncertainty > 3 * whole.volume_uncertainty
+    assert abs(found.volume - volume) < 2 * found.volume_uncertainty < 0.1 * volume
+    assert abs(found.depth - np.max(lost)) < 2 * found.depth_uncertainty < 0.5 * np.max(lost)
+
+
+@pytest.mark.filterwarnings("ignore:pixels are missing where the scar is deepest")
+@pytest.mark.parametrize(
+    ("missing", "holes", "before_too", "least"),
+    [(0.05, 0, False, 0.25), (0.0, 3, False, 0.4), (0.2, 0, True, 0.2)],
+)
+def test_missing_pixels_add_as_much_to_the_uncertainty_of_a_volume_as_they_do(
+    missing, holes, before_too, least
+):
+    """Scattered ones hardly any, as their neighbours tell the slope."""
+    off, (unchanged, after, _) = [], pair(noise=2e-9, missing=0.0)
+    whole = measured_scar(unchanged, after)
+    for seed in range(8):
+        before = unchanged
+        random = np.random.default_rng(seed)
+        gone = random.random(after.heights.shape) < missing
+        places = np.indices(after.heights.shape)
+        for middle in random.integers(35, 62, (holes, 2)):
+            gone |= np.sum((places - middle[:, None, None]) ** 2, axis=0) < 4**2
+        if before_too:
+            unseen = random.random(gone.shape) < missing
+            before = Heights(np.where(unseen, np.nan, before.heights), before.pitch)
+        found = measured_scar(before, Heights(np.where(gone, np.nan, after.heights), after.pitch))
+        added = found.volume_uncertainty**2 - whole.volume_uncertainty**2
+        off.append((found.volume - whole.volume) / np.sqrt(added))
+    assert least < np.sqrt(np.mean(np.square(off))) < 1.6
+
+
+def test_a_ball_worn_flat_has_lost_what_the_formulas_say():
+    # A cap of this width.
+    before, after, lost = pair(on=RADIUS / 100, depth=WIDE**2 / (2 * RADIUS / 100))
+    flat, groove, along = measured_scar(before, after, radius=RADIUS / 100).inferred
+    assert (flat.standard, groove.standard, along.standard) == ("ASTM G99", "ASTM D7755", None)
+    for each in (flat, groove, along):
+        assert abs(each.relative_error) < 0.1
+    assert flat.volume_m3 == pytest.approx(np.sum(lost) * PITCH**2, rel=0.1, abs=0)
+
+
+@pytest.mark.slow
+def test_a_track_has_a_section_and_the_volume_of_its_length():
+    before, after, lost = track()
+    found = measured_scar(before, after, radius=50 * RADIUS / 1e3, track_length=2e-3)
+    section = np.sum(lost[0]) * PITCH
+    # What lies beyond the map before is left out.
+    assert found.registration.part[0].stop == pytest.approx(96 - 15, abs=2)
+    assert np.isinf(found.along)
+    assert found.across == pytest.approx(2 * WIDE, rel=0.02, abs=0)
+    assert found.section == pytest.approx(section, rel=0.01, abs=0)
+    unworn, ends = found.inferred
+    assert found.track_volume == pytest.approx(2e-3 * section, rel=0.01, abs=0)
+    assert measured_scar(before, after).track_volume is None
+    assert unworn.relative_error == pytest.approx(0, abs=0.05)
+    assert ends.volume_m3 > unworn.volume_m3
+
+
+@pytest.mark.parametrize("height", [1e-7, 4e-7])
+def test_what_is_piled_up_at_the_edge_of_a_scar_is_not_taken_off_its_volume(standard, height):
+    before, after, lost, _ = standard
+    x, y = after.grid.mesh
+    away = np.hypot(x + SHIFT[0] * PITCH, y + SHIFT[1] * PITCH) - WIDE - 3 * PITCH
+    ridge = height * np.exp(-0.5 * (away / (1.5 * PITCH)) ** 2)
+    found = measured_scar(before, Heights(after.heights + ridge, after.pitch))
+    assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.03, abs=0)
+    assert found.piled_up == pytest.approx(np.sum(ridge) * PITCH**2, rel=0.25, abs=0)
+
+
+@pytest.mark.parametrize(("wide", "height"), [(2, 50e-9), (3, 100e-9), (4, 50e-9)])
+def test_a_thin_low_ridge_along_the_edge_is_not_taken_off_the_volume(wide, height):
+    before, after, lost = pair(sq=30e-9, shift=(0, 0), turn=0, missing=0.0)
+    inside = (np.hypot(*after.grid.mesh) - WIDE) / (wide * PITCH)
+    ridge = height * np.sin(np.pi * np.clip(inside, 0, 1))
+    found = measured_scar(before, Heights(after.heights + ridge, after.pitch))
+    assert abs(found.volume - np.sum(lost) * PITCH**2) < 3 * found.volume_uncertainty
+    assert found.volume_uncertainty < 0.005 * found.volume
+    assert found.piled_up == pytest.approx(np.sum(ridge) * PITCH**2, rel=0.1, abs=0)
+
+
+@pytest.mark.filterwarnings("ignore:.*are outliers")
+@pytest.mark.parametrize("kind", ["relief", "outliers"])
+def test_neither_the_relief_of_a_worn_surface_nor_outliers_are_ridges_at_its_edge(kind):
+    before, after, lost = pair(sq=30e-9, noise=3e-9, shift=(0, 0), turn=0, missing=0.0)
+    off, piled = [], []
+    for seed in range(6):
+        random = np.random.default_rng(seed)
+        more, noise = np.zeros(lost.shape), 10e-9 * random.normal(size=lost.shape)
+        if kind == "relief":
+            more, noise = 60e-9 * random.normal(size=(1, lost.shape[1])) * (lost > 0), 0.0
+        else:
+            noise[random.random(lost.shape) < 0.01] += 100e-9
+        found = measured_scar(before, Heights(after.heights + more + noise, after.pitch))
+        volume = np.sum(lost - more) * PITCH**2
+        off.append((found.volume - volume) / found.volume_uncertainty)
+        piled.append(found.piled_up / found.volume)
+    assert np.sqrt(np.mean(np.square(off))) < 1.8
+    assert np.mean(piled) < 0.001
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_wide_low_ridges_along_a_track_are_piled_up_and_no_noise(seed):
+    """They are as wide as a third of what is unworn, 5 times as high as the noise of a pixel."""
+    y, random = (np.arange(96) - 47.5) / 15, np.random.default_rng(seed)
+    relief = ndimage.gaussian_filter(random.normal(size=(96, 96)), 2, mode="wrap") * 0.7e-6
+    ridge = 150e-9 * np.exp(-(((np.abs(y) - 1.15) / 0.2) ** 2)) * (np.abs(y) > 1)
+    lost = 0.5e-6 * np.maximum(1 - y**2, 0)
+    before, after = (
+        Heights(relief + each + 20e-9 * random.normal(size=(96, 96)), (PITCH, PITCH))
+        for each in (0.0, ridge - lost)
+    )
+    found = measured_scar(before, after)
+    assert found.section == pytest.approx(np.sum(lost) * PITCH, rel=0.02, abs=0)
+    area = PITCH**2 * len(found.depths)
+    assert found.piled_up == pytest.approx(np.sum(ridge) * area, rel=0.15, abs=0)
+
+
+def test_a_scar_on_a_flat_has_no_volumes_of_a_ball(standard):
+    with pytest.warns(TriboWarning, match="the ball one of 0.2 mm"):
+        found = measured_scar(*standard[:2], radius=2e-4)
+    assert found.inferred == ()
+    assert found.across == pytest.approx(2 * WIDE, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("high", "wide", "missing"), [(3e-7, 8, 0), (3e-7, 3, 0), (8e-7, 13, 0), (3e-7, 8, 0.1)]
+)
+def test_a_ridge_that_rises_at_the_edge_takes_nothing_off_the_volume(high, wide, missing):
+    """Of a ball worn flat; smoothing would move the border into the scar by half a pixel."""
+    off, n, deep = [], 200, 6e-7
+    far = np.hypot(*Grid(n * PITCH, n).mesh) / PITCH
+    lost = np.maximum(deep * (1 - (far / 40) ** 2), 0)
+    ridge = high * np.sin(np.pi * np.clip((far - 40) / wide, 0, 1))
+    for seed in range(3):
+        random = np.random.default_rng(seed)
+        after = random.normal(0, 1e-8, far.shape) + ridge - lost
+        after[random.random(far.shape) < missing] = np.nan
+        found = measured_scar(Flat(), Heights(after, (PITCH, PITCH)))
+        errors = found.volume - np.sum(lost) * PITCH**2, found.piled_up - np.sum(ridge) * PITCH**2
+        off.append(np.divide(errors, (found.volume_uncertainty, found.piled_up_uncertainty)))
+    assert np.max(np.abs(np.mean(off, axis=0))) < 2
+
+
+def test_maps_without_noise_are_not_taken_for_worn_all_over():
+    before, *_ = pair(depth=0)
+    lost = 1e-6 * np.maximum(1 - before.grid.mesh[1] ** 2 / WIDE**2, 0)
+    lost = np.broadcast_to(lost, before.heights.shape)
+    found = measured_scar(before, Heights(before.heights - lost, before.pitch))
+    assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.01, abs=0)
+
+
+def test_what_is_piled_up_beside_a_scar_is_told_apart(standard):
+    before, after, lost, _ = standard
+    x, y = after.grid.mesh
+    ridge = np.where(np.abs(np.hypot(x, y) - 34 * PITCH) < 2 * PITCH, 4e-7, 0.0)
+    gone = np.hypot(x, y - 34 * PITCH) < 5 * PITCH
+    heights = np.where(gone, np.nan, after.heights + ridge)
+    whole = measured_scar(before, Heights(after.heights + ridge, after.pitch))
+    found = measured_scar(before, Heights(heights, after.pitch))
+    for each in (whole, found):
+        off = each.piled_up - np.sum(ridge) * PITCH**2
+        assert abs(off) < 3 * each.piled_up_uncertainty < 0.3 * each.piled_up
+        assert each.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.03, abs=0)
+    assert found.piled_up_uncertainty > 1.5 * whole.piled_up_uncertainty
