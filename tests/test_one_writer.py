@@ -58,7 +58,7 @@ def writes(node: ast.Call, buffers: set[str]) -> bool:
     if name == "replace":
         # A text has two arguments, and a dataclass keywords.
         return owner == "os" or (len(node.args) == 1 and not node.keywords and owner != "")
-    if name == "File":
+    if name in ("File", "open_hdf5"):
         return first not in buffers and bool(set(modes) - READ)
     if name == "ZipFile":
         return bool(set(modes) - READ)
@@ -103,6 +103,7 @@ def test_only_the_writer_writes(path):
         "np.savez_compressed(path, a=a)",
         "table.to_csv(path)",
         'h5py.File(path, "w")',
+        'open_hdf5(path, "w")',
         'zipfile.ZipFile(path, "w")',
     ],
 )

@@ -66,9 +66,7 @@ class Zoo:
 
     def bad(self, name, base, words="", code=3, saved=False, **parts):
         """Keep a class zoo.name that differs from `base` by some parts."""
-        # It has no source, which is else looked for in every module.
-        unread = {"use_attribute_docstrings": False}
-        own = {"__module__": __name__, "model_config": unread, "type": f"zoo.{name}"}
+        own = {"__module__": __name__, "type": f"zoo.{name}"}
         cls = type(name, (base,), {**own, **parts})
         self.kept.append(Bad(cls, words, code, saved))
         return cls

@@ -121,7 +121,7 @@ class Component(Table, ABC):
         """Mark the place of an interface, and add its name to the schema of a class."""
         if Component in cls.__bases__:
             return {KIND: cls.kind()}
-        made = handler.resolve_ref_schema(handler(schema))
+        made = super().__get_pydantic_json_schema__(schema, handler)
         named = {"const": cls.type, "default": cls.type, "title": "Type", "type": "string"}
         made["properties"] = {"type": named, **made.get("properties", {})}
         return made

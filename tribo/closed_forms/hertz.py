@@ -8,8 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import exp, log, pi, sqrt
 
-from scipy.optimize import brentq
-from scipy.special import elliprd, elliprf
+import scipy
 
 
 @dataclass(frozen=True)
@@ -63,19 +62,24 @@ def point(modulus: float, load: float, curvature_x: float, curvature_y: float) -
 
     def excess(log_ratio: float) -> float:
         squared = exp(2 * log_ratio)
-        return log(elliprd(0, 1, squared) / elliprd(0, squared, 1)) - wanted
+        x, y = scipy.special.elliprd(0, [squared, 1], [1, squared])
+        return log(y / x) - wanted
 
     # b/a lies between 1 and cx/cy, to which it tends for slender ellipses.
     log_ratio = 0.0
     if wanted != 0.0:
-        log_ratio = float(brentq(excess, -abs(wanted), abs(wanted), xtol=1e-15, rtol=1e-15))
+        log_ratio = float(
+            scipy.optimize.brentq(excess, -abs(wanted), abs(wanted), xtol=1e-15, rtol=1e-15)
+        )
     ratio = exp(log_ratio)
-    a = float((load * elliprd(0, ratio**2, 1) / (pi * modulus * curvature_x)) ** (1 / 3))
+    a = float(
+        (load * scipy.special.elliprd(0, ratio**2, 1) / (pi * modulus * curvature_x)) ** (1 / 3)
+    )
     b = ratio * a
     return PointContact(
         semi_axes=(a, b),
         peak_pressure=3 * load / (2 * pi * a * b),
-        approach=float(3 * load * elliprf(0, 1, ratio**2) / (2 * pi * modulus * a)),
+        approach=float(3 * load * scipy.special.elliprf(0, 1, ratio**2) / (2 * pi * modulus * a)),
     )
 
 

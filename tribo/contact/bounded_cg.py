@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.fft
+import scipy
 
 from tribo.contact.operator import Operator, WornOperator
 from tribo.contact.projection import CELLS, balance, limits, over, project

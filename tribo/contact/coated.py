@@ -6,8 +6,7 @@ from collections.abc import Iterable
 from functools import lru_cache
 
 import numpy as np
-from scipy.interpolate import CubicSpline
-from scipy.special import j0
+import scipy
 
 from tribo.core.arrays import Array
 from tribo.core.coating import Coating
@@ -67,13 +66,13 @@ class _PointLoad:
         xi, weights = _panels(reach)
         influence = weights * coating.influence(xi / coating.thickness)
         # Not a product of matrices, whose sums depend on threads.
-        values = np.array([np.sum(j0(each * xi) * influence) for each in r])
+        values = np.array([np.sum(scipy.special.j0(each * xi) * influence) for each in r])
         values /= np.pi * coating.modulus * coating.thickness
         self._last = coating.thickness * reach
         self._tail = (1 / base - 1 / coating.modulus) / np.pi
         r *= coating.thickness
-        self._green = CubicSpline(r, values)
-        self._integral = CubicSpline(r, values * r).antiderivative()
+        self._green = scipy.interpolate.CubicSpline(r, values)
+        self._integral = scipy.interpolate.CubicSpline(r, values * r).antiderivative()
 
     def green(self, r: Array) -> Array:
         """Return g(r)."""

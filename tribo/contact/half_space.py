@@ -5,7 +5,7 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
-import scipy.fft
+import scipy
 from numpy.typing import NDArray
 
 from tribo.contact.coated import base_kernel

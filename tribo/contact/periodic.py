@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
-import scipy.fft
+import scipy
 
 from tribo.contact.bounded_cg import solve_together
 from tribo.contact.elastic import ElasticSolver

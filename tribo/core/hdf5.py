@@ -3,8 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING
 
-import h5py
+if TYPE_CHECKING:
+    import h5py
+
+
+def open_hdf5(file: Path | BytesIO, mode: str = "r") -> h5py.File:
+    """Open a file, to read it or in another mode of h5py."""
+    # Slow to import: a case that is only read or checked needs no file.
+    import h5py
+
+    return h5py.File(file, mode)
 
 
 def contained(file: h5py.File) -> Iterator[h5py.Dataset]:
@@ -12,6 +24,8 @@ def contained(file: h5py.File) -> Iterator[h5py.Dataset]:
 
     No value is read, and no soft link followed.
     """
+    import h5py
+
     groups: list[h5py.Group] = [file]
     known = set()
     while groups:

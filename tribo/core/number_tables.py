@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribo.core.arrays import Array
+from tribo.core.hdf5 import contained, open_hdf5
 from tribo.core.units import number
 
 HDF5 = (".h5", ".hdf5")
@@ -138,13 +139,8 @@ def _is_number(cell: str) -> bool:
 
 def _only_table(file: Path) -> NDArray[Any]:
     """Return the one table of numbers in an HDF5 file."""
-    # Slow to import, and needed here only.
-    import h5py
-
-    from tribo.core.hdf5 import contained
-
-    with h5py.File(file) as opened:
-        tables = [each for each in contained(opened) if each.ndim == 2]
+    with open_hdf5(file) as source:
+        tables = [each for each in contained(source) if each.ndim == 2]
         if len(tables) != 1:
             names = ", ".join(table.name for table in tables) or "none"
             raise ValueError(f"one dataset of two dimensions is needed, but it has {names}")

@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+import ast
+import inspect
 from collections.abc import Iterator, Mapping
+from functools import cache
 from html import escape
+from itertools import pairwise
+from textwrap import dedent
 from typing import TYPE_CHECKING, Any, Self
 
 from pydantic import (
     BaseModel,
     ConfigDict,
+    GetJsonSchemaHandler,
     ModelWrapValidatorHandler,
     ValidationError,
     ValidationInfo,
     model_validator,
 )
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
 
 from tribo.core.explain import explained
 from tribo.core.units import parts, quantities, stated
@@ -22,7 +30,7 @@ from tribo.core.units import parts, quantities, stated
 class Table(BaseModel):
     """A frozen table that refuses unknown keys, and explains errors in the words of a case."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
+    model_config = ConfigDict(extra="forbid", frozen=True)
 
     if not TYPE_CHECKING:
 
@@ -43,6 +51,16 @@ class Table(BaseModel):
         except ValidationError as error:
             raise explained(error, cls, data, info) from None
 
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Describe each key by the docstring of its field."""
+        made = handler.resolve_ref_schema(handler(schema))
+        for name, text in descriptions(cls).items():
+            made["properties"][name]["description"] = text
+        return made
+
     def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
         """Yield the fields that are not at their defaults."""
         fields = type(self).model_fields
@@ -59,6 +77,40 @@ class Table(BaseModel):
                 shown = _html(value, unit, between)
                 rows.append(f"<tr><td>{escape(name)}</td><td>{shown}</td></tr>")
         return f"<table><caption>{escape(type(self).__name__)}</caption>{''.join(rows)}</table>"
+
+
+def descriptions(table: type[BaseModel]) -> dict[str, str]:
+    """Return the descriptions of fields by name: those given to `Field`, or else their docstrings.
+
+    Docstrings of fields are read from the source when asked for: pydantic would read those of every
+    class when it is made, which takes long.
+    """
+    texts: dict[str, str] = {}
+    for base in reversed(table.__mro__):
+        if issubclass(base, BaseModel):
+            texts |= _docstrings(base)
+    for name, field in table.model_fields.items():
+        if field.description:
+            texts[name] = field.description
+    return {name: texts[name] for name in table.model_fields if texts.get(name)}
+
+
+@cache
+def _docstrings(cls: type) -> dict[str, str]:
+    """Return the docstrings of the fields that a class declares; empty for one without any."""
+    try:
+        (tree,) = ast.parse(dedent(inspect.getsource(cls))).body
+    except (OSError, TypeError, SyntaxError):
+        return {}
+    assert isinstance(tree, ast.ClassDef)
+    texts = {}
+    for declared, after in pairwise([*tree.body, ast.Pass()]):
+        if isinstance(declared, ast.AnnAssign) and isinstance(declared.target, ast.Name):
+            texts[declared.target.id] = ""
+            match after:
+                case ast.Expr(ast.Constant(str(text))):
+                    texts[declared.target.id] = inspect.cleandoc(text)
+    return texts
 
 
 def _html(value: object, unit: str = "1", between: str = ", ") -> str:

@@ -6,8 +6,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
-from scipy.optimize import brentq
+import scipy
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -113,7 +112,7 @@ def crown(height: Array, depth: Array) -> float:
         return 0.0
     cells = np.arange(depth.size)
     # Unworn, the surface has no kink at the edges.
-    feet = make_interp_spline(cells, height + depth, k=2)(ends)
+    feet = scipy.interpolate.make_interp_spline(cells, height + depth, k=2)(ends)
     bulge = height - np.interp(cells, ends, feet)
     inside = np.flatnonzero((cells > ends[0]) & (cells < ends[1]))
     top = int(inside[np.argmax(bulge[inside])])
@@ -161,7 +160,9 @@ def _extrapolated(cells: Array) -> float | None:
 
     power = 1.0
     if cells.size == 4 and toe(1.0) < 0:
-        power = STEEPEST if toe(STEEPEST) <= 0 else float(brentq(toe, 1.0, STEEPEST, xtol=1e-4))
+        power = STEEPEST
+        if toe(STEEPEST) > 0:
+            power = float(scipy.optimize.brentq(toe, 1.0, STEEPEST, xtol=1e-4))
     return _root(cells[:3] ** (1 / power))
 
 

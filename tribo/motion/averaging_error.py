@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from scipy.optimize import brentq
+import scipy
 
 NOTICED = 0.05
 """Excess from which on a run says so."""
@@ -106,4 +106,4 @@ def good_stroke(
         shallower = depth * stroke / longer
         return groove_excess(longer, half_width, shallower, approach, volume_ratio, line) - GOOD
 
-    return float(brentq(excess, stroke, FAR * half_width, rtol=1e-3))
+    return float(scipy.optimize.brentq(excess, stroke, FAR * half_width, rtol=1e-3))

@@ -11,6 +11,7 @@ from pydantic import BaseModel
 from tribo.component import Component
 from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError
+from tribo.core.table import descriptions
 from tribo.core.units import Quantity, parts
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.kinds import KINDS
@@ -108,13 +109,14 @@ def _row(name: str, plugin: Plugin, cls: type[Component] | None = None) -> dict[
 def _parameters(table: type[BaseModel], within: tuple[type[BaseModel], ...] = ()) -> Iterator[str]:
     """Yield a line for each key of a table; those of tables inside follow, indented."""
     within = (*within, table)
+    texts = descriptions(table)
     for name, field in table.model_fields.items():
         found = list(parts(field))
         unit = next((f" [{mark.unit}]" for mark in found if isinstance(mark, Quantity)), "")
         needed = "needed" if field.is_required() else f"default {field.default!r}"
         if field.default is None or field.default_factory is not None:
             needed = "optional"
-        yield f"{name}{unit} ({needed}): {field.description or 'no description'}"
+        yield f"{name}{unit} ({needed}): {texts.get(name, 'no description')}"
         for part in found:
             if inspect.isclass(part) and issubclass(part, BaseModel) and part not in within:
                 yield from (f"    {line}" for line in _parameters(part, within))

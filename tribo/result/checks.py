@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
-import h5py
 import numpy as np
 
 from tribo.core.arrays import Array
@@ -13,7 +13,11 @@ from tribo.core.errors import CaseError
 from tribo.core.hdf5 import contained
 from tribo.result.layout import BETWEEN, DIMS, FIXED, ROUGHNESS, TRACK, TRACK_PLASTIC, Variable
 
-_FILTERS = {h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE, h5py.h5z.FILTER_FLETCHER32}
+if TYPE_CHECKING:
+    import h5py
+
+_FILTERS = {1, 2, 3}
+"""HDF5's numbers of deflate, shuffle and Fletcher32."""
 _DENSEST = 1032
 """Largest factor by which deflate, which compresses a result, makes data smaller."""
 _MAY_BE_NAN = {"density", TRACK, TRACK_PLASTIC, *ROUGHNESS} | {

@@ -5,13 +5,16 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping
 from io import BytesIO
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import h5py
 import numpy as np
 
+from tribo.core.hdf5 import open_hdf5
 from tribo.core.state import RunInfo
 from tribo.result.layout import Rows, Variable, attributes, variables
+
+if TYPE_CHECKING:
+    import h5py
 
 _ROWS = 256
 _MOST = 2**31 - 1
@@ -22,7 +25,7 @@ four times as long to open it."""
 def empty_image(run: RunInfo, **changed: Any) -> bytes:
     """Return the file of a run that has not yet made a step, with some attributes changed."""
     image = BytesIO()
-    with h5py.File(image, "w") as file:
+    with open_hdf5(image, "w") as file:
         file.attrs.update(attributes(run) | changed)
         file["body"] = [body.name for body in run.bodies]
         table = variables(run)
@@ -50,7 +53,7 @@ def filled_image(
     `tribo.result.layout.part_of` makes it, of so many saves and steps in all; attributes change.
     """
     image = BytesIO(empty)
-    with h5py.File(image, "r+") as file:
+    with open_hdf5(image, "r+") as file:
         file.attrs.update(changed)
         for dataset in file.values():
             if dataset.maxshape[0] == _MOST:
@@ -73,7 +76,7 @@ def filled_image(
 
 def renamed_image(image: BytesIO, names: Mapping[str, str]) -> BytesIO:
     """Return a file in which the bodies have other names; `names` has the new by the old."""
-    with h5py.File(image, "r+") as file:
+    with open_hdf5(image, "r+") as file:
         case = json.loads(file.attrs["case"])
         case["bodies"] = {names[name]: body for name, body in case["bodies"].items()}
         file.attrs["case"] = json.dumps(case)

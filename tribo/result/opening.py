@@ -7,10 +7,10 @@ import os
 from io import BytesIO
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 from tribo.core.errors import CaseError
+from tribo.core.hdf5 import open_hdf5
 from tribo.core.notices import worn_through
 from tribo.result.checkpoint import RunFolder
 from tribo.result.checks import check_contained, interpreting
@@ -48,6 +48,8 @@ def is_unfinished(path: Path) -> bool:
     except OSError as error:
         raise CaseError(f"{path} cannot be read: {error.strerror}") from error
     except CaseError as error:
+        import h5py
+
         if not h5py.is_hdf5(path):
             hint = f"; if it is a case: tribo run {path}" if path.suffix == ".toml" else ""
             raise CaseError(
@@ -56,7 +58,7 @@ def is_unfinished(path: Path) -> bool:
         raise CaseError(
             f"{error}; xarray may still read the fields whose own checksums match"
         ) from error
-    with interpreting(str(path)), h5py.File(path) as file:
+    with interpreting(str(path)), open_hdf5(path) as file:
         written = file.attrs.get("tribo_format")
         if not np.array_equal(written, FORMAT):
             raise CaseError(
@@ -71,7 +73,7 @@ def _saved_so_far(path: Path, folder: RunFolder) -> BytesIO:
     """Return the file that the run would write now, with who writes it as its status."""
     status = "running" if folder.busy() else "killed"
     empty = path.read_bytes()
-    with h5py.File(BytesIO(empty)) as file:
+    with open_hdf5(BytesIO(empty)) as file:
         case = json.loads(file.attrs["case"])
     kept, damage = folder.read_checkpoint(case)
     notices = [str(notice) for notice in kept.state.notices]

@@ -8,7 +8,6 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-import h5py
 import numpy as np
 
 from tribo.core import shorthand
@@ -17,6 +16,7 @@ from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
+from tribo.core.hdf5 import open_hdf5
 from tribo.core.words import did_you_mean, suggestion
 from tribo.result import checks
 from tribo.result.body import BodyResult, checked_save
@@ -54,7 +54,7 @@ class Result:
         self.name = name
         self._source = source
         with checks.interpreting(name), ExitStack() as unsound:
-            self._file = unsound.enter_context(h5py.File(source))
+            self._file = unsound.enter_context(open_hdf5(source))
             self._header = read_header(self._file.attrs)
             self._variables = checks.read_variables(self._file, self.body_names)
             small = [name for name, values in self._variables.items() if len(values.dims) <= 2]

@@ -10,11 +10,6 @@ from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.motion.exposure import Exposure
 
-try:
-    import psutil
-except ImportError:
-    psutil = None
-
 Exposures = Mapping[str, Exposure]
 
 FIELDS = 88
@@ -72,7 +67,9 @@ def memory_left() -> tuple[float, str]:
 
     Without psutil nothing is known of a limit.
     """
-    if psutil is None:
+    try:
+        import psutil
+    except ImportError:
         return math.inf, "no known limit"
     process = psutil.Process()
     size = process.memory_info()

@@ -8,7 +8,7 @@ from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
@@ -191,7 +191,9 @@ def worn_through(
 
             first = increment
             if beyond(increment) > 0:
-                first = float(brentq(beyond, 0.0, increment, xtol=REACHED * increment))
+                first = float(
+                    scipy.optimize.brentq(beyond, 0.0, increment, xtol=REACHED * increment)
+                )
             distance = before.distance + first
             yield Notice(
                 "layer",

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-import scipy.ndimage
+import scipy
 from pydantic import ConfigDict, Field, field_validator
 
 from tribo.core.arrays import Array

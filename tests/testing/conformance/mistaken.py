@@ -1,7 +1,5 @@
 """What keeps models that have one mistake each."""
 
-UNREAD = {"use_attribute_docstrings": False}
-"""Configuration of a class that has no source, which is else looked for in every module."""
 MISTAKES = {}
 """The class with each mistake, by what the mistake is."""
 
@@ -11,7 +9,7 @@ def mistake(words, honest, **parts):
     name = f"{honest.__name__}{len(MISTAKES)}"
     # Another process finds it by its name in the module that has them all.
     where = f"{__package__}.mistakes"
-    own = {"__module__": where, "model_config": UNREAD, "type": honest.type, **parts}
+    own = {"__module__": where, "type": honest.type, **parts}
     MISTAKES[words] = type(name, (honest,), own)
 
 

@@ -8,9 +8,8 @@ from types import ModuleType
 from typing import Annotated
 
 import numpy as np
-from pydantic import ConfigDict, field_validator, model_serializer
+from pydantic import field_validator, model_serializer
 from testing.conformance.honest import Counts, Hill, Law, Motion, Solver
-from testing.conformance.mistaken import UNREAD
 from testing.conformance.models import Heating
 
 from tribo import (
@@ -34,7 +33,7 @@ NUMBERS = count()
 
 def wrong(honest, *mistakes):
     """Return mutants of an honest class, given the check that each fails, its parts, its error."""
-    own = {"__module__": __name__, "model_config": UNREAD}
+    own = {"__module__": __name__}
     return [
         (
             check,
@@ -55,8 +54,6 @@ class WithoutUnit(Law):
 
 class Undescribed(Law):
     q: Annotated[float, Quantity("1")] = 3.0
-    # Reads no docstring of the field above it.
-    model_config = ConfigDict(use_attribute_docstrings=False)
 
 
 class MillimetresEachTime(Law):
