@@ -12,7 +12,7 @@ from tribo_inverse.calibration.setups import make_run
 
 SPRINGS = {
     "contact": {"type": "winkler"},
-    "stepping": {"type": "implicit", "depth_tolerance": 1e-2, "pressure_tolerance": 0.3},
+    "stepping": {"type": "implicit", "depth_tolerance": 0.1, "pressure_tolerance": 0.3},
     "output": {},
 }
 

@@ -139,7 +139,7 @@ def test_a_profile_is_met_on_a_coarse_grid(worn, cells):
     depths = np.interp(at, PITCH * (np.arange(PIXELS) - 0.5 * (PIXELS - 1)), middle)
     entry = {"body": "ball", "quantity": "profile_across", "uncertainty": NOISE}
     entry |= {"position": at.tolist(), "value": depths.tolist()}
-    coarse = apply_settings(CASE, {"grid.cells": cells})
+    coarse = apply_settings(CASE, {"grid.cells": cells, "stepping.depth_tolerance": 1e-2})
     found = calibrate(coarse, {"measured": [entry], "fit": [{"path": K}]})
     assert covers(found)
     assert found.p_value > 0.01
