@@ -18,6 +18,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from tribo.core.dimensions import PREFIXES, Dimension, scale
 from tribo.core.errors import CaseError
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.words import shown
 
 _CELSIUS = ("degC", "°C")
@@ -122,7 +123,7 @@ def parse(text: str, unit: str) -> float:
 def stated(value: float, unit: str) -> str:
     """Return a value in an SI unit as text with all its digits: ``"2 TPa"``, not 2e+12 Pa."""
     prefixes = _THOUSANDS if value and _PREFIXED.match(unit) else {1.0: ""}
-    factor = max((f for f in prefixes if f <= abs(value) * (1 + 1e-9)), default=min(prefixes))
+    factor = max((f for f in prefixes if f <= abs(value) * (1 + ROUND_OFF)), default=min(prefixes))
     # What the division rounds stands in the sixteenth digit.
     number = f"{value / factor:.15g}"
     return number if unit == "1" else f"{number} {prefixes[factor]}{unit}"

@@ -7,10 +7,10 @@ from math import inf
 
 from tribo.closed_forms import hertz
 from tribo.core.contact import ContactSystem
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.words import readable
 from tribo.result.read import Result
 
-AT_THE_CAP = 1 - 1e-9
 END_PEAK = 1.05
 """Ratio of the peak pressure to that at mid-length above which the ends are reported."""
 
@@ -113,7 +113,7 @@ def computed_pressure(
         return max_pressure, f"p max {in_mpa(max_pressure)}"
     words = f"p {in_mpa(centre_pressure)} at mid-length"
     if max_pressure > END_PEAK * centre_pressure:
-        capped = system.cap is not None and max_pressure >= AT_THE_CAP * system.cap
+        capped = system.cap is not None and max_pressure >= (1 - ROUND_OFF) * system.cap
         why = "the hardness" if capped else "grows as the grid is refined"
         words += f" and {in_mpa(max_pressure)} at the ends ({why})"
     return centre_pressure, words
@@ -137,7 +137,7 @@ def yield_words(pressure: float, hardness: float, contact: HertzContact) -> str:
         Hertz's contact of the bodies.
     """
     loads = f"P/P_yield {contact.load_ratio:.2g}"
-    if pressure >= AT_THE_CAP * hardness:
+    if pressure >= (1 - ROUND_OFF) * hardness:
         return f"the softer body yields from the start ({loads}): the pressure is its hardness"
     first = hertz.first_yield_pressure(hardness, line=contact.is_line)
     percent = f"{100 * pressure / first:.0f} %"

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribo.core.arrays import middle_rows
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.words import signed
 from tribo.lab.ball import ball_cap_volume, conforming_ball_volume, flat_along_ball_volume
 from tribo.lab.scar import Scar, scar
@@ -14,7 +15,6 @@ from tribo.lab.track import circular_groove_area, groove_radius, planimetric_are
 from tribo.result.body import BodyResult
 from tribo.result.read import Result
 
-ROUND = 1e-9
 UNWORN = "groove of an unworn ball"
 SHALLOW = "worn less deep than the contact flattens"
 MOST = 10.0
@@ -151,6 +151,6 @@ def _ball_and_flat(result: Result) -> tuple[BodyResult, BodyResult, float] | Non
     flat, ball = bodies
     if np.ptp(flat.height) > 0 or np.ptp(ball.height) == 0 or curvature is None:
         return None
-    if curvature[0] <= 0 or abs(curvature[1] / curvature[0] - 1) > ROUND:
+    if curvature[0] <= 0 or abs(curvature[1] / curvature[0] - 1) > ROUND_OFF:
         return None
     return ball, flat, 1 / curvature[0]

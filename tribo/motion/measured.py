@@ -14,6 +14,7 @@ from pydantic import ConfigDict, Field, field_validator, model_validator
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.core.number_tables import read_pairs
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.units import Quantity
 from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Passing, one_swept_body
@@ -85,7 +86,10 @@ class Measured(Kinematics):
         if self.duration is not None and self.cycles is not None:
             raise ValueError("give duration or cycles, not both")
         first, last = self.path[0][1], self.path[-1][1]
-        if self.end_time > self._period * (1 + 1e-9) and abs(last - first) > CLOSED * self._range:
+        if (
+            self.end_time > self._period * (1 + ROUND_OFF)
+            and abs(last - first) > CLOSED * self._range
+        ):
             raise ValueError(
                 f"the path begins at {1e3 * first:.4g} mm and ends at {1e3 * last:.4g} mm; to "
                 "repeat, it must end where it begins"
@@ -133,7 +137,7 @@ class Measured(Kinematics):
         if distance <= 0:
             return 0.0
         # The end of a pass, but for rounding, comes before the rest with which the next may begin.
-        whole = max(0, math.ceil(distance / slid[-1] * (1 - 1e-12)) - 1)
+        whole = max(0, math.ceil(distance / slid[-1] * (1 - ROUND_OFF)) - 1)
         rest = min(distance - whole * slid[-1], slid[-1])
         # The first sample by which it has come so far, so that it moves on to it.
         after = max(1, int(np.searchsorted(slid, rest)))

@@ -8,6 +8,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
+from tribo.core.rounding import ROUND_OFF
 from tribo.motion.cycle import Position
 
 EVEN = 1e-3
@@ -171,7 +172,7 @@ def check_spacing(length: float, count: int | str, half_width: float) -> None:
         return
     apart = length / (count - 1)
     # Further apart they leave ripples of up to 10 % of its depth in the groove.
-    if apart > 0.5 * half_width * (1 + 1e-9):
+    if apart > 0.5 * half_width * (1 + ROUND_OFF):
         raise CaseError(
             f"{count} positions lie every {1e3 * apart:.3g} mm, further apart than "
             f"{0.5e3 * half_width:.3g} mm, half the half-width of the first contact; give at least "
@@ -182,7 +183,7 @@ def check_spacing(length: float, count: int | str, half_width: float) -> None:
 
 def least_positions(length: float, half_width: float) -> int:
     """Return how many positions along a stroke (m) lie half of a half-width (m) apart, or less."""
-    return max(3, 2 * int(np.ceil(length / half_width * (1 - 1e-9))) + 1)
+    return max(3, 2 * int(np.ceil(length / half_width * (1 - ROUND_OFF))) + 1)
 
 
 def spacing_for(pressure: Array, error: float, *, repeats: bool = False) -> int:

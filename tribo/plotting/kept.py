@@ -10,14 +10,12 @@ from matplotlib.figure import Figure
 
 from tribo.core.arrays import Array
 from tribo.core.data_table import DataTable, Heading, TableRow
+from tribo.core.rounding import ROUND_OFF
 from tribo.plotting import style
 from tribo.plotting.maps import new_maps
 from tribo.plotting.units import shown_in, time_labels
 from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
-
-ROUND = 1e-9
-"""Difference, relative to the largest value, that is taken for rounding."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +47,7 @@ class KeptField:
 
 def steady(values: Array) -> bool:
     """Return whether values are all the same but for rounding."""
-    return bool(np.ptp(values) <= ROUND * np.max(np.abs(values)))
+    return bool(np.ptp(values) <= ROUND_OFF * np.max(np.abs(values)))
 
 
 def kept_fields(result: Result) -> list[KeptField]:
@@ -86,7 +84,7 @@ def _fields(result: Result) -> Iterator[KeptField]:
                 if key in result.fields_of(kind, body)
             }
             first, *others = of_bodies.values()
-            close = ROUND * float(np.max(np.abs(first)))
+            close = ROUND_OFF * float(np.max(np.abs(first)))
             alike = bool(others) and all(
                 np.allclose(first, other, rtol=0, atol=close) for other in others
             )

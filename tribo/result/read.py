@@ -17,6 +17,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.core.hdf5 import open_hdf5
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.words import did_you_mean, suggestion
 from tribo.result import checks
 from tribo.result.body import BodyResult, checked_save
@@ -30,9 +31,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from tribo.lab.report import LabReport
-
-SAME_TIME = 1e-9
-"""How far a time may be off that of a save, relative to the last one."""
 
 
 class Result:
@@ -237,7 +235,7 @@ class Result:
         times = self.times
         if len(times):
             nearest = int(np.argmin(np.abs(times - time)))
-            if abs(times[nearest] - time) <= SAME_TIME * times[-1]:
+            if abs(times[nearest] - time) <= ROUND_OFF * times[-1]:
                 return nearest
         listed = ", ".join(f"{saved:g}" for saved in times)
         raise CaseError(f"{self.name} has no save at {time:g} s; its saves are at {listed} s")

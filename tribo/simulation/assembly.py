@@ -19,6 +19,7 @@ from tribo.core.fields import PLACE_X
 from tribo.core.grid import Grid, RepeatingGrid
 from tribo.core.loads import Loads
 from tribo.core.material import contact_modulus
+from tribo.core.rounding import ROUND_OFF
 from tribo.guards.layered_law import LayeredLaw
 from tribo.guards.motion import GuardedMotion
 from tribo.guards.parts import (
@@ -38,7 +39,6 @@ from tribo.stepping.cycle import Cycle
 from tribo.stepping.laws import Laws
 from tribo.stepping.model import Model
 
-ROUNDING = 1e-9
 SAME_RADIUS = 1e-2
 """Relative difference up to which a ring has the radius of its track."""
 
@@ -240,7 +240,7 @@ def _check_ring(surface: GuardedSurface, exposure: Exposure, lap: float, grid: G
     curvature = (form.curvature or (0.0, 0.0))[0]
     radius = lap / (2 * np.pi)
     relief = surface.height - form.height(grid)
-    passing = np.max(np.ptp(relief, axis=0)) > ROUNDING * np.ptp(surface.height)
+    passing = np.max(np.ptp(relief, axis=0)) > ROUND_OFF * np.ptp(surface.height)
     if curvature <= 0 or passing:
         raise CaseError(
             f"body {surface.body!r} turns about an axis along y (kinematics.turns = true), but its "

@@ -9,15 +9,13 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import PluginError
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.stepping.memory import remembered, under
 from tribo.stepping.rates import Moment, local_fields, rates_at_each
 
 if TYPE_CHECKING:
     from tribo.stepping.model import Model
-
-SAME = 1e-9
-"""Relative difference that may be rounding; a tenth of what an implicit step settles to."""
 
 
 def check_repeatable(model: Model, state: State) -> None:
@@ -27,7 +25,7 @@ def check_repeatable(model: Model, state: State) -> None:
     moment = Moment(state.time, state.distance, left / time if time > 0 else 0.0)
     once, again = (list(_answers(model, state, moment)) for _ in range(2))
     for (who, first), (_, second) in zip(once, again, strict=True):
-        if np.max(np.abs(second - first)) > SAME * np.max(np.abs(first)):
+        if np.max(np.abs(second - first)) > ROUND_OFF * np.max(np.abs(first)):
             raise PluginError(
                 f"{who} gave two answers to the same question, so that no step can settle: it must "
                 "not be random, nor remember what it was asked (a law's memory is its "

@@ -14,6 +14,7 @@ from tribo.core.errors import PluginError
 from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants
 from tribo.core.notices import Notice
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.stepping.contacts import solved_anew
 from tribo.stepping.events import Worn
@@ -27,7 +28,6 @@ from tribo.stepping.rates import CycleRates, Moment
 if TYPE_CHECKING:
     from tribo.stepping.model import Model
 
-ROUNDING = 1e-9
 SMALLEST = 1e-12
 """Of the distance until the next stop: a shorter step would drown in rounding."""
 
@@ -59,7 +59,7 @@ def distance_until(model: Model, state: State, time: float) -> float | None:
 def time_at(model: Model, state: State, distance: float, until: float) -> float:
     """Return the time at which it has slid `distance` (m), between now and `until` (s)."""
     time = model.motion.time_at(distance)
-    if not state.time < time <= until * (1 + 1e-9):
+    if not state.time < time <= until * (1 + ROUND_OFF):
         raise PluginError(
             f"{model.motion} puts {distance:g} m at {time:g} s, which "
             f"does not lie between {state.time:g} s and {until:g} s"
@@ -110,7 +110,7 @@ def start_sliding(model: Model, state: State) -> State:
 def _too_soft(model: Model, state: State) -> bool:
     """Whether points bear more than the layer that they have been worn down to does."""
     return any(
-        cap is not None and np.any(contact.pressure > cap * (1 + ROUNDING))
+        cap is not None and np.any(contact.pressure > cap * (1 + ROUND_OFF))
         for contact, cap in zip(state.contacts, caps(model, state.bodies), strict=True)
     )
 

@@ -13,11 +13,11 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid, Length
 from tribo.core.number_tables import read_numbers
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.units import Quantity
 from tribo.surfaces.laid import Laid
 from tribo.surfaces.surface import Surface
 
-COVERED = 1e-9
 Line = Annotated[tuple[Annotated[float, Quantity("m")], ...], Field(min_length=2)]
 
 
@@ -70,7 +70,7 @@ class HeightMap(Laid):
             If it does not.
         """
         sizes = zip(self.size, grid.size, strict=True)
-        if any(own < asked * (1 - COVERED) for own, asked in sizes):
+        if any(own < asked * (1 - ROUND_OFF) for own, asked in sizes):
             raise CaseError(
                 f"{_mm(self.size)} of heights do not reach over {_mm(grid.size)}, the window (and "
                 "the path of a body that passes through it); give a larger map, or make grid.size "
