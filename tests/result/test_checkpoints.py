@@ -6,6 +6,7 @@ import re
 import shutil
 import warnings
 from contextlib import closing
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -179,14 +180,6 @@ def test_a_run_that_ends_as_it_is_resumed_is_done(killed, monkeypatch, undisturb
         assert bits(result) == undisturbed
 
 
-def test_a_lock_that_cannot_be_opened_is_one_message(killed):
-    lock = RunFolder(killed).path / "lock"
-    lock.unlink()
-    lock.mkdir()
-    with pytest.raises(CaseError, match=r"run\.h5\.run.lock "):
-        simulation().resume(killed)
-
-
 def test_a_damaged_result_is_not_resumed(killed):
     flip(killed, 5000)
     with pytest.raises(CaseError, match="is damaged"):
@@ -278,6 +271,31 @@ def test_a_folder_that_no_run_made_is_refused_and_stays(tmp_path, names, overwri
         names, "mine"
     )
     assert list(tmp_path.iterdir()) == [folder]
+
+
+def test_a_file_with_the_name_of_the_folder_is_refused_and_stays(tmp_path):
+    (tmp_path / "run.h5.run").write_text("mine")
+    with pytest.raises(CaseError, match=r"run\.h5\.run was not made by tribo"):
+        simulation().run(tmp_path / "run.h5")
+    assert (tmp_path / "run.h5.run").read_text() == "mine"
+
+
+SPECIAL = {
+    "a folder": Path.mkdir,
+    "a pipe": os.mkfifo if hasattr(os, "mkfifo") else Path.mkdir,
+    "a link to nothing": lambda path: path.symlink_to("nothing"),
+}
+
+
+@pytest.mark.parametrize("make", SPECIAL.values(), ids=SPECIAL)
+def test_what_has_the_name_of_a_lock_is_refused_and_holds_nobody_up(killed, make):
+    place = RunFolder(killed).path / "lock"
+    place.unlink()
+    make(place)
+    before = place.lstat()
+    with pytest.raises(CaseError, match=r"run\.h5\.run was not made by tribo"):
+        simulation().resume(killed)
+    assert place.lstat().st_ino == before.st_ino
 
 
 def test_what_is_put_into_the_folder_of_a_run_stays(tmp_path):

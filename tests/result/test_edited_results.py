@@ -156,12 +156,20 @@ EDITS |= {
     f"{name} of {value}": put(name, value)
     for name in ("max_pressure", "history_contact_area", "wear_volume", "history_wear_volume")
     for value in (np.nan, np.inf)
-}
+} | {f"{name} below 0": put(name, -1.0) for name in ("friction_energy", "history_friction_force")}
 
 
 @pytest.mark.parametrize("edit", EDITS.values(), ids=EDITS)
 def test_what_does_not_fit_is_told(folder, edit):
     assert "x.h5 is damaged: " in refusal(folder, edit)
+
+
+def test_work_of_friction_without_its_force_is_shown(folder):
+    with edited(folder / "x.h5") as file:
+        file["friction_energy"][-1] = 1.0
+    shown = CliRunner().invoke(command_line, ["show", "x.h5"])
+    assert shown.exception is None, repr(shown.exception)
+    assert "Friction:" not in shown.stdout
 
 
 def test_a_case_that_was_only_added_to_and_an_effect_that_failed_are_shown(folder):

@@ -4,6 +4,7 @@ import copy
 import shutil
 from functools import partial
 
+import numpy as np
 import pytest
 import sweeps
 from command_line import tribo
@@ -184,10 +185,15 @@ def test_a_model_that_keeps_a_state_goes_on_to_the_same_bits_from_each_checkpoin
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """A folder with a case and its result."""
+    """A folder with a case, its result, what was weighed, and a map of a scar."""
     folder = tmp_path_factory.mktemp("made") / "made"
     folder.mkdir()
     (folder / "run.toml").write_text(to_toml(CASE))
+    weighed = {"body": "ball", "quantity": "mass", "value": "0.5 ug", "uncertainty": "5 %"}
+    (folder / "weighed.toml").write_text(to_toml({"measured": [weighed]}))
+    far = np.hypot(*Grid((0.7e-3, 0.7e-3), (48, 48)).mesh)
+    noise = 1e-8 * np.random.default_rng(0).standard_normal(far.shape)
+    np.save(folder / "scar.npy", noise - np.maximum(1e-6 - 40 * far**2, 0))
     with_model("running_in").run(folder / "run.h5").close()
     return folder
 
@@ -233,6 +239,8 @@ COMMANDS = {
     "report": ("report", "run.h5"),
     "new": ("new", "ball_on_flat", "mine.toml"),
     "plugins new": ("plugins", "new", "acme-law", "--kind", "wear-law"),
+    "calibrate": ("calibrate", "run.toml", "--measured", "weighed.toml", "-o", "fitted.toml"),
+    "scar": ("scar", "scar.npy", "--ideal", "flat", "--pitch", "14.6 um", "-o", "a.png"),
 }
 
 

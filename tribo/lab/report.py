@@ -119,8 +119,8 @@ def lab_sentences(result: Result, lab: LabReport) -> Iterator[str]:
     if max(plastic) > 0:
         start, end = (f"{100 * part:.2g} %" for part in plastic)
         yield f"At the hardness: {start} of the contact at first, {end} at the end."
-    if "friction_energy_J" in last:
-        force, work = last["friction_force_N"], last["friction_energy_J"]
+    force, work = last.get("friction_force_N"), last.get("friction_energy_J")
+    if force is not None and work is not None:
         yield f"Friction: {force:.4g} N at the end, {work:.4g} J dissipated."
     yield from map(str, lab.rows)
 

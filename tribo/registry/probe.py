@@ -47,7 +47,7 @@ def probe(plugin: Plugin, time_limit: float | None = None) -> Plugin:
             answer.seek(0)
             return replace(plugin, **json.load(answer))
         except subprocess.TimeoutExpired:
-            reason = f"within {limit:g} s (busy machine? {LIMIT}={3 * limit:g})"
+            reason = f"within {limit:g} s (busy machine? --time-limit {3 * limit:g}, or {LIMIT})"
             return replace(plugin, status="not ready", reason=reason)
         except ValueError:
             reason = f"its import {how_it_ended(child.returncode)}"

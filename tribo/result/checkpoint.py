@@ -9,6 +9,7 @@ checkpoint before the newest is kept for the case that the newest is damaged.
 from __future__ import annotations
 
 import json
+import os
 import re
 import warnings
 from collections.abc import Iterator, Mapping
@@ -70,16 +71,16 @@ class RunFolder:
 
         `CaseError` if one is, or what has the folder's name was not made by a run.
         """
-        make_folder(self.path)
+        if not os.path.lexists(self.path):
+            make_folder(self.path)
+        place = self.path / "lock"
         with writing(self.path):
-            names = {path.name for path in self.path.iterdir()}
-        own = not names or "lock" in names
-        if self.path.is_symlink() or not own:
+            own = self.path.is_dir() and (not any(self.path.iterdir()) or place.is_file())
+        if not own or self.path.is_symlink() or place.is_symlink():
             raise CaseError(
                 f"{self.path} was not made by tribo, which needs the name while it runs; rename "
                 "it, or choose another place for the result with -o"
             )
-        place = self.path / "lock"
         self._lock = open_lock(place)
         busy = CaseError(f"{self.result} is in use: another process is writing it")
         try:
@@ -125,8 +126,12 @@ class RunFolder:
 
     def busy(self) -> bool:
         """Whether a process is writing the result, as far as can be told."""
+        place = self.path / "lock"
+        if not place.is_file():
+            # A pipe would keep who opens it waiting.
+            return False
         try:
-            with (self.path / "lock").open("rb") as file:
+            with place.open("rb") as file:
                 return not lock(file.fileno())
         except FileNotFoundError:
             return False

@@ -20,10 +20,12 @@ _FILTERS = {1, 2, 3}
 """HDF5's numbers of deflate, shuffle and Fletcher32."""
 _DENSEST = 1032
 """Largest factor by which deflate, which compresses a result, makes data smaller."""
-_MAY_BE_NAN = {"density", TRACK, TRACK_PLASTIC, *ROUGHNESS} | {
+_FRICTION = {
     prefix + name for prefix in ("", "history_") for name in ("friction_force", "friction_energy")
 }
+_MAY_BE_NAN = {"density", TRACK, TRACK_PLASTIC, *ROUGHNESS} | _FRICTION
 _AT_LEAST_0 = {"time", "history_time", "pressure", "wear_depth", "plastic_depth", "density"}
+_AT_LEAST_0 |= _FRICTION
 
 
 @contextmanager

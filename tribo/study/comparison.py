@@ -15,8 +15,9 @@ import numpy as np
 from tribo.case import Case
 from tribo.config.load import case_tables
 from tribo.core.errors import CaseError
+from tribo.core.rounding import ROUND_OFF
 from tribo.registry.registry import Registry
-from tribo.result.read import SAME_TIME, Result
+from tribo.result.read import Result
 from tribo.simulation.run import Simulation
 from tribo.study.differences import differences
 from tribo.study.matching import check_match, pairs, renamed
@@ -79,7 +80,7 @@ class Comparison:
             float(time)
             for time in first
             if all(
-                np.any(np.abs(times - time) <= SAME_TIME * np.max(times, initial=0.0))
+                np.any(np.abs(times - time) <= ROUND_OFF * np.max(times, initial=0.0))
                 for times in others
             )
         ]
@@ -296,7 +297,7 @@ def _check_saved(label: str, case: Case, times: Sequence[float], registry: Regis
     end = Simulation(case, registry).model.end_time
     saved = sorted({0.0, *case.output.save_times, end})
     for time in times:
-        if not any(abs(time - each) <= SAME_TIME * end for each in saved):
+        if not any(abs(time - each) <= ROUND_OFF * end for each in saved):
             raise CaseError(
                 f"{label}: nothing is saved at {time:g} s, only at "
                 f"{', '.join(f'{each:g}' for each in saved)} s; add it to output.save_times"
