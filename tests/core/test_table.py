@@ -1,8 +1,11 @@
 """What a table of a case shows of itself, and how it is made."""
 
+import linecache
+
 import pytest
 
 from tribo import Archard, Body, Flat, Grid, Load, Material, Output, Sphere
+from tribo.core.table import Table, descriptions
 from tribo.core.units import parse, stated
 
 STEEL = Material(young="207 GPa", poisson=0.3)
@@ -50,3 +53,11 @@ def test_a_value_is_stated_with_the_digits_that_it_was_given(given, unit, shown)
 def test_values_without_names_are_refused_in_plain_words():
     with pytest.raises(TypeError, match=r"value of Sphere by its name, as Sphere\(radius=…\)"):
         Sphere(5e-3)
+
+
+def test_a_table_typed_into_a_notebook_has_the_descriptions_of_its_keys():
+    cell = "class Typed(Table):\n    k: float\n    'Of wear.'\n    def rate(self): ...\n"
+    linecache.cache["<cell>"] = len(cell), None, cell.splitlines(keepends=True), "<cell>"
+    names = {"Table": Table, "__name__": "no module"}
+    exec(compile(cell, "<cell>", "exec"), names)
+    assert descriptions(names["Typed"]) == {"k": "Of wear."}

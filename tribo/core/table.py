@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+import linecache
 from collections.abc import Iterator, Mapping
 from functools import cache
 from html import escape
@@ -99,10 +100,9 @@ def descriptions(table: type[BaseModel]) -> dict[str, str]:
 def _docstrings(cls: type) -> dict[str, str]:
     """Return the docstrings of the fields that a class declares; empty for one without any."""
     try:
-        (tree,) = ast.parse(dedent(inspect.getsource(cls))).body
-    except (OSError, TypeError, SyntaxError):
+        tree = _declaration(cls)
+    except (OSError, TypeError, SyntaxError, StopIteration):
         return {}
-    assert isinstance(tree, ast.ClassDef)
     texts = {}
     for declared, after in pairwise([*tree.body, ast.Pass()]):
         if isinstance(declared, ast.AnnAssign) and isinstance(declared.target, ast.Name):
@@ -111,6 +111,17 @@ def _docstrings(cls: type) -> dict[str, str]:
                 case ast.Expr(ast.Constant(str(text))):
                     texts[declared.target.id] = inspect.cleandoc(text)
     return texts
+
+
+def _declaration(cls: type) -> ast.ClassDef:
+    """Return the source of a class, of one typed into a notebook by that of its first method."""
+    try:
+        text = dedent(inspect.getsource(cls))
+    except (OSError, TypeError):
+        method = next(filter(inspect.isfunction, vars(cls).values()))
+        text = "".join(linecache.getlines(method.__code__.co_filename))
+    found = ast.walk(ast.parse(text))
+    return next(n for n in found if isinstance(n, ast.ClassDef) and n.name == cls.__name__)
 
 
 def _html(value: object, unit: str = "1", between: str = ", ") -> str:
