@@ -305,11 +305,13 @@ class Result:
 
     def report(self) -> LabReport:
         """Return what a laboratory would measure of the result."""
-        return shorthand.report(self)
+        report: LabReport = shorthand.report(self)
+        return report
 
     def plot(self, folder: str | Path, suffix: str = "png") -> list[Path]:
         """Write every picture that makes sense for the result, as ``tribo plot`` does."""
-        return shorthand.plot(self, Path(folder), suffix)
+        paths: list[Path] = shorthand.plot(self, Path(folder), suffix)
+        return paths
 
     def _repr_html_(self) -> str:
         """Show the lab table and the pressure in a notebook."""
