@@ -11,10 +11,11 @@ import h5py
 import numpy as np
 
 from tribo.core.errors import CaseError
-from tribo.core.notices import worn_through
+from tribo.core.findings import damaged
 from tribo.result.checkpoint import RunFolder
 from tribo.result.checks import check_contained, interpreting
 from tribo.result.hdf5 import filled_image
+from tribo.result.header import findings_attributes
 from tribo.result.layout import FORMAT
 from tribo.result.sealed import open_sealed
 
@@ -74,9 +75,7 @@ def _saved_so_far(path: Path, folder: RunFolder) -> BytesIO:
     with h5py.File(BytesIO(empty)) as file:
         case = json.loads(file.attrs["case"])
     kept, damage = folder.read_checkpoint(case)
-    notices = [str(notice) for notice in kept.state.notices]
-    if damage:
-        notices.append(f"checkpoint: {damage}; this is what the checkpoint before it holds")
+    state = kept.state.with_findings(damaged(damage)) if damage else kept.state
     parts = folder.parts(kept.parts)
     return filled_image(
         empty,
@@ -84,6 +83,5 @@ def _saved_so_far(path: Path, folder: RunFolder) -> BytesIO:
         kept.saves,
         kept.rows,
         status=status,
-        notices=json.dumps(notices),
-        worn_through=json.dumps(worn_through(kept.state.notices)),
+        **findings_attributes(state.findings),
     )

@@ -16,6 +16,7 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
+from tribo.core.findings import Finding
 from tribo.core.grid import Grid
 from tribo.core.words import did_you_mean, suggestion
 from tribo.result import checks
@@ -154,9 +155,15 @@ class Result:
         return dict(self._header["provenance"])
 
     @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What is to be known of the run: warnings, what it began with and why it ended."""
+        found: tuple[Finding, ...] = self._header["findings"]
+        return found
+
+    @property
     def notices(self) -> tuple[str, ...]:
-        """Warnings given during the run."""
-        return tuple(self._header["notices"])
+        """The findings, a sentence each."""
+        return tuple(map(str, self.findings))
 
     @property
     def worn_through(self) -> list[dict[str, Any]]:

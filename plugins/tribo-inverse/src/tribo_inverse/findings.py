@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -63,6 +64,11 @@ def of_case(model: Model, half_width_x: float) -> list[Finding]:
         )
         for path, change in [*found.percent.items()][:MOST]
     ]
+
+
+def of_run(finding: Finding, runs: Sequence[str] = ()) -> Finding:
+    """Word what some runs of a fit had to say, or all of them."""
+    return replace(finding, words=": ".join([*([", ".join(runs)] if runs else []), str(finding)]))
 
 
 def of_fit(
