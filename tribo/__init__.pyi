@@ -36,6 +36,7 @@ from tribo.core.fields import ContactConditions as ContactConditions
 from tribo.core.fields import Field as Field
 from tribo.core.fields import LocalConditions as LocalConditions
 from tribo.core.fields import WearRate as WearRate
+from tribo.core.findings import Finding as Finding
 from tribo.core.grid import Grid as Grid
 from tribo.core.loads import Load as Load
 from tribo.core.loads import Place as Place
@@ -69,7 +70,6 @@ from tribo.observers.observer import Observer as Observer
 from tribo.registry.hookspecs import CaseTemplate as CaseTemplate
 from tribo.registry.hookspecs import Command as Command
 from tribo.registry.hookspecs import ExportFormat as ExportFormat
-from tribo.registry.hookspecs import Finding as Finding
 from tribo.registry.hookspecs import HeightFormat as HeightFormat
 from tribo.registry.hookspecs import LabRow as LabRow
 from tribo.registry.hookspecs import hookimpl as hookimpl

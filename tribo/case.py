@@ -220,4 +220,5 @@ class Case(Table):
 
     def run(self, output: str | Path | None = None, **options: Any) -> Result:
         """Run from the beginning, as ``Simulation(case).run(output, …)``."""
-        return shorthand.run(self, output, **options)
+        result: Result = shorthand.run(self, output, **options)
+        return result

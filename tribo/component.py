@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from abc import ABC
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from pydantic import (
     BaseModel,
@@ -26,9 +26,6 @@ from tribo.core.explain import refused_at, told
 from tribo.core.fields import check_declared
 from tribo.core.table import Table
 from tribo.core.words import said
-
-if TYPE_CHECKING:
-    from tribo.registry.registry import Registry
 
 KIND = "x-kind"
 """Key that marks, in a JSON schema, a place for any component of a kind."""
@@ -170,5 +167,6 @@ def _snake_case(name: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
 
 
-def _registry(info: ValidationInfo) -> Registry:
-    return (info.context or {}).get("registry") or shorthand.registry()
+def _registry(info: ValidationInfo) -> shorthand.Registry:
+    given: shorthand.Registry | None = (info.context or {}).get("registry")
+    return given or shorthand.registry()

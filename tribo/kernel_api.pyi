@@ -108,7 +108,6 @@ from tribo.plotting.units import size as size
 from tribo.plotting.units import time_labels as time_labels
 from tribo.plotting.units import time_unit as time_unit
 from tribo.registry.registry import default_registry as default_registry
-from tribo.registry.registry import findings as findings
 from tribo.result.body import BodyResult as BodyResult
 from tribo.result.export import profile as profile
 from tribo.result.layout import TRACK as TRACK
@@ -122,6 +121,7 @@ from tribo.simulation.march import DEPTH_ACCURACY as DEPTH_ACCURACY
 from tribo.simulation.march import begin as begin
 from tribo.simulation.march import march as march
 from tribo.simulation.positions import chosen as chosen
+from tribo.simulation.validity import findings_of as findings_of
 from tribo.stepping.events import Drawn as Drawn
 from tribo.stepping.events import Event as Event
 from tribo.stepping.events import Worn as Worn

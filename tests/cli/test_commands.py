@@ -174,9 +174,10 @@ def test_check_begins_with_its_verdict(case):
     data, told = json.loads(tribo("check", "my.toml", *small, "--json").stdout), done.stdout.split()
     (problem,) = data["problems"]
     assert problem in " ".join(told)
-    (finding,) = data["findings"]
-    assert (finding["kind"], finding["value"]) == ("sensitivity", None)
-    assert finding["words"] in " ".join(told)
+    window, sensitivity = data["findings"]
+    assert (window["kind"], window["words"]) == ("window", problem)
+    assert (sensitivity["kind"], sensitivity["value"]) == ("sensitivity", None)
+    assert sensitivity["words"] in " ".join(told)
 
 
 @pytest.mark.slow

@@ -71,7 +71,7 @@ def test_a_material_and_a_friction_unlike_any_are_asked_about(changes, friction,
     ball = body_of("210 GPa")
     ball["material"] |= changes
     case["bodies"] = {"ball": ball, "disk": body_of("210 GPa")}
-    assert [asked.split(" is ")[0] for asked in unusual(validate_case(case))] == places
+    assert [asked.place for asked in unusual(validate_case(case))] == places
 
 
 @pytest.mark.parametrize(
@@ -119,7 +119,7 @@ def test_the_hardness_of_a_layer_is_asked_about():
         "layers": [{"thickness": 2e-6, "hardness": "20 MPa"}],
     }
     (doubt,) = unusual(validate_case({**CASE, "bodies": {**CASE["bodies"], "ball": ball}}))
-    assert doubt.startswith("bodies.ball.layers.0.hardness is 20 MPa, ")
+    assert doubt.words.startswith("bodies.ball.layers.0.hardness is 20 MPa, ")
 
 
 @pytest.mark.parametrize("k", ["0", "'1e-6 mm^3/(N m)'"])
@@ -154,4 +154,4 @@ PATH = {"length": "5 mm", "area": "28 mm^2"}
 )
 def test_packages_ask_too(effect, forgotten, asked):
     (doubt,) = unusual(validate_case({**CASE, "effects": [{**effect, **forgotten}]}))
-    assert doubt.startswith(f"effects.0.{asked}, usual are ")
+    assert doubt.words.startswith(f"effects.0.{asked}, usual are ")

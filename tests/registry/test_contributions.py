@@ -120,11 +120,13 @@ def test_a_broken_plugin_is_left_out_of_the_formats(folder):
     assert "adds_c 1.0 is left out: ZeroDivisionError" in told("new", "adds_a.case", "new.toml")
 
 
-def test_a_hook_that_raises_is_named_by_file_and_line(folder):
+def test_a_hook_that_raises_is_named_by_file_and_line_and_hurts_no_other(folder):
     file = folder / "adds_b.py"
     file.write_text(file.read_text().replace("return [CaseT", "1 / 0; return [CaseT"))
-    message = refused("new", "adds_a.case", "new.toml")
-    assert f"tribo_templates raised ZeroDivisionError: division by zero ({file}, line " in message
+    message = told("new", "adds_a.case", "new.toml")
+    assert Path("new.toml").read_text() == "# of adds_a"
+    assert "tribo_templates of adds_b is left out" in message
+    assert f"ZeroDivisionError: division by zero ({file}, line " in message
 
 
 def test_verify_has_the_cases_of_every_plugin():

@@ -9,7 +9,7 @@ from click.testing import CliRunner
 from edited import edited
 from made_results import made
 
-from tribo import CaseError
+from tribo import CaseError, Result
 from tribo.cli.main import tribo as command_line
 
 # Five saves, nine steps, 50 × 40 cells, two bodies.
@@ -121,6 +121,8 @@ EDITS = {
     "a curvature of inf": attribute("curvature_1_m", [np.inf, 1.0]),
     "a time spent that is text": attribute("wall_time_s", "long"),
     "notices that are numbers": text("notices", [1]),
+    "findings that are numbers": text("findings", [1]),
+    "a finding without words": text("findings", [{"kind": "lap"}]),
     "layers that are numbers": text("case", {"bodies": {"ball": {"layers": [1]}, "disk": {}}}),
     "a motion that is text": text("case", {"bodies": {"ball": {}, "disk": {}}, "kinematics": "x"}),
     "a density of inf": put("density", np.inf),
@@ -180,3 +182,14 @@ def test_a_case_that_was_only_added_to_and_an_effect_that_failed_are_shown(folde
     assert shown.exception is None
     save = json.loads(shown.stdout)["saves"][0]
     assert save["bodies"]["ball"]["effects"] == {"film": {"min": None, "max": None}}
+
+
+def test_a_file_without_findings_as_older_ones_has_them_from_its_sentences(folder):
+    sentence = "averaging: at 3 s (0.3 m) the groove is too deep: make it longer"
+    with edited(folder / "x.h5") as file:
+        file.attrs.pop("findings")
+        text("notices", [sentence])(file)
+    with Result.open(folder / "x.h5") as result:
+        (found,) = result.findings
+        assert found.kind == "averaging"
+        assert result.notices == (sentence,)

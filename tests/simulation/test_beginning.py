@@ -211,12 +211,12 @@ def test_what_a_law_within_a_law_remembers_goes_on(tmp_path):
         case = worn_case(duration=1, bodies=bodies(law), begin=begin, **small)
         state = first_state(Simulation(case).model)
         np.testing.assert_array_equal(state.bodies["ball"].law["slip"], slipped)
-        assert state.notices[-1].text.endswith("begin anew")
+        assert state.findings[-1].words.endswith("begin anew")
     case = worn_case(duration=1, bodies=bodies(archard()), begin=begin, **small)
     assert (
         first_state(Simulation(case).model)
-        .notices[-1]
-        .text.endswith("; left out of it is slip of ball")
+        .findings[-1]
+        .words.endswith("; left out of it is slip of ball")
     )
 
 
@@ -242,7 +242,7 @@ class Warm(Effect):
         return {"warm": np.ones((1, 1))}
 
 
-def test_what_an_effect_remembers_goes_on_at_its_place_only_and_the_notice_tells(tmp_path):
+def test_what_an_effect_remembers_goes_on_at_its_place_only_and_the_finding_says_so(tmp_path):
     small = {"grid": Grid((0.7e-3, 0.7e-3), (24, 24))}
     field, even, on_ball = Warm(), Warm(even=True), Warm(on="ball")
     pairs = {field: [field, even, on_ball, Warm(unit="1")], even: [even, field]}
@@ -252,7 +252,7 @@ def test_what_an_effect_remembers_goes_on_at_its_place_only_and_the_notice_tells
         for now in each:
             case = worn_case(duration=1, effects=[now], begin=begin, **small)
             state = first_state(Simulation(case).model)
-            text = state.notices[-1].text
+            text = state.findings[-1].words
             np.testing.assert_allclose(state.between["warm"], 2.0 if now == was else 1.0)
             before, after = (f"warm of {each.on or 'the contact'}" for each in (was, now))
             words = f"begins afresh: {after}; left out of it is {before}"

@@ -195,8 +195,8 @@ def test_what_cannot_be_resolved_is_averaged_and_says_so(monkeypatch):
     monkeypatch.setattr(positions, "MOST", 21)
     model = composed(left_open())
     assert model.case.kinematics.positions == "average"
-    assert "is averaged although the stroke is 6.72 lengths" in model.chosen
-    assert model.chosen.endswith("it would take 33 positions")
+    assert "is averaged although the stroke is 6.72 lengths" in model.chosen.words
+    assert model.chosen.words.endswith("it would take 33 positions")
 
 
 def test_a_stroke_too_short_for_either_is_refused_for_its_cells():
@@ -207,7 +207,7 @@ def test_a_stroke_too_short_for_either_is_refused_for_its_cells():
 def test_a_body_that_passes_as_a_whole_is_resolved_at_each_cell():
     model = composed(left_open("0.58 mm", swept="ball"))
     assert len(model.cycle) == 21
-    assert model.chosen.endswith("as what passes is not the same all along")
+    assert model.chosen.words.endswith("as what passes is not the same all along")
     wavy = named(
         "disk", Waves(amplitude="10 nm", wavelength="0.2 mm", along="x"), steel(), archard()
     )
@@ -257,7 +257,7 @@ def test_a_load_that_changes_along_the_stroke_is_resolved_always():
     load = Load(normal=100, along=[{"at": at, "share": share} for at, share in along])
     model = composed(left_open(distance="0.1 m").model_copy(update={"load": load}))
     assert len(model.cycle) == 33
-    assert model.chosen.endswith("as the load changes along the stroke")
+    assert model.chosen.words.endswith("as the load changes along the stroke")
 
 
 def test_a_load_that_falls_in_the_middle_of_the_stroke_takes_positions_for_the_contact_there():
@@ -290,7 +290,7 @@ def test_a_load_along_the_stroke_cannot_go_on_from_averaged_bodies(tmp_path):
 
 def test_more_positions_than_cells_are_told():
     model = composed(case(grid=GRID, kinematics=motion(stroke="0.58 mm", positions=501)))
-    assert model.chosen.endswith("at 21 positions, every cell of it, in place of 501")
+    assert model.chosen.words.endswith("at 21 positions, every cell of it, in place of 501")
 
 
 class Placed(WearLaw):

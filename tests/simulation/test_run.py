@@ -191,9 +191,9 @@ def test_the_cells_of_a_line_contact_are_counted_by_hertz_as_check_counts_them()
         ],
         kinematics=motion(stroke="4 mm", duration=1),
     )
-    (notice,) = states(model)[0].notices
-    assert notice.text.startswith("the first contact is only 7.5 cells wide")
-    assert (notice.kind, notice.text in predict(model).problems) == ("resolution", True)
+    (found,) = states(model)[0].findings
+    assert (found.kind, found.value) == ("resolution", pytest.approx(7.5, abs=0.05))
+    assert found in predict(model).problems
 
 
 def test_a_contact_that_fills_its_period_has_no_stroke_that_is_too_short():
@@ -205,7 +205,7 @@ def test_a_contact_that_fills_its_period_has_no_stroke_that_is_too_short():
         contact=Periodic(),
         kinematics=motion(stroke="0.7 mm", duration=1),
     )
-    assert states(model)[-1].notices == ()
+    assert states(model)[-1].findings == ()
 
 
 def test_a_run_stopped_before_its_first_checkpoint_says_so_and_can_start_again(

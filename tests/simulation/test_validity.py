@@ -10,7 +10,7 @@ from paper_models import archard, flat, named, pair, small, steel
 from tribo import Grid, Simulation, TriboWarning
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.predict import predict
-from tribo.simulation.validity import peak_at_the_edge
+from tribo.simulation.validity import of_case, peak_at_the_edge
 from tribo.surfaces.sphere import Sphere
 
 
@@ -28,28 +28,28 @@ def circle(revolutions):
 
 
 def wide(model):
-    return [problem for problem in predict(model).problems if "a/R" in problem]
+    return [problem for problem in predict(model).problems if problem.kind == "half-space"]
 
 
 def test_a_contact_too_wide_for_a_half_space_is_told_with_the_number():
     # By Hertz a/R = (3 F/(4 E* R²))^(1/3) = 0.4 with E* = 113.7 GPa.
     (problem,) = wide(ball(1e-3, 9.7e3, 1.1e-3))
-    told = re.search(r"half-width a is ([\d.]+) of the radius R of ball, 1 mm", problem)
-    assert float(told[1]) == pytest.approx(0.4, rel=0.05)
+    assert (problem.value, problem.place) == (pytest.approx(0.4, rel=0.05), "bodies.ball")
     assert wide(ball(1e-3, 100, 0.4e-3)) == []
 
 
 def test_a_part_of_a_lap_is_told_by_check_and_by_the_run():
-    (problem,) = predict(circle(0.1)).problems
-    assert "slides 0.01 m, 0.1 of the track of disk, which is 0.1 m long" in problem
+    (found,) = of_case(circle(0.1))
+    assert (found.kind, found.place) == ("lap", "bodies.disk")
+    assert (found.value, found.limit) == pytest.approx((0.01, 0.1))
     with pytest.warns(TriboWarning, match="lap: the run slides 0.01 m, 0.1 of the track"):
         result = Simulation(circle(0.1)).run()
-    assert any(notice.startswith("lap: ") for notice in result.notices)
+    assert found in result.findings
 
 
 @pytest.mark.parametrize("revolutions", [1, 10])
 def test_a_whole_lap_is_not(revolutions):
-    assert predict(circle(revolutions)).problems == ()
+    assert of_case(circle(revolutions)) == []
 
 
 @pytest.mark.parametrize("wears", [True, False])
@@ -64,12 +64,14 @@ def test_a_contact_not_small_beside_its_circle_is_told_by_check_and_by_the_run(r
     bodies = pair(archard(), archard() if wears else None)
     circle = Unidirectional(speed="0.1 m/s", track_radius=radius, distance="20 m")
     model = small(bodies=bodies, kinematics=circle)
-    told = " ".join(predict(model).problems)
+    problems = predict(model).problems
     if said is None:
-        assert told == ""
-        assert not Simulation(model.case).run().notices
+        assert problems == ()
+        assert not Simulation(model.case).run().findings
         return
-    assert re.search(said, told)
+    (found,) = problems
+    assert found.kind == "averaging"
+    assert re.search(said, found.words)
     with pytest.warns(TriboWarning, match=said):
         Simulation(model.case).run()
 
@@ -87,5 +89,6 @@ def test_a_largest_pressure_at_the_edge_alone_is_told():
     assert peak_at_the_edge(contact) is None
     sharp = np.where(inside > 0, 1e8 / np.sqrt(inside + 1e-3), 0.0)
     contact.contact.pressure = sharp
-    words = peak_at_the_edge(contact)
-    assert words.startswith(f"the largest pressure, {np.max(sharp) / 1e6:.4g} MPa")
+    found = peak_at_the_edge(contact)
+    assert (found.kind, found.value) == ("resolution", np.max(sharp))
+    assert found.value > found.limit

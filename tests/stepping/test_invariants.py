@@ -103,12 +103,11 @@ def test_chattering_is_told_of_where_it_is_allowed():
 def test_a_step_that_may_chatter_is_told_of_before_it_does(factor, told):
     # The mode that is 3 % beyond the limit takes hundreds of steps to show.
     first = states(one_body(stepping=unstable(factor), kinematics=motion(duration=10)))[1]
-    notices = [str(n) for n in first.notices if n.kind == "stability"]
-    assert len(notices) == told
+    found = [each for each in first.findings if each.kind == "stability"]
+    assert len(found) == told
     if told:
-        assert notices[0].startswith("stability: at 0 s")
-        stated = float(notices[0].split("largest stable step is ")[1].split(" s")[0])
-        assert stated == pytest.approx(time_step(1.0), rel=1e-3)
+        assert (found[0].time, found[0].place) == (0, "stepping.time_step")
+        assert found[0].limit == pytest.approx(time_step(1.0), rel=1e-3)
 
 
 @pytest.mark.parametrize(

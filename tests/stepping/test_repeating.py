@@ -1,6 +1,5 @@
 """A cycle resolved in a window that repeats: bodies that pass come in again at the other end."""
 
-import re
 from itertools import product
 
 import numpy as np
@@ -35,6 +34,7 @@ from tribo import (
 )
 from tribo.simulation.march import begin
 from tribo.simulation.predict import predict
+from tribo.simulation.validity import tribo_findings
 from tribo.stepping.first_contact import first_contact
 
 GRID = Grid((0.32e-3, 0.32e-3), (16, 16))
@@ -159,16 +159,16 @@ def test_two_flats_wear_evenly_in_windows_of_many_cells_or_few(kinematics, cells
 def test_a_surface_that_ends_at_the_window_is_told_of():
     ending = rough(1).model_copy(update={"period": None})
     model = repeating(track(), bodies=bodies(flat(), ending))
-    (notice,) = begin(model).notices
-    assert notice.kind == "period"
-    assert re.match(r"the surface of lower does not repeat .* along x it jumps by", notice.text)
-    assert notice.text in predict(model).problems
+    (found,) = begin(model).findings
+    assert (found.kind, found.place) == ("period", "bodies.lower.surface")
+    assert found.value > 0
+    assert tribo_findings(model) == [found]
 
 
 @pytest.mark.parametrize("surface", [rough(3), sphere(), Waves(amplitude=1e-7, wavelength=8e-5)])
 def test_a_surface_that_repeats_goes_without_a_word(surface):
     model = repeating(motion(stroke=GRID.size[0]), bodies=bodies(surface, flat()))
-    assert begin(model).notices == ()
+    assert begin(model).findings == ()
 
 
 def test_of_a_contact_without_an_end_the_average_holds_for_a_track_of_one_period():
@@ -177,18 +177,19 @@ def test_of_a_contact_without_an_end_the_average_holds_for_a_track_of_one_period
     model = repeating(track(positions="average"), **flats)
     state = last(model)
     upper, lower = (np.mean(state.bodies[name].wear) for name in ("upper", "lower"))
-    (notice,) = state.notices
+    (found,) = state.findings
     assert lower == pytest.approx(3.2e-4 * upper, rel=1e-9, abs=0)
-    assert "lower wears 0.00032 times as much as it would" in notice.text
-    assert notice.text in predict(model).problems
+    assert (found.kind, found.place) == ("averaging", "bodies.lower")
+    assert found.limit / found.value == pytest.approx(3.2e-4)
+    assert found.words in [problem.words for problem in predict(model).problems]
     for other in (track(), track(positions="average", track_length=GRID.size[0])):
-        assert begin(repeating(other, **flats)).notices == ()
+        assert begin(repeating(other, **flats)).findings == ()
 
 
 def test_a_ball_alone_in_its_window_is_averaged_over_its_own_track():
     ball = {"bodies": bodies(sphere(), flat()), "load": 5, "contact": Periodic()}
-    notices = begin(repeating(track(positions="average"), **ball)).notices
-    assert "averaging" not in [notice.kind for notice in notices]
+    found = begin(repeating(track(positions="average"), **ball)).findings
+    assert "averaging" not in [each.kind for each in found]
 
 
 def test_a_check_foresees_them():

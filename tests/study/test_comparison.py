@@ -238,14 +238,15 @@ def test_files_are_compared_under_their_names(tmp_path):
             compare(names)
 
 
-def test_a_notice_of_several_runs_is_told_once_and_a_registry_of_ones_own_is_used():
+def test_a_finding_of_several_runs_is_given_once_and_a_registry_of_ones_own_is_used():
     registry = Registry.with_plugins()
     coarse = validate_case(case(grid={"size": "0.9 mm", "cells": 12}))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", TriboWarning)
         with compare(coarse, CONTACTS, registry=registry) as comparison:
-            (note,) = comparison.notes
-    assert note.startswith("dcfft; winkler: resolution: ")
+            (found,) = comparison.findings
+    assert (found.kind, found.limit) == ("resolution", 8)
+    assert found.words.startswith("dcfft; winkler: ")
     assert registry.lookup("contact_solver", "winkler") is Winkler
 
 

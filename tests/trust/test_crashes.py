@@ -251,7 +251,7 @@ def test_a_command_leaves_whole_files_at_a_crash_before_each_operation(
     def refused(*given):
         raise CaseError("it takes seconds")
 
-    monkeypatch.setattr("tribo_report.result.findings", refused)
+    monkeypatch.setattr("tribo_report.result.findings_of", refused)
     folder = tmp_path / "work"
     shutil.copytree(made, folder)
     with recorded(folder) as work:

@@ -16,6 +16,7 @@ from tribo.cli.console import Console
 from tribo.cli.options import CASE, JSON, SET, echo_json
 from tribo.cli.waiting import waiting_for
 from tribo.core.errors import CaseError, NumericalError
+from tribo.core.findings import Finding
 from tribo.core.words import readable
 from tribo.lab.against_hertz import (
     HertzContact,
@@ -25,7 +26,6 @@ from tribo.lab.against_hertz import (
     yield_words,
 )
 from tribo.motion.reciprocating import Reciprocating
-from tribo.registry.hookspecs import Finding
 from tribo.simulation.positions import lengths_of
 from tribo.simulation.predict import Prediction
 from tribo.stepping.model import Model
@@ -52,30 +52,40 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     """
     from tribo.config.load import load_case
     from tribo.guards.trial_time import TRIAL_TIME
-    from tribo.registry.registry import findings
     from tribo.simulation.doubt import unusual
     from tribo.simulation.predict import predict
     from tribo.simulation.run import Simulation
+    from tribo.simulation.validity import findings_of
 
     read = load_case(case, overrides=overrides)
     doubts = unusual(read)
     if doubts and not as_json:
         # Before the trials, which may take long with such a value.
         Console().print(f"Is this meant in {case}?", markup=False, soft_wrap=True)
-        Console().print(_rows(("  -", doubt) for doubt in doubts))
+        Console().print(_rows(("  -", doubt.words) for doubt in doubts))
     with waiting_for("composing the case"):
         model = Simulation(read).model
     with waiting_for(f"first contact and a trial run of {TRIAL_TIME:g} s at most"):
         prediction = predict(model)
-    found: list[Finding] = []
-    if prediction.last:
-        with waiting_for(f"what packages have to say, {TRIAL_TIME:g} s at most"):
-            found = findings(model, prediction.first.half_width_x)
+    with waiting_for(f"what packages have to say, {TRIAL_TIME:g} s at most"):
+        found = findings_of(model, prediction.first.half_width_x)
+    # What has a limit is beyond it; else a finding is a fact.
+    facts = [each for each in found if each.limit is None]
+    problems = [*doubts, *prediction.problems, *(each for each in found if each not in facts)]
+    problems = list(dict.fromkeys(problems))
     if as_json:
-        echo_json({**asdict(prediction), "findings": [each._asdict() for each in found]})
+        averaging = (each.words for each in problems if each.kind == "averaging")
+        echo_json(
+            asdict(prediction)
+            | {
+                "limitation": next(averaging, None),
+                "problems": [each.words for each in problems],
+                "findings": [asdict(each) for each in (*problems, *facts)],
+            }
+        )
     else:
-        problems = [problem for problem in prediction.problems if problem not in doubts]
-        _print(case, model, prediction, problems, found, asked=bool(doubts))
+        problems = [each for each in problems if each not in doubts]
+        _print(case, model, prediction, problems, facts, asked=bool(doubts))
     for kind in (CaseError, NumericalError):
         if prediction.exit_code == kind.exit_code:
             raise kind(f"a run of {case} would stop on its way: {prediction.stops}")
@@ -85,7 +95,7 @@ def _print(
     case: Path,
     model: Model,
     prediction: Prediction,
-    problems: Sequence[str],
+    problems: Sequence[Finding],
     found: Sequence[Finding],
     *,
     asked: bool,
@@ -97,7 +107,7 @@ def _print(
     if prediction.exit_code:
         verdict = "would stop on its way:"
     console.print(f"{case} {verdict}", markup=False, soft_wrap=True)
-    console.print(_rows(("  -", problem) for problem in problems))
+    console.print(_rows(("  -", problem.words) for problem in problems))
     console.print(_rows((f"  {name}", text) for name, text in _facts(model, prediction)))
     for kind, group in groupby(found, key=lambda finding: finding.kind):
         console.print(f"  {kind}:", markup=False)
@@ -126,7 +136,8 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     """Yield the first contact, the end and the size of the run, each with its name."""
     yield from _first_contact(model, prediction)
     if model.chosen is not None or prediction.positions > 1:
-        yield "positions", model.chosen or f"the cycle is resolved at {prediction.positions}"
+        resolved = f"the cycle is resolved at {prediction.positions}"
+        yield "positions", model.chosen.words if model.chosen else resolved
         if prediction.positions_for_1_percent is not None:
             words = f"{prediction.positions_for_1_percent} if the contact stays as it is at first"
             yield "positions for 1 % of the depth, about", words

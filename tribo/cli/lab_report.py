@@ -11,33 +11,32 @@ from rich.text import Text
 
 from tribo.cli.console import Console
 from tribo.core.data_table import DataTable
-from tribo.lab.report import lab_report, lab_sentences, run_sentences
+from tribo.lab.report import LabReport, lab_report, lab_sentences, run_sentences
 from tribo.lab.tables import lab_tables
 from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
 
 
-def print_report(result: Result, console: Console | None = None, *, told: str = "") -> None:
+def print_report(result: Result, console: Console | None = None, *, but: str = "") -> None:
     """Print the saves, the worn bodies and the first contact of `result`.
 
-    A notice of the kind `told` is left out.
+    Findings of the kind `but` are left out.
     """
-    console = console or Console()
-    for block in report_blocks(result):
+    console, lab = console or Console(), lab_report(result)
+    for block in report_blocks(result, lab):
         if isinstance(block, DataTable):
             console.table(block)
         else:
             console.print(block, markup=False)
     if words := status_words(result):
         console.print(f"[yellow]{escape(words)}[/]")
-    for notice in result.notices:
-        if notice.partition(":")[0] != told:
-            console.print(f"[yellow]Note:[/] {escape(notice)}")
+    for finding in lab.findings:
+        if finding.kind != but:
+            console.print(f"[yellow]Note:[/] {escape(str(finding))}")
 
 
-def report_blocks(result: Result) -> Iterator[DataTable | str]:
-    """Yield the tables and then the sentences of a lab report, but for warnings."""
-    lab = lab_report(result)
+def report_blocks(result: Result, lab: LabReport) -> Iterator[DataTable | str]:
+    """Yield the tables and then the sentences of a lab report, but for findings."""
     yield from lab_tables(result, lab)
     if any(map(result.fields_of, (BETWEEN, EFFECT, STATE))):
         # Slow to import, and needed for such results only.

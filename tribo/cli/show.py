@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 
 import click
@@ -32,7 +33,9 @@ def show(output: Path, as_json: bool) -> None:
             for name in result.body_names:
                 for save, more in zip(printed["saves"], worn_surfaces(result, name), strict=True):
                     save["bodies"][name] |= more
-            echo_json({**printed, "lab": lab_report(result).as_json()})
+            lab = lab_report(result)
+            found = [asdict(each) for each in lab.findings]
+            echo_json({**printed, "findings": found, "lab": lab.as_json()})
         else:
             print_report(result)
             print_provenance(result)

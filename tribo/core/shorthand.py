@@ -1,24 +1,31 @@
 """Functions of higher layers that methods of lower ones are short for, such as ``case.run()``.
 
-`tribo.methods` gives them, so that no module imports what lies above it.
+`tribo.methods` gives them, so that no module names what lies above it.
 """
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
+from __future__ import annotations
 
-    from tribo.lab.report import LabReport
-    from tribo.registry.registry import Registry
-    from tribo.result.read import Result
+from collections.abc import Callable
+from typing import Any, Protocol
 
-run: "Callable[..., Result]"
-"""Run a case."""
-registry: "Callable[[], Registry]"
+
+class Registry(Protocol):
+    """Where the class is found that a name in a case stands for."""
+
+    def lookup(self, kind: str, name: str) -> type[Any]:
+        """Return the class of a kind that a name stands for."""
+
+    def choices(self, kind: str) -> str:
+        """Return the names of a kind, as text."""
+
+
+run: Callable[..., Any]
+"""Run a case, and return the result."""
+registry: Callable[[], Registry]
 """Return the registry of the built-in and the installed plugins."""
-report: "Callable[[Result], LabReport]"
+report: Callable[..., Any]
 """Return what a laboratory would measure of a result."""
-plot: "Callable[[Result, Path, str], list[Path]]"
-"""Write the pictures of a result."""
-html: "Callable[[Result], str]"
+plot: Callable[..., Any]
+"""Write the pictures of a result, and return their paths."""
+html: Callable[..., str]
 """Show a result in a notebook."""

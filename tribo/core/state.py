@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution, ContactSystem
 from tribo.core.fields import Field, WearRate
+from tribo.core.findings import Finding
 from tribo.core.measures import Invariants, Measures
-from tribo.core.notices import Kind, Notice
 
 
 @dataclass(frozen=True)
@@ -70,8 +70,8 @@ class State:
     rates : sequence of Mapping[str, WearRate]
         Rates of the laws at the end of the last implicit step, by position and body, in the
         contact frame: where the next one begins. Empty where there are none.
-    notices : tuple of Notice
-        What was told so far, each once.
+    findings : tuple of Finding
+        What is to be known of the run so far, each once.
     invariants : Invariants
         How well they hold in the step that led here.
     previous : tuple of ndarray, shape (nx, ny)
@@ -97,7 +97,7 @@ class State:
     rates: Sequence[Mapping[str, WearRate]] = ()
     between: Mapping[str, Array] = field(default_factory=dict)
     friction_energy: float = 0.0
-    notices: tuple[Notice, ...] = ()
+    findings: tuple[Finding, ...] = ()
     invariants: Invariants = field(default_factory=Invariants)
     previous: tuple[Array, ...] = ()
     speed: float = 0.0
@@ -107,18 +107,21 @@ class State:
         """The contact in the middle of the cycle: the one that a result shows."""
         return self.contacts[len(self.contacts) // 2]
 
-    def has_notice(self, kind: Kind) -> bool:
-        """Whether a notice of this kind was given."""
-        return any(notice.kind == kind for notice in self.notices)
+    def has_finding(self, kind: str) -> bool:
+        """Whether there is a finding of this kind."""
+        return any(each.kind == kind for each in self.findings)
 
-    def without_notice(self, kind: Kind) -> State:
-        """Return the state without notices of this kind."""
-        return replace(self, notices=tuple(n for n in self.notices if n.kind != kind))
+    def without_findings(self, kind: str) -> State:
+        """Return the state without findings of this kind."""
+        return replace(self, findings=tuple(each for each in self.findings if each.kind != kind))
 
-    def with_notice(self, kind: Kind, text: str, *, from_here: bool = False) -> State:
-        """Return the state with one notice more, of the whole run or of what begins here."""
-        where = (self.time, self.distance) if from_here else ()
-        return replace(self, notices=(*self.notices, Notice(kind, text, *where)))
+    def with_findings(self, *more: Finding) -> State:
+        """Return the state with more findings."""
+        return replace(self, findings=(*self.findings, *more))
+
+    def from_here(self, finding: Finding) -> State:
+        """Return the state with a finding that holds from its time and distance on."""
+        return self.with_findings(finding.at(self.time, self.distance))
 
     def remembered(self, body: str, field: str) -> Array:
         """Return a state field on a body's surface: that of its law, or of an effect it carries."""

@@ -144,7 +144,7 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
 def _by_plugin(path: Path) -> Heights:
     registry = default_registry()
     registry.load_all()
-    formats = [each for answer in registry.ask("tribo_height_formats") for each in answer]
+    formats = registry.ask("tribo_height_formats")
     if not formats:
         raise CaseError(
             f"{path} is no NumPy, CSV or HDF5 file ({', '.join(OWN)}); install tribo-topography, "

@@ -8,6 +8,7 @@ from math import isnan
 from typing import Any, NamedTuple
 
 from tribo.closed_forms.hertz import first_yield_pressure
+from tribo.core.findings import Finding
 from tribo.core.measures import reaches_border
 from tribo.core.words import readable, signed
 from tribo.lab.against_hertz import computed_pressure, first_hertz, in_mpa, yield_words
@@ -67,7 +68,8 @@ class LabReport:
 
     `first_contact_words` set it against Hertz and the onset of yield. `inferred`
     are the volumes by a lab's formulas, beside those worn; ``rows`` what the
-    plugins of its models add. `worn_through` says which layers were, and when.
+    plugins of its models add. `worn_through` says which layers were, and when;
+    `findings` are those of the run, and of rows beyond their limit.
     """
 
     bodies: Mapping[str, BodyReport]
@@ -76,6 +78,7 @@ class LabReport:
     first_contact_words: str
     rows: tuple[LabRow, ...] = ()
     worn_through: tuple[Mapping[str, Any], ...] = ()
+    findings: tuple[Finding, ...] = ()
 
     def __str__(self) -> str:
         """Return it in words, a line each."""
@@ -100,13 +103,16 @@ class LabReport:
 def lab_report(result: Result) -> LabReport:
     """Return what a laboratory would report of `result` at its last save."""
     first, words = _first_contact(result)
+    rows: list[LabRow] = from_plugins_of(result, "tribo_lab_rows")
+    beyond = (row.finding for row in rows)
     return LabReport(
         bodies={name: _body(result, name) for name in result.body_names},
         inferred=tuple(inferred_volumes(result)),
         first_contact=first,
         first_contact_words=words,
-        rows=tuple(row for rows in from_plugins_of(result, "tribo_lab_rows") for row in rows),
+        rows=tuple(rows),
         worn_through=tuple(result.worn_through),
+        findings=(*result.findings, *(each for each in beyond if each)),
     )
 
 

@@ -16,11 +16,11 @@ from pydantic import PrivateAttr
 
 from tribo.core.errors import CaseError, OutputError, TriboWarning
 from tribo.core.measures import Measures
-from tribo.core.notices import worn_through
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.observers.observer import Observer
 from tribo.result.checkpoint import Checkpoint, RunFolder, fingerprint
 from tribo.result.hdf5 import empty_image, filled_image
+from tribo.result.header import findings_attributes
 from tribo.result.layout import EFFECT, Rows, Variable, part_of, save_row, step_row, variables
 from tribo.result.read import Result
 from tribo.result.sealed import write_sealed
@@ -137,7 +137,7 @@ class Recorder(Observer):
                 if snapshot is not None and reason != "done":
                     self._keep_last(snapshot)
                 self._finish_part()
-                folder, notices = self._folder, () if snapshot is None else snapshot.state.notices
+                folder, found = self._folder, () if snapshot is None else snapshot.state.findings
                 self._image = filled_image(
                     self._empty,
                     self._kept if folder is None else folder.parts(self._count),
@@ -145,8 +145,7 @@ class Recorder(Observer):
                     self._rows,
                     status=reason,
                     wall_time_s=self._spent(),
-                    notices=json.dumps([str(notice) for notice in notices]),
-                    worn_through=json.dumps(worn_through(notices)),
+                    **findings_attributes(found),
                 )
                 if folder is not None:
                     self._write(self._image)

@@ -141,6 +141,4 @@ def result_pictures(result: Result) -> dict[str, Callable[[], Figure]]:
             pictures[f"{field.key}_map"] = partial(field_map, result, field)
     if kept and count > 1:
         pictures["fields_history"] = partial(fields_history, result)
-    for more in from_plugins_of(result, "tribo_figures"):
-        pictures |= more
-    return pictures
+    return pictures | dict(from_plugins_of(result, "tribo_figures"))

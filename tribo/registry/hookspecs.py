@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pluggy
 
+from tribo.core.findings import Finding, beyond
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -26,14 +28,25 @@ hookimpl = pluggy.HookimplMarker(PROJECT)
 
 
 class LabRow(NamedTuple):
-    """A row of the table after a run: its label, its value and the unit of the value."""
+    """A row of the table after a run: its label, its value and the unit of the value.
+
+    A model that holds up to a `limit` is reported to be beyond it.
+    """
 
     label: str
     value: float
     unit: str
+    limit: float | None = None
 
     def __str__(self) -> str:
         return f"{self.label}: {self.value:.4g} {self.unit}".rstrip()
+
+    @property
+    def finding(self) -> Finding | None:
+        """What is to be known of a value beyond its limit; None within."""
+        if self.limit is None or self.value <= self.limit:
+            return None
+        return beyond(self.label, self.value, self.limit, self.unit)
 
 
 class ExportFormat(NamedTuple):
@@ -58,22 +71,6 @@ class CaseTemplate(NamedTuple):
     name: str
     summary: str
     text: str
-
-
-class Finding(NamedTuple):
-    """What is to be known of a case before it runs.
-
-    Its kind, in words, and what it is about: a number, by how much that is uncertain, its limit, a
-    place in the case and a time (s).
-    """
-
-    kind: str
-    words: str
-    value: float | None = None
-    uncertainty: float | None = None
-    limit: float | None = None
-    place: str = ""
-    time: float | None = None
 
 
 class Command(NamedTuple):

@@ -18,16 +18,14 @@ import pluggy
 
 from tribo.component import Component
 from tribo.core.distributions import unmet
-from tribo.core.errors import CaseError, PluginError, TriboWarning
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.words import did_you_mean, said, suggestion
 from tribo.registry import hookspecs
-from tribo.registry.hookspecs import Finding
 from tribo.registry.kinds import Classes, offered
 from tribo.registry.plugins import Plugin, builtin, given, installed
 
 if TYPE_CHECKING:
     from tribo.result.read import Result
-    from tribo.stepping.model import Model
 
 
 class Registry:
@@ -166,18 +164,28 @@ class Registry:
             if fields & {field.name for field in getattr(self.components[name], "provides", ())}
         ]
 
-    def ask(self, hook: str, **arguments: object) -> list[Any]:
-        """Return the answers of the imported plugins to a hook, in the order of the plugins."""
-        try:
-            with _process_kept():
-                answers: list[Any] = getattr(self._manager.hook, hook)(**arguments)
-        except Exception as error:
-            packages = [each.entry_point for each in self.plugins if each.origin != "built-in"]
-            raise PluginError(
-                f"a plugin's {hook} raised {said(error)}{_place(error, *packages)}; --no-plugin "
-                "leaves that plugin out"
-            ) from error
-        return answers[::-1]
+    def ask(self, hook: str, own: object = None, **arguments: object) -> list[Any]:
+        """Return the items that a module of the kernel and the imported plugins answer to a hook.
+
+        That module, `own`, comes first. A plugin that raises is left out with a warning.
+        """
+        if own is not None and not self._manager.is_registered(own):
+            self._manager.register(own)
+        packages = [each.entry_point for each in self.plugins if each.origin != "built-in"]
+        items: list[Any] = []
+        for each in getattr(self._manager.hook, hook).get_hookimpls():
+            try:
+                with _process_kept():
+                    answer = each.function(*(arguments[name] for name in each.argnames))
+                    items += answer.items() if isinstance(answer, Mapping) else answer or ()
+            except Exception as error:
+                warnings.warn(
+                    f"{hook} of {each.plugin_name} is left out: it raised {said(error)}"
+                    f"{_place(error, *packages)}",
+                    TriboWarning,
+                    stacklevel=2,
+                )
+        return items
 
     def choices(self, kind: str) -> str:
         """Return the usable names of one kind as text, each with its plugin."""
@@ -246,33 +254,28 @@ def choose(hook: str, name: str, words: str, own: Mapping[str, str] | None = Non
     return known[name]
 
 
-def from_all_plugins(hook: str) -> list[Any]:
-    """Return the items that all installed plugins answer to a hook; one that is broken is named."""
+def from_all_plugins(hook: str, own: object = None) -> list[Any]:
+    """Return the items that `own` and all installed plugins answer to a hook; see `Registry.ask`.
+
+    One that is broken is named.
+    """
     registry = default_registry()
     for plugin in registry.load_all():
         warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=3)
-    return [item for answer in registry.ask(hook) for item in answer]
+    return registry.ask(hook, own)
 
 
-def findings(model: Model, half_width_x: float) -> list[Finding]:
-    """Return what packages have to say of a case; a package that fails is left out with a warning.
-
-    Asked are those of the case's models, and those with hooks alone.
-    """
+def from_packages(hook: str, own: object, **arguments: object) -> list[Any]:
+    """Return the items that `own`, the imported plugins and those of hooks alone answer."""
     registry = default_registry()
-    try:
-        for plugin in registry.plugins:
-            if plugin.usable and not plugin.names:
-                registry.load(plugin)
-        answers = registry.ask("tribo_findings", model=model, half_width_x=half_width_x)
-    except PluginError as error:
-        warnings.warn(str(error), TriboWarning, stacklevel=2)
-        return []
-    return [finding for answer in answers for finding in answer]
+    for plugin in registry.plugins:
+        if plugin.usable and not plugin.names:
+            registry.load(plugin)
+    return registry.ask(hook, own, **arguments)
 
 
 def from_plugins_of(result: Result, hook: str) -> list[Any]:
-    """Return the answers to a hook about a result, of the plugins whose models it names.
+    """Return the items answered to a hook about a result, by the plugins whose models it names.
 
     Those that are not installed are left out.
     """

@@ -27,9 +27,9 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.errors import CaseError, TriboError, TriboWarning
 from tribo.core.fields import WearRate
+from tribo.core.findings import Finding
 from tribo.core.locks import BusyError, lock
 from tribo.core.measures import Invariants
-from tribo.core.notices import Notice
 from tribo.core.state import BodyState, State
 from tribo.core.writing import make_folder, move, open_lock, remove, remove_empty, writing
 from tribo.result.layout import Rows
@@ -269,7 +269,7 @@ def _checkpoint(data: dict[str, Any]) -> Checkpoint:
                     for of_bodies in state.pop("rates")
                 ),
                 previous=tuple(state.pop("previous")),
-                notices=tuple(Notice(**notice) for notice in state.pop("notices")),
+                findings=tuple(Finding(**each) for each in state.pop("findings")),
                 invariants=Invariants(**state.pop("invariants")),
                 **state,
             ),

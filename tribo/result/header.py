@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import AfterValidator, BaseModel, Field, ValidationError
 
+from tribo.core.findings import Finding, worn_through
 from tribo.core.units import Quantity
 from tribo.core.words import checked_name
 
@@ -85,8 +87,20 @@ class _Header(BaseModel):
     wall_time: _AtLeast0 | None = Field(None, alias="wall_time_s")
     case: _Case
     provenance: _Provenance
+    findings: list[Finding] = []
     notices: list[str]
     worn_through: list[_WornThrough]
+
+
+def findings_attributes(findings: Iterable[Finding]) -> dict[str, str]:
+    """Return what a file has of the findings of a run: as data, as sentences, and layers alone."""
+    found = list(findings)
+    plain: dict[str, Any] = {
+        "findings": [asdict(each) for each in found],
+        "notices": [str(each) for each in found],
+        "worn_through": worn_through(found),
+    }
+    return {name: json.dumps(values) for name, values in plain.items()}
 
 
 def read_header(attributes: Mapping[str, Any]) -> dict[str, Any]:
@@ -96,10 +110,15 @@ def read_header(attributes: Mapping[str, Any]) -> dict[str, Any]:
         for name, value in attributes.items()
     }
     plain |= {name: json.loads(plain[name]) for name in _JSON}
+    if "findings" in plain:
+        plain["findings"] = json.loads(plain["findings"])
     try:
-        _Header.model_validate(plain)
+        read = _Header.model_validate(plain)
     except ValidationError as error:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"]))
         raise ValueError(f"{place!r} is {first['input']!r:.80}: {first['msg']}") from None
-    return plain
+    # Older files have the sentences alone.
+    older = (notice.partition(": ") for notice in read.notices)
+    found = read.findings or [Finding(kind, words) for kind, _, words in older]
+    return plain | {"findings": tuple(found)}

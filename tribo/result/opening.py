@@ -10,11 +10,12 @@ from pathlib import Path
 import numpy as np
 
 from tribo.core.errors import CaseError
+from tribo.core.findings import damaged
 from tribo.core.hdf5 import open_hdf5
-from tribo.core.notices import worn_through
 from tribo.result.checkpoint import RunFolder
 from tribo.result.checks import check_contained, interpreting
 from tribo.result.hdf5 import filled_image
+from tribo.result.header import findings_attributes
 from tribo.result.layout import FORMAT
 from tribo.result.sealed import open_sealed
 
@@ -76,9 +77,7 @@ def _saved_so_far(path: Path, folder: RunFolder) -> BytesIO:
     with open_hdf5(BytesIO(empty)) as file:
         case = json.loads(file.attrs["case"])
     kept, damage = folder.read_checkpoint(case)
-    notices = [str(notice) for notice in kept.state.notices]
-    if damage:
-        notices.append(f"checkpoint: {damage}; this is what the checkpoint before it holds")
+    state = kept.state.with_findings(damaged(damage)) if damage else kept.state
     parts = folder.parts(kept.parts)
     return filled_image(
         empty,
@@ -86,6 +85,5 @@ def _saved_so_far(path: Path, folder: RunFolder) -> BytesIO:
         kept.saves,
         kept.rows,
         status=status,
-        notices=json.dumps(notices),
-        worn_through=json.dumps(worn_through(kept.state.notices)),
+        **findings_attributes(state.findings),
     )

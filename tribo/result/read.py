@@ -15,6 +15,7 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
+from tribo.core.findings import Finding
 from tribo.core.grid import Grid
 from tribo.core.hdf5 import open_hdf5
 from tribo.core.rounding import ROUND_OFF
@@ -152,9 +153,15 @@ class Result:
         return dict(self._header["provenance"])
 
     @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What is to be known of the run: warnings, what it began with and why it ended."""
+        found: tuple[Finding, ...] = self._header["findings"]
+        return found
+
+    @property
     def notices(self) -> tuple[str, ...]:
-        """Warnings given during the run."""
-        return tuple(self._header["notices"])
+        """The findings, a sentence each."""
+        return tuple(map(str, self.findings))
 
     @property
     def worn_through(self) -> list[dict[str, Any]]:
@@ -303,11 +310,13 @@ class Result:
 
     def report(self) -> LabReport:
         """Return what a laboratory would measure of the result."""
-        return shorthand.report(self)
+        report: LabReport = shorthand.report(self)
+        return report
 
     def plot(self, folder: str | Path, suffix: str = "png") -> list[Path]:
         """Write every picture that makes sense for the result, as ``tribo plot`` does."""
-        return shorthand.plot(self, Path(folder), suffix)
+        paths: list[Path] = shorthand.plot(self, Path(folder), suffix)
+        return paths
 
     def _repr_html_(self) -> str:
         """Show the lab table and the pressure in a notebook."""

@@ -12,6 +12,7 @@ from tribo.case import Begin
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
+from tribo.core.findings import begun_worn
 from tribo.core.grid import Grid
 from tribo.core.state import BodyState, State
 from tribo.result.layout import BETWEEN, STATE, TRACK, TRACK_PLASTIC, TRACK_STATE
@@ -44,7 +45,7 @@ def first_state(model: Model) -> State:
         save = _save(result, begin)
         _check_alike(model, result)
         bodies = {name: _worn(model, result, name, save) for name in model.case.bodies}
-        found, otherwise = _remembered(model, result, save)
+        found, afresh, left = _remembered(model, result, save)
         carried = result.saves()[save]
     for name, body in bodies.items():
         bodies[name] = replace(body, law={k: found.get((name, k), v) for k, v in body.law.items()})
@@ -54,11 +55,7 @@ def first_state(model: Model) -> State:
         load_distance=carried["load_distance_N_m"],
         friction_energy=carried.get("friction_energy_J", 0.0),
     )
-    return state.with_notice(
-        "begin",
-        f"the bodies begin as worn as in {begin.result} at {carried['time_s']:g} s; wear depths, "
-        f"volumes and load_distance go on from there, time and distance begin anew{otherwise}",
-    )
+    return state.with_findings(begun_worn(begin.result, carried["time_s"], afresh, left))
 
 
 def checksum(begin: Begin) -> str:
@@ -137,11 +134,11 @@ def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
 
 def _remembered(
     model: Model, result: Result, save: int
-) -> tuple[dict[tuple[str | None, str], Array], str]:
+) -> tuple[dict[tuple[str | None, str], Array], list[str], list[str]]:
     """Return what the case goes on with of what laws and effects remember, by body and field.
 
     The body is None for the contact as a whole. A field goes on where the result has one of its
-    name and unit at the same place; the words say which others begin afresh or are left out.
+    name and unit at the same place; the lists name those that begin afresh or are left out.
     """
     found: dict[tuple[str | None, str], Array] = {}
     afresh, left = [], []
@@ -157,8 +154,7 @@ def _remembered(
             else:
                 found[place, field.name] = laid
         left += [f"{name} of {where}" for name, _ in kept if (place, name) not in found]
-    words = f"; what it does not have begins afresh: {', '.join(afresh)}" if afresh else ""
-    return found, words + (f"; left out of it is {', '.join(left)}" if left else "")
+    return found, afresh, left
 
 
 def _kept(result: Result, place: str | None) -> dict[tuple[str, str], str]:

@@ -7,28 +7,30 @@ from contextlib import contextmanager
 
 from tribo.case import Case
 from tribo.config.overrides import leaves
+from tribo.core import findings
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, NumericalError, PluginError
 from tribo.core.explain import path
+from tribo.core.findings import Finding
 from tribo.core.measures import BodyMeasures
 from tribo.core.units import stated
 
-DEEP = 0.1
-"""Wear depth, relative to the radius of curvature, from which on it is doubted."""
 HARDNESSES = (3e-4, 0.2)
 """Hardness over Young's modulus beyond which one is doubted: indium has 8e-4, diamond 0.1."""
 
 
-def unusual(case: Case) -> list[str]:
-    """Ask about each quantity of a case that is out of its usual range, by place."""
-    found: dict[str, str] = {}
+def unusual(case: Case) -> list[Finding]:
+    """Return a question about each quantity of a case that is out of its usual range."""
+    found: dict[str, Finding] = {}
     for place, value, mark in leaves(case):
-        doubt = mark.doubt(value) if mark and isinstance(value, float) else None
-        if doubt is not None:
+        if not (mark and mark.usual and isinstance(value, float)):
+            continue
+        if doubt := mark.doubt(value):
             while isinstance(place[-1], int):
                 # A pair may be written as one value.
                 place = place[:-1]
-            found[path(place)] = f"is {doubt}"
+            limit = _nearest(value, mark.usual)
+            found[path(place)] = findings.unusual(path(place), doubt, value, limit)
     for name, body in case.bodies.items():
         (low, high), layers = HARDNESSES, range(len(body.layers))
         parts = [*(f"layers.{i}" for i in layers), "material"]
@@ -37,11 +39,17 @@ def unusual(case: Case) -> list[str]:
             if hardness is None or {f"{at}.young", f"{at}.hardness"} & found.keys():
                 continue
             if not low <= hardness / young <= high:
-                found[f"{at}.hardness"] = (
-                    f"is {stated(hardness, 'Pa')}, {hardness / young:.2g} of young "
+                limit = _nearest(hardness, (low * young, high * young))
+                doubt = (
+                    f"{stated(hardness, 'Pa')}, {hardness / young:.2g} of young "
                     f"({stated(young, 'Pa')}), usual are {low:g} to {high:g}: is a unit wrong?"
                 )
-    return [f"{place} {doubt}" for place, doubt in found.items()]
+                found[f"{at}.hardness"] = findings.unusual(f"{at}.hardness", doubt, hardness, limit)
+    return [*found.values()]
+
+
+def _nearest(value: float, usual: tuple[float, float]) -> float:
+    return min(usual, key=lambda end: abs(end - value))
 
 
 @contextmanager
@@ -55,18 +63,15 @@ def doubting(case: Case) -> Iterator[None]:
         doubts = unusual(case)
         if doubts:
             # First: what follows from a wrong unit has remedies that mislead.
-            error.args = (f"{' '.join(doubts)} {error}",)
+            error.args = (" ".join([*(doubt.words for doubt in doubts), str(error)]),)
         raise
 
 
-def too_deep(system: ContactSystem, bodies: Mapping[str, BodyMeasures]) -> list[str]:
-    """Ask about each body whose wear depth is implausible for the contact's curvature."""
+def too_deep(system: ContactSystem, bodies: Mapping[str, BodyMeasures]) -> list[Finding]:
+    """Return a question about each body whose wear depth is implausible for the curvature."""
     curvature = max(system.curvature or (0.0, 0.0))
     return [
-        f"{name} would wear about {1e3 * worn.max_wear_depth:.3g} mm deep, which is "
-        f"{worn.max_wear_depth * curvature:.3g} "
-        f"times the radius of curvature of {1e3 / curvature:.3g} mm: is its wear coefficient in "
-        "the unit that was meant? A bare k is in 1/Pa; write '1e-6 mm^3/(N m)' for that unit"
+        findings.too_deep(name, worn.max_wear_depth, 1 / curvature)
         for name, worn in bodies.items()
-        if worn.max_wear_depth * curvature > DEEP
+        if worn.max_wear_depth * curvature > findings.DEEP
     ]

@@ -8,20 +8,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tribo.core.errors import OutOfWindow, PluginError
+from tribo.core.findings import chattering, ended
 from tribo.core.measures import half_widths, reaches_border
 from tribo.core.state import State
 from tribo.simulation.beginning import first_state
 from tribo.simulation.doubt import doubting
 from tribo.simulation.validity import (
-    broken_period,
     check_stroke,
     coarse_cycle,
     few_cells,
     limitation,
+    of_case,
     peak_at_the_edge,
-    short_of_a_lap,
 )
-from tribo.stepping.invariants import chattering_words, chatters, hold
+from tribo.stepping.invariants import chatters, hold
 from tribo.stepping.model import Model
 from tribo.stepping.step import distance_until, start_sliding
 
@@ -48,13 +48,13 @@ def begin(model: Model) -> State:
         check_stroke(model, state)
         model.case.stepping.check(model, state)
     if model.chosen is not None:
-        state = state.with_notice("positions", model.chosen)
+        state = state.with_findings(model.chosen)
     if _depth(model, state) >= _limit(model):
         state = _stopped(model, state)
     # The mean over a time in which no stage of the motion ends.
     soon = 0.5 * _stops(model)[0]
     speed = (distance_until(model, state, soon) or 0.0) / soon
-    return _noticed(model, replace(state, saves=1, speed=speed))
+    return _with_findings(model, replace(state, saves=1, speed=speed))
 
 
 def _stops(model: Model) -> list[float]:
@@ -99,7 +99,7 @@ def _advanced(model: Model, state: State, until: float, limit: float) -> State:
         raise
     after = hold(model, state, after)
     _check_window(model, after)
-    return _noticed(model, after)
+    return _with_findings(model, after)
 
 
 def _up_to_depth(model: Model, state: State, after: State, limit: float) -> State:
@@ -120,8 +120,8 @@ def _up_to_depth(model: Model, state: State, after: State, limit: float) -> Stat
         cut = model.case.stepping.step(model, state, trial, time)
         depth = _depth(model, cut)
         if depth >= limit:
-            kept = [n for n in after.notices if (n.distance or 0.0) <= cut.distance]
-            high, depth_high, after = trial, depth, replace(cut, notices=tuple(kept))
+            kept = tuple(f for f in after.findings if (f.distance or 0.0) <= cut.distance)
+            high, depth_high, after = trial, depth, replace(cut, findings=kept)
         else:
             low, depth_low = trial, depth
         slow = high - low > 0.5 * width
@@ -135,15 +135,10 @@ def _limit(model: Model) -> float:
 
 def _stopped(model: Model, state: State) -> State:
     """Say whether the depth at which a run is to end has ended it."""
-    limit, depth, words = _limit(model), _depth(model, state), f"ended at {state.time:.6g} s"
-    if depth >= limit and state.time < model.end_time:
-        words += f", where the wear depth reached {1e6 * limit:.4g} µm"
-    elif depth < limit < np.inf:
-        words += f" with a wear depth of {1e6 * depth:.4g} µm; stop.depth, {1e6 * limit:.4g} µm, "
-        words += "is not reached"
-    else:
+    limit, depth = _limit(model), _depth(model, state)
+    if limit == np.inf or (depth >= limit and state.time >= model.end_time):
         return state
-    return state.with_notice("stop", words)
+    return state.with_findings(ended(state.time, depth, limit))
 
 
 def _depth(model: Model, state: State) -> float:
@@ -164,31 +159,23 @@ def _check_window(model: Model, state: State) -> None:
     )
 
 
-def _noticed(model: Model, state: State) -> State:
-    """Add to the state the notices that are due and were not given before."""
-    if not state.has_notice("averaging"):
-        words = limitation(model, state)
-        if words is not None:
-            state = state.with_notice("averaging", words, from_here=True)
+def _with_findings(model: Model, state: State) -> State:
+    """Return the state with the findings that are due and were not given before."""
+    if not state.has_finding("averaging") and (finding := limitation(model, state)):
+        state = state.from_here(finding)
     if state.steps == 0:
-        if lap := short_of_a_lap(model):
-            state = state.with_notice("lap", lap)
-        if ends := broken_period(model):
-            state = state.with_notice("period", ends)
-        if few := few_cells(model, state.contact):
-            state = state.with_notice("resolution", few)
-    if chatters(state) and not state.has_notice("chattering"):
-        state = state.with_notice("chattering", chattering_words(state), from_here=True)
+        few = few_cells(model, state.contact)
+        state = state.with_findings(*of_case(model), *([few] if few else []))
+    if chatters(state) and not state.has_finding("chattering"):
+        state = state.from_here(chattering(state.invariants.chattering))
     return state
 
 
 def _concluded(model: Model, state: State) -> State:
     """Say what the averaging has come to by the end, in place of what it began with."""
-    if words := coarse_cycle(model, state):
-        state = state.with_notice("quadrature", words)
-    if not state.has_notice("chattering") and (words := peak_at_the_edge(state)):
-        state = state.with_notice("resolution", words, from_here=True)
-    words = limitation(model, state)
-    if words is None:
-        return state
-    return state.without_notice("averaging").with_notice("averaging", words, from_here=True)
+    if finding := coarse_cycle(model, state):
+        state = state.with_findings(finding)
+    if not state.has_finding("chattering") and (finding := peak_at_the_edge(state)):
+        state = state.from_here(finding)
+    finding = limitation(model, state)
+    return state.without_findings("averaging").from_here(finding) if finding else state

@@ -10,6 +10,7 @@ from typing import Any
 
 from tribo.case import Begin, Case
 from tribo.core.errors import CaseError, NumericalError
+from tribo.core.findings import averaged_although, fewer_positions, positions_chosen
 from tribo.core.measures import half_widths
 from tribo.core.words import readable
 from tribo.lab.against_hertz import hertz_half_width
@@ -35,6 +36,7 @@ NEARLY = 2 / 3
 SPARE = 0.85
 """Of half a half-width, between two positions: coarser grids still take as many."""
 MUST = "the load changes along the stroke"
+UNLIKE = "what passes is not the same all along"
 FEWEST, MOST = 9, 1001
 """Positions that are chosen: with fewer, strokes of one or two half-widths are 1 % off."""
 
@@ -67,7 +69,7 @@ def composed(case: Case) -> Model:
         averaged = assemble(_fixed(even, "average"))
     except CaseError:
         model = assemble(_fixed(case, _cells(case, motion.stroke)))
-        return replace(model, chosen=_told(model, "what passes is not the same all along"))
+        return replace(model, chosen=positions_chosen(len(model.cycle), UNLIKE))
     must = bool(case.load.along)
     if not must and not (_resolvable(case) and averaged.changing):
         return averaged
@@ -91,17 +93,17 @@ def composed(case: Case) -> Model:
         if must or (error.path == "kinematics.stroke" and motion.stroke < half_width):
             # The average would be refused for its own reason.
             raise
-        return replace(averaged, chosen=f"the stroke is averaged although {words}: {error}")
-    return replace(resolved, chosen=_told(resolved, words))
+        return replace(averaged, chosen=averaged_although(words, error))
+    chosen = positions_chosen(len(resolved.cycle), words, optional=not must)
+    return replace(resolved, chosen=chosen)
 
 
 def _taken(model: Model) -> Model:
-    """Tell of a cycle that has fewer cells than it was to have positions."""
+    """Return a model with a finding where it has fewer cells than it was to have positions."""
     asked, taken = getattr(model.case.kinematics, "positions", None), len(model.cycle)
     if not isinstance(asked, int) or taken >= asked:
         return model
-    told = f"the cycle is resolved at {taken} positions, every cell of it, in place of {asked}"
-    return replace(model, chosen=told)
+    return replace(model, chosen=fewer_positions(taken, asked))
 
 
 def is_open(case: Case) -> bool:
@@ -171,12 +173,6 @@ def _as_begun(case: Case, begin: Begin) -> Case:
             "begin.result",
         )
     return _fixed(case, positions)
-
-
-def _told(model: Model, words: str) -> str:
-    remedy = 'kinematics.positions = "average" is faster and less accurate'
-    told = f"the cycle is resolved at {len(model.cycle)} positions, as {words}"
-    return f"{told}; {remedy}" if "average" in words else told
 
 
 def _cells(case: Case, stroke: float) -> int:

@@ -12,10 +12,9 @@ import numpy as np
 from tribo.component import components
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, NumericalError, OverTime, PluginError, TriboError
+from tribo.core.findings import Finding, outgrown, trial_failed, worn_through, would_stop
 from tribo.core.measures import Measures
-from tribo.core.notices import worn_through
 from tribo.core.state import State
-from tribo.core.words import readable
 from tribo.guards.guard import Guard
 from tribo.guards.trial_time import limited
 from tribo.lab.against_hertz import HertzContact, hertz_contact
@@ -27,12 +26,10 @@ from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed, size_of_fields
 from tribo.simulation.validity import (
-    broken_period,
     check_stroke,
     few_cells,
     limitation,
     positions_for,
-    short_of_a_lap,
     too_wide,
 )
 from tribo.stepping.implicit import Implicit
@@ -65,7 +62,6 @@ class Prediction:
     last: Measures | None
     worn_through: tuple[Mapping[str, Any], ...]
     window_holds: bool | None
-    limitation: str | None
     positions: int
     """Of a cycle in which the contact is solved; 1 for an average."""
     positions_for_1_percent: int | None
@@ -77,7 +73,7 @@ class Prediction:
     """In s on this machine, to a factor of about 3; of implicit steps alone."""
     facts: Mapping[str, Mapping[str, str]]
     """What components state of themselves, by their place in the case."""
-    problems: tuple[str, ...]
+    problems: tuple[Finding, ...]
     exit_code: int
     stops: str | None
     """What is doubted, and then what the run stops on, as in its message."""
@@ -93,7 +89,7 @@ class CoarseRun:
 
     last: Measures | None
     outgrown: float | None = None
-    limitation: str | None = None
+    limitation: Finding | None = None
     worn_through: tuple[Mapping[str, Any], ...] = ()
     error: TriboError | None = None
     on_any_cells: bool = False
@@ -117,17 +113,14 @@ def predict(model: Model) -> Prediction:
     holds = None if last is None else _inside(model, last) or model.contact.may_reach_edge
     across = None if hertz is None else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
     stopping, warned = _stopping(model, state, coarse, window_holds=holds)
-    doubts, ends = unusual(model.case), [(code, text) for code, text in stopping if code]
+    doubts, ends = unusual(model.case), [(code, found) for code, found in stopping if code]
     problems = (
-        *doubts,
-        *(text for _, text in stopping),
+        *(found for _, found in stopping),
         few_cells(model, state.contact),
-        broken_period(model),
         warned,
         *(too_wide(model, first) or too_wide(model, last or first)),
         *(too_deep(model.contact.system, last.bodies) if last else ()),
         coarse.limitation,
-        short_of_a_lap(model),
     )
     facts = {place: Guard(c).ask(stated_facts, c) for place, c in components(model.case)}
     return Prediction(
@@ -140,7 +133,6 @@ def predict(model: Model) -> Prediction:
         last=last,
         worn_through=coarse.worn_through,
         window_holds=holds,
-        limitation=coarse.limitation,
         positions=len(model.cycle),
         positions_for_1_percent=positions_for(model, state.contact),
         memory=memory_needed(
@@ -151,55 +143,50 @@ def predict(model: Model) -> Prediction:
         facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problem for problem in problems if problem is not None),
         exit_code=ends[0][0] if ends else 0,
-        stops=" ".join([*doubts, ends[0][1]]) if ends else None,
+        stops=" ".join(each.words for each in (*doubts, ends[0][1])) if ends else None,
     )
 
 
 def _stopping(
     model: Model, state: State, coarse: CoarseRun, *, window_holds: bool | None
-) -> tuple[list[tuple[int, str]], str | None]:
+) -> tuple[list[tuple[int, Finding]], Finding | None]:
     """Return what would end a run, with its exit codes, and a warning of its steps.
 
     In the order in which a run would come upon them.
     """
-    stopping, warned = list[tuple[int, str]](), None
+    stopping, warned, end = list[tuple[int, Finding]](), None, model.end_time
     try:
         warned = model.case.stepping.check(model, state)
     except CaseError as error:
-        stopping.append((error.exit_code, f"the run would stop at once: {error}"))
+        stopping.append((error.exit_code, would_stop(f"at once: {error}", 0.0, end)))
     try:
         start_sliding(model, state)
     except NumericalError as error:
-        words = f"the run would stop when sliding starts: {error}"
-        stopping.append((error.exit_code, words))
+        words = f"when sliding starts: {error}"
+        stopping.append((error.exit_code, would_stop(words, state.time, end)))
     if window_holds is False:
-        lx, ly = (1e3 * edge for edge in model.grid.size)
-        when = "" if coarse.outgrown is None else f", at about {readable(coarse.outgrown, '.3g')} s"
-        words = (
-            f"the contact outgrows the window of {lx:.4g} × {ly:.4g} mm, and the run would "
-            f"stop there{when}: make grid.size larger (and grid.cells with it)"
-        )
-        stopping.append((NumericalError.exit_code, words))
-    if coarse.error is not None and not any(str(coarse.error) in text for _, text in stopping):
-        # What a coarse grid alone cannot carry through, a finer one may.
+        finding = outgrown(model.grid.size, coarse.outgrown, end)
+        stopping.append((NumericalError.exit_code, finding))
+    if coarse.error is not None and not any(
+        str(coarse.error) in found.words for _, found in stopping
+    ):
         code = coarse.error.exit_code if coarse.on_any_cells else 0
-        may = "" if code else " (the run, on finer cells, may yet go to its end)"
-        stopping.append((code, f"a trial run on a coarse grid failed{may}: {coarse.error}"))
+        stopping.append((code, trial_failed(coarse.error, on_any_cells=coarse.on_any_cells)))
     return stopping, warned
 
 
 def _worn(model: Model, coarse: Model, state: State) -> tuple[State, float | None]:
     """Return the end of a coarse run, and when its contact outgrew the window of `model`, in s."""
-    outgrown = None
+    when = None
     try:
         for accepted in march(coarse, state):
             state = accepted.state
-            if outgrown is None and not _inside(model, measure(coarse, state)):
-                outgrown = state.time
+            if when is None and not _inside(model, measure(coarse, state)):
+                when = state.time
     except OverTime as error:
         slid = f"{state.steps} steps slid {state.distance:.3g} of {coarse.end_distance:.4g} m"
         raise OverTime(f"{error}, in which {slid}") from None
-    return state, outgrown
+    return state, when
 
 
 def _run_time(model: Model, coarse: Model, took: float) -> float:
@@ -242,7 +229,7 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             failed = failed or error
             continue
         try:
-            state, outgrown = _worn(model, coarse, state)
+            state, when = _worn(model, coarse, state)
         except CaseError as error:
             # Refused on its way: that does not hang on the cells.
             return CoarseRun(None, error=error, on_any_cells=True)
@@ -252,9 +239,9 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
         took = time.perf_counter() - began
         return CoarseRun(
             measure(coarse, state),
-            outgrown,
+            when,
             limitation(replace(coarse, motion=model.motion), state),
-            tuple(worn_through(state.notices)),
+            tuple(worn_through(state.findings)),
             run_time=_run_time(model, coarse, took)
             if isinstance(model.case.stepping, Implicit)
             else None,

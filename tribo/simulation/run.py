@@ -15,7 +15,7 @@ from tribo.case import Case
 from tribo.component import components as named
 from tribo.config.load import load_case, validate_case
 from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
-from tribo.core.notices import Notice
+from tribo.core.findings import Finding, failed
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
 from tribo.core.writing import check_new
 from tribo.guards.guard import Guard
@@ -194,7 +194,7 @@ class Simulation:
                 # Its run has ended since.
                 return self.reopen(path, observers=observers, allow_changed=allow_changed)
             raise
-        state = state.without_notice("failed")
+        state = state.without_findings("failed")
         return partial(
             self._follow,
             state,
@@ -239,11 +239,11 @@ class Simulation:
             with interrupts_held() as requested:
                 audience.start(info)
                 if not resumed:
-                    _announce((), state.notices)
+                    _announce((), state.findings)
                     snapshot = self._with_effects(snapshot)
                     audience.step(snapshot, save=True)
                 for accepted in march(self.model, state):
-                    _announce(snapshot.state.notices, accepted.state.notices)
+                    _announce(snapshot.state.findings, accepted.state.findings)
                     snapshot = self._snapshot(accepted.state)
                     if accepted.save:
                         snapshot = self._with_effects(snapshot)
@@ -253,8 +253,7 @@ class Simulation:
             reason = "done"
         except TriboError as error:
             # For whoever opens the result: it says why it ends here.
-            failed = snapshot.state.with_notice("failed", str(error))
-            snapshot = replace(snapshot, state=failed)
+            snapshot = replace(snapshot, state=snapshot.state.with_findings(failed(error)))
             if recorder.holds:
                 error.add_note(
                     f"{recorder.holds} holds what was saved until then; 'tribo run' replaces it "
@@ -322,11 +321,10 @@ class Simulation:
         )
 
 
-def _announce(before: Sequence[Notice], after: Sequence[Notice]) -> None:
-    for notice in after:
-        # What the case itself asks for is no warning; the result tells it.
-        if notice not in before and notice.kind not in ("begin", "layer", "stop"):
-            warnings.warn(str(notice), TriboWarning, stacklevel=4)
+def _announce(before: Sequence[Finding], after: Sequence[Finding]) -> None:
+    for finding in after:
+        if finding not in before and finding.is_warning:
+            warnings.warn(str(finding), TriboWarning, stacklevel=4)
 
 
 def _held(path: Path) -> str:

@@ -1,68 +1,73 @@
-"""Notices of where a case leaves the range in which its models hold."""
+"""Where a case leaves the range in which its models hold."""
 
 from __future__ import annotations
 
 import math
+import sys
 
 import numpy as np
 
+from tribo.core import findings
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import located
+from tribo.core.findings import Finding
 from tribo.core.measures import Measures, half_widths
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
-from tribo.core.words import readable
 from tribo.lab.against_hertz import hertz_contact
 from tribo.motion.stroke import check_spacing, spacing_for
+from tribo.registry.hookspecs import hookimpl
+from tribo.registry.registry import from_packages
+from tribo.simulation.doubt import unusual
 from tribo.stepping.model import Model
 from tribo.stepping.quadrature import cycle_error
 
-COARSE, FINE = 0.05, 0.01
-"""Error of a cycle, of the depth, from which on it is spoken of, and with the positions advised."""
-STEEP = 0.3
-"""Half-width of a contact over the radius of a body, from which on it is spoken of."""
-SHARP = 1.2
-"""Largest pressure at the edge over that inside of a contact, from which on it is spoken of."""
-UNLIKE = 0.01
-"""Relative difference of a track from the period, from which on it is spoken of."""
 SEAM = 4
 """How many times more a surface bends at the edge of a window than inside if it ends there."""
-ROUNDING = 1e-9
-WHOLE = 1 - 1e-9
-FEW_CELLS = 8
 
 
-def few_cells(model: Model, first: ContactSolution) -> str | None:
-    """Say so if the first contact is only a few cells wide, by Hertz where that is known."""
-    dx, dy = model.grid.spacing
-    hertz = None if model.case.begin else hertz_contact(model.contact.system)
-    width, breadth = (
-        half_widths(first, model.grid)
-        if hertz is None
-        else (hertz.half_width_x, hertz.half_width_y)
-    )
+def few_cells(model: Model, first: ContactSolution) -> Finding | None:
+    """Return a finding if the first contact is only a few cells wide, by Hertz where it holds."""
+    system, (dx, dy) = model.contact.system, model.grid.spacing
+    hertz = None if model.case.begin else hertz_contact(system)
+    if hertz is None or (system.cap is not None and hertz.peak_pressure > system.cap):
+        width, breadth = half_widths(first, model.grid)
+    else:
+        width, breadth = hertz.half_width_x, hertz.half_width_y
     cells = min(2 * width / dx, 2 * breadth / dy)
-    if round(cells) >= FEW_CELLS:
-        return None
-    return (
-        f"the first contact is only {cells:.1f} cells wide, so its pressure is inaccurate "
-        f"until it has grown: raise grid.cells for {FEW_CELLS} or more"
-    )
+    return findings.few_cells(cells) if round(cells) < findings.FEW_CELLS else None
 
 
-def broken_period(model: Model) -> str | None:
-    """Say so if the contact repeats with the window, but the surface of a body does not."""
+@hookimpl(trylast=True)
+def tribo_findings(model: Model) -> list[Finding]:
+    """Say what is unusual in a case, and where its surfaces and its path do not fit."""
+    return [*unusual(model.case), *of_case(model)]
+
+
+def of_case(model: Model) -> list[Finding]:
+    """Return where surfaces do not repeat with the window, and a path that is no whole track."""
+    return [each for each in (broken_period(model), short_of_a_lap(model)) if each]
+
+
+def findings_of(model: Model, half_width_x: float) -> list[Finding]:
+    """Return what the kernel and packages have to say of a case.
+
+    It is given with half the length of its first contact, in m.
+    """
+    own = sys.modules[__name__]
+    return from_packages("tribo_findings", own, model=model, half_width_x=half_width_x)
+
+
+def broken_period(model: Model) -> Finding | None:
+    """Return a finding if the contact repeats with the window, but the surface of a body not."""
     if not model.case.contact.periodic:
         return None
     for name, surface in model.surfaces.items():
         for axis, along in enumerate("xy"):
             jump = _jump(np.moveaxis(surface.height, axis, 0))
             if jump > 0:
-                return (
-                    f"the surface of {name} does not repeat with the window: along {along} it "
-                    f"jumps by {1e9 * jump:.3g} nm (root mean square) from one period to the next, "
-                    "and presses there; give it a period of the window's length or a part of it"
-                )
+                return findings.broken_period(name, along, jump)
     return None
 
 
@@ -75,40 +80,30 @@ def _jump(height: Array) -> float:
     if len(inside) < SEAM or np.mean(last**2) <= SEAM**2 * np.mean(inside**2):
         return 0.0
     jump = float(np.sqrt(np.mean(steps[-1] ** 2)))
-    return jump if jump > ROUNDING * float(np.ptp(height)) else 0.0
+    return jump if jump > ROUND_OFF * float(np.ptp(height)) else 0.0
 
 
-def too_wide(model: Model, measures: Measures) -> list[str]:
-    """Say of which bodies the contact is too wide for their radius to be a half-space."""
+def too_wide(model: Model, measures: Measures) -> list[Finding]:
+    """Return a finding for each body of which the contact is too wide for a half-space."""
     widths = (measures.half_width_x, measures.half_width_y)
-    told = []
+    found = []
     for name, surface in model.surfaces.items():
         curvatures = surface.curvature or (0.0, 0.0)
         ratio, curvature = max(
             (abs(c) * a, abs(c)) for c, a in zip(curvatures, widths, strict=True)
         )
-        if ratio > STEEP:
-            told.append(
-                f"at {readable(measures.time, '.3g')} s the contact's half-width a is "
-                f"{ratio:.2f} of the radius R of {name}, {1e3 / curvature:.3g} mm: a half-space "
-                "with small slopes asks for a/R well below 1 (0.1, say), and pressures and "
-                "depths may be far off"
-            )
-    return told
+        if ratio > findings.STEEP:
+            found.append(findings.too_wide(name, ratio, 1 / curvature, measures.time))
+    return found
 
 
-def short_of_a_lap(model: Model) -> str | None:
-    """Say so if the whole run slides over a part of a body's track only."""
+def short_of_a_lap(model: Model) -> Finding | None:
+    """Return a finding if the whole run slides over a part of a body's track only."""
     distance = model.end_distance
     for name in [name for name in model.laws.wear if name in model.cycle.swept]:
         length = _track_length(model, name)
-        if distance < WHOLE * length:
-            return (
-                f"the run slides {distance:.3g} m, {distance / length:.2g} of the track of {name}, "
-                f"which is {length:.3g} m long: its wear is averaged over the whole track, also "
-                "where the contact never comes to; slide once over it at least, and for the "
-                "average to hold many times"
-            )
+        if distance < (1 - ROUND_OFF) * length:
+            return findings.short_of_a_lap(name, distance, length)
     return None
 
 
@@ -135,27 +130,23 @@ def check_stroke(model: Model, state: State) -> None:
             check_spacing(gaps * model.cycle.apart, gaps + 1, half_width)
 
 
-def limitation(model: Model, state: State) -> str | None:
+def limitation(model: Model, state: State) -> Finding | None:
     """Return why averaging over a track does not hold for the contact in `state`, if so."""
     seen = half_width, *_ = track_average(model, state)
     if is_endless(model, half_width):
         return _unlike_the_period(model)
-    return model.motion.limitation(*seen)
+    words = model.motion.limitation(*seen)
+    return findings.averaged(words) if words else None
 
 
-def _unlike_the_period(model: Model) -> str | None:
-    """Say so if a body that meets a contact without an end is averaged over another length."""
+def _unlike_the_period(model: Model) -> Finding | None:
+    """Return a finding if a body of an endless contact is averaged over another length."""
     period = model.grid.size[0]
     averaged = [name for name in model.changing if model.cycle.maps[name].starts is None]
     for name in averaged:
         length = _track_length(model, name)
-        if name in model.laws.wear and abs(length - period) > UNLIKE * period:
-            return (
-                f"the contact repeats every {1e3 * period:.4g} mm without an end, but what one "
-                f"period wears off {name} is averaged over a track of {1e3 * length:.4g} mm: "
-                f"{name} wears {period / length:.2g} times as much as it would; make the track "
-                'as long as the window, or resolve it by kinematics.positions = "cells"'
-            )
+        if name in model.laws.wear and abs(length - period) > findings.UNLIKE * period:
+            return findings.unlike_the_period(name, length, period)
     return None
 
 
@@ -176,37 +167,30 @@ def track_average(model: Model, state: State) -> tuple[float, float, float, floa
 
 def is_endless(model: Model, half_width: float) -> bool:
     """Whether the contact goes on into the next period of what repeats along x."""
-    return model.case.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - 1e-9)
+    return model.case.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - ROUND_OFF)
 
 
-def coarse_cycle(model: Model, state: State) -> str | None:
-    """Say so if the positions of the cycle are so few that the depths are 5 % off."""
+def coarse_cycle(model: Model, state: State) -> Finding | None:
+    """Return a finding if the positions of the cycle are so few that the depths are 5 % off."""
     error = cycle_error(model, state)
-    if error <= COARSE:
+    if error <= findings.COARSE:
         return None
     # The error goes with the square of the spacing.
-    gaps = (len(model.cycle) - 1) * math.sqrt(error / FINE)
-    return (
-        f"the {len(model.cycle)} positions of the cycle, {1e3 * model.cycle.apart:.3g} mm apart, "
-        f"leave the wear depth uncertain by about {100 * error:.2g} %, weighted with the load; "
-        f"raise kinematics.positions to {2 * math.ceil(0.5 * gaps) + 1} for 1 %"
-    )
+    gaps = (len(model.cycle) - 1) * math.sqrt(error / findings.FINE)
+    advised = 2 * math.ceil(0.5 * gaps) + 1
+    return findings.coarse_cycle(len(model.cycle), model.cycle.apart, error, advised)
 
 
-def peak_at_the_edge(state: State) -> str | None:
-    """Say so if the largest pressure stands in cells at the edge of the contact alone."""
+def peak_at_the_edge(state: State) -> Finding | None:
+    """Return a finding if the largest pressure stands in cells at the edge of the contact alone."""
     pressure = state.contact.pressure
     touches = np.pad(pressure > 0, 1, constant_values=True)
     inside = touches[1:-1, 1:-1] & touches[:-2, 1:-1] & touches[2:, 1:-1]
     inside &= touches[1:-1, :-2] & touches[1:-1, 2:]
     largest, within = float(np.max(pressure)), float(np.max(pressure, where=inside, initial=0.0))
-    if largest <= SHARP * within or not within:
+    if largest <= findings.SHARP * within or not within:
         return None
-    return (
-        f"the largest pressure, {1e-6 * largest:.4g} MPa, stands in cells at the edge of the "
-        f"contact alone, and {1e-6 * within:.4g} MPa inside of it: it changes with the size of the "
-        "cells and from step to step; compare pressures in the centre instead"
-    )
+    return findings.peak_at_the_edge(largest, within)
 
 
 def positions_for(model: Model, first: ContactSolution) -> int | None:
@@ -218,5 +202,5 @@ def positions_for(model: Model, first: ContactSolution) -> int | None:
     if not starts:
         return None
     path = max(starts[0]) - min(starts[0])
-    spacing = spacing_for(first.pressure, FINE, repeats=model.case.contact.periodic)
+    spacing = spacing_for(first.pressure, findings.FINE, repeats=model.case.contact.periodic)
     return 2 * math.ceil(0.5 * path / spacing) + 1

@@ -12,6 +12,7 @@ import numpy as np
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError
 from tribo.core.fields import WearRate
+from tribo.core.findings import Finding, unstable
 from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.stepping.contacts import counted, in_stripes, solve_cycle, undeformed
@@ -53,7 +54,7 @@ class Explicit(Scheme):
         """Whether the case allows steps beyond the stability limit."""
         return self.allow_unstable
 
-    def check(self, model: Model, state: State) -> str | None:
+    def check(self, model: Model, state: State) -> Finding | None:
         """Check the first step; see `Scheme.check`.
 
         Raises
@@ -92,10 +93,10 @@ class Explicit(Scheme):
         increment = target - state.distance
         moment = moment_after(state, increment, time)
         state = rated(model, state, moment)
-        if not (self.allow_unstable and state.has_notice("stability")):
-            words = self._instability(model, state, moment)
-            if words is not None:
-                state = state.with_notice("stability", words, from_here=True)
+        if not (self.allow_unstable and state.has_finding("stability")):
+            finding = self._instability(model, state, moment)
+            if finding is not None:
+                state = state.from_here(finding)
         return self.step(model, state, increment, time)
 
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
@@ -116,7 +117,7 @@ class Explicit(Scheme):
         after = accepted(model, counted(after, contacts), contacts, loads)
         return with_friction_work(model, state, after, state.contacts, slid.plan)
 
-    def _instability(self, model: Model, state: State, moment: Moment) -> str | None:
+    def _instability(self, model: Model, state: State, moment: Moment) -> Finding | None:
         """Return a warning of a step that is beyond the limit where the case allows it.
 
         Raises
@@ -137,14 +138,12 @@ class Explicit(Scheme):
         increment, dt = moment.distance - state.distance, moment.time - state.time
         if increment < limit:
             return None
-        words = (
-            f"{dt:.4g} s slides {increment:.4g} m, beyond the stability limit of {limit:.4g} m; "
-            f"the largest stable step is {dt * limit / increment:.4g} s"
-        )
+        finding = unstable(dt, increment, limit)
         if self.allow_unstable:
-            return f"{words}. Sooner or later the pressure may chatter"
+            return finding
         raise CaseError(
-            f"{words} (or use stepping.type = 'implicit', or set stepping.allow_unstable = true)",
+            f"{finding.words} (or use stepping.type = 'implicit', or set "
+            "stepping.allow_unstable = true)",
             PLACE,
         )
 

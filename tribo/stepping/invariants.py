@@ -16,6 +16,7 @@ import numpy as np
 from tribo.core.arrays import Array, union
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import NumericalError
+from tribo.core.findings import CHATTERING, chattering
 from tribo.core.measures import Invariants
 from tribo.core.state import State
 from tribo.stepping.rates import CycleRates
@@ -31,9 +32,6 @@ SMALL = 1e-9
 """Part of the volume worn so far below which that of a step drowns in rounding."""
 ONE_LOAD = 1e-3
 """Relative change of the load from which on it, and not chattering, moves the pressure."""
-CHATTERING = 0.5
-"""On smooth and rough balls implicit steps were seen to hand back up to 0.012 of the load, stable
-explicit ones, as they begin, 0.28; unstable ones come to between 0.6 and 0.9."""
 
 _SOLVER = "tighten the tolerance of the contact solver, or choose another (contact.type)"
 _MOTION = "that is a fault of the kinematics; 'tribo plugins check' tests it"
@@ -73,7 +71,7 @@ def hold(model: Model, before: State | None, after: State) -> State:
     ------
     NumericalError
         If one does not hold, with the step, by how much, and a remedy. That the pressure chatters
-        is left to a notice where the case allows unstable steps.
+        is a finding only where the case allows unstable steps.
     """
     if before is not None:
         after = replace(after, previous=tuple(each.pressure for each in before.contacts))
@@ -82,7 +80,7 @@ def hold(model: Model, before: State | None, after: State) -> State:
             after = replace(after, invariants=replace(after.invariants, chattering=share))
     broken = broken_by(after)
     if broken is None and chatters(after) and not model.case.stepping.may_oscillate:
-        broken = chattering_words(after)
+        broken = chattering(after.invariants.chattering).words
     if broken is not None:
         raise NumericalError(
             f"step {after.steps}, at {after.time:.6g} s ({after.distance:.6g} m): {broken}"
@@ -148,15 +146,6 @@ def _chattering(before: Array, between: ContactSolution, after: ContactSolution)
 def chatters(state: State) -> bool:
     """Whether the pressure chatters at the scale of the grid."""
     return state.invariants.chattering > CHATTERING
-
-
-def chattering_words(state: State) -> str:
-    """Say how much it does, and what to do."""
-    return (
-        f"the pressure chatters: {100 * state.invariants.chattering:.0f} % of the load goes back "
-        f"and forth between cells from step to step, and {100 * CHATTERING:.0f} % are allowed; "
-        "shorten the steps (stepping.time_step), or use stepping.type = 'implicit'"
-    )
 
 
 def _not_finite(state: State) -> str | None:

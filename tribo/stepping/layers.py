@@ -12,7 +12,7 @@ import scipy
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
-from tribo.core.notices import Notice
+from tribo.core.findings import Finding, layer_worn_through
 from tribo.core.state import BodyState, State
 from tribo.stepping.memory import Memory, at_surface
 from tribo.stepping.rates import Moment, Rates, rates_at_each
@@ -172,8 +172,8 @@ def worn_through(
     after: Mapping[str, BodyState],
     increment: float,
     depths: Callable[[float], Mapping[str, Array]],
-) -> Iterator[Notice]:
-    """Yield a notice for each layer that a body's deepest point passes in a step.
+) -> Iterator[Finding]:
+    """Yield a finding for each layer that a body's deepest point passes in a step.
 
     It has the time and distance at which that is, under the pressures of the step: `depths` are
     those that bodies lose over its first metres, in m.
@@ -195,12 +195,5 @@ def worn_through(
                     scipy.optimize.brentq(beyond, 0.0, increment, xtol=REACHED * increment)
                 )
             distance = before.distance + first
-            yield Notice(
-                "layer",
-                f"layer {layer} of {name}, down to {1e6 * bottom:.4g} µm, is worn through at its "
-                "deepest point",
-                model.motion.time_at(distance),
-                distance,
-                name,
-                layer,
-            )
+            passed = layer_worn_through(name, layer, bottom)
+            yield passed.at(model.motion.time_at(distance), distance)

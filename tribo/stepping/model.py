@@ -10,6 +10,7 @@ from typing import Any
 from tribo.case import Case
 from tribo.component import components
 from tribo.core.arrays import Array
+from tribo.core.findings import Finding
 from tribo.core.grid import Grid
 from tribo.guards.guard import Guard
 from tribo.guards.motion import GuardedMotion
@@ -37,7 +38,7 @@ class Model:
     contact: ContactSetup
     laws: Laws
     end_time: float
-    chosen: str | None = None
+    chosen: Finding | None = None
     tell: Listener = unheard
 
     @property

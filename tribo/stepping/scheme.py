@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import ConfigDict
 
+from tribo.core.findings import Finding
 from tribo.core.state import State
 from tribo.core.table import Table
 from tribo.stepping.gap_filling import check_filling
@@ -30,11 +31,11 @@ class Scheme(Table, ABC):
 
     @property
     def may_oscillate(self) -> bool:
-        """Whether a pressure that oscillates from step to step is told of only."""
+        """Whether a pressure that oscillates from step to step is only a finding."""
         return False
 
-    def check(self, model: Model, state: State) -> str | None:
-        """Return a warning of the first step from `state`, if one is due.
+    def check(self, model: Model, state: State) -> Finding | None:
+        """Return what is wrong with the first step from `state`, if anything is.
 
         Raises
         ------

@@ -11,9 +11,9 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import PluginError
+from tribo.core.findings import Finding
 from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants
-from tribo.core.notices import Notice
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.stepping.contacts import solved_anew
@@ -155,7 +155,7 @@ def worn_by(
             missed = between[name] if body.missed is None else body.missed + between[name]
             bodies[name] = replace(body, missed=missed)
     mean = model.contact.loads.over_cycle(model.contact.loads.mean(before.time, moment.time))
-    passed: Iterable[Notice] = ()
+    passed: Iterable[Finding] = ()
     if (begun := slid.begun) is not None:
         passed = worn_through(
             model, before, bodies, increment, lambda m: worn_depths(model, begun(m).rates, m)
@@ -170,7 +170,7 @@ def worn_by(
         between=slid.memory.between,
         rates=(),
         steps=before.steps + 1,
-        notices=(*before.notices, *passed),
+        findings=(*before.findings, *passed),
         invariants=wear_balance(model, depths, slid.rates, increment, before),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Self
@@ -14,7 +14,9 @@ import numpy as np
 
 from tribo.case import Case
 from tribo.config.load import case_tables
+from tribo.core import findings
 from tribo.core.errors import CaseError
+from tribo.core.findings import Finding
 from tribo.core.rounding import ROUND_OFF
 from tribo.registry.registry import Registry
 from tribo.result.read import Result
@@ -97,32 +99,27 @@ class Comparison:
 
     @property
     def notes(self) -> list[str]:
-        """Remarks on the comparison: other grids, matched bodies, warnings of the runs."""
+        """The findings in words."""
+        return [each.words for each in self.findings]
+
+    @property
+    def findings(self) -> list[Finding]:
+        """What is to be known: other grids, matched bodies, what the runs have to say."""
         first, last = self.results[self.reference], self.times[-1]
         apart = [label for label, result in self.results.items() if result.grid != first.grid]
-        notes = []
-        if apart:
-            notes.append(
-                f"{', '.join(apart)}: not on the grid of {self.reference}, so that only scalars "
-                "and sections are compared, the latter interpolated where both windows reach"
-            )
-        warned: dict[str, list[str]] = {}
+        found = [findings.other_grid(apart, self.reference)] if apart else []
+        of_runs: dict[Finding, list[str]] = {}
         for label, result in self.results.items():
             names = self.own_names[label].items()
-            told = [f"{own!r} with {name!r}" for name, own in names if own != name]
-            if told:
-                notes.append(
-                    f"{label}: compares {', '.join(told)}; --match NAME=NAME pairs them otherwise"
-                )
+            if paired := [(own, name) for name, own in names if own != name]:
+                found.append(findings.paired(label, paired))
             if result.save_at(last) != len(result.times) - 1:
-                notes.append(
-                    f"{label} goes on to {result.times[-1]:g} s, beyond the last common save"
-                )
+                found.append(findings.goes_on(label, result.times[-1], last))
             if result.status != "done":
-                notes.append(f"{label} is {result.status}, not done")
-            for notice in result.notices:
-                warned.setdefault(notice, []).append(label)
-        return notes + [f"{'; '.join(labels)}: {notice}" for notice, labels in warned.items()]
+                found.append(findings.not_done(label, result.status))
+            for each in result.findings:
+                of_runs.setdefault(each, []).append(label)
+        return found + [findings.of_runs(each, labels) for each, labels in of_runs.items()]
 
     def chosen_times(self, times: Sequence[float] = ()) -> list[float]:
         """Return the times to show: those given, else the first and the last common one.
@@ -163,6 +160,7 @@ class Comparison:
         return {
             "reference": self.reference,
             "notes": self.notes,
+            "findings": [asdict(each) for each in self.findings],
             "results": [
                 {
                     "label": label,

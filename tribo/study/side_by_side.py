@@ -77,7 +77,10 @@ def _off(
     ratio = values[label] / values[reference]
     off = signed(100 * (ratio - 1), 1)
     error = 100 * (errors[label] + ratio * errors[reference]) / values[reference]
-    return f"\n{off} ± {error:.2g} %" if error else f" {off} %"
+    if not error:
+        return f" {off} %"
+    # Of widths that count as many cells nothing more is known.
+    return f"\n{off} ± {error:.2g} %" if ratio != 1 else "\nwithin a cell"
 
 
 def _percent(part: float) -> str:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import sys
+
 from tribo.core.errors import PluginError
+from tribo.registry.hookspecs import hookimpl
 from tribo.registry.registry import from_all_plugins
 from tribo.verification import codes, contacts, formulas, plasticity, punches, strokes, wear
 from tribo.verification.reference import Reference
@@ -13,13 +16,19 @@ _FOUND = (value for module in _MODULES for value in vars(module).values())
 REFERENCES = (*(known for known in _FOUND if isinstance(known, Reference)), *codes.REFERENCES)
 
 
+@hookimpl(trylast=True)
+def tribo_cases() -> tuple[Reference, ...]:
+    """Offer the problems of the kernel."""
+    return REFERENCES
+
+
 def references() -> list[Reference]:
-    """Return tribo's own problems and those of the installed plugins.
+    """Return the problems of the kernel and those of the installed plugins.
 
     `PluginError` if one of those is no `Reference`.
     """
-    others = from_all_plugins("tribo_cases")
-    for other in others:
-        if not isinstance(other, Reference):
-            raise PluginError(f"a plugin's tribo_cases returns {other!r}, which is no Reference")
-    return [*REFERENCES, *others]
+    found = from_all_plugins("tribo_cases", sys.modules[__name__])
+    for each in found:
+        if not isinstance(each, Reference):
+            raise PluginError(f"a plugin's tribo_cases returns {each!r}, which is no Reference")
+    return found

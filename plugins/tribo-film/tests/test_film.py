@@ -120,7 +120,9 @@ def test_the_lab_is_told_where_wear_is_too_deep_for_the_film(k, beyond):
         (row,) = tribo_lab_rows(result)
         depth = result.body("ball").wear_depth[-1].max()
         assert row.value == pytest.approx(depth / result.saves()[0]["approach_m"])
-    assert ("exceeded" in row.label) == beyond == (row.value > 1)
+        found = [each for each in result.report().findings if each.kind == "validity"]
+    assert [(each.value, each.limit) for each in found] == [(row.value, 1.0)] * beyond
+    assert beyond == (row.value > 1)
 
 
 def test_the_lab_is_told_nothing_of_a_film_that_is_not_there():

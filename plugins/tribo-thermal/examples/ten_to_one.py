@@ -14,9 +14,11 @@ held hot  the same, with ten times the way from the ball to its heat sink
 """
 
 import math
+import sys
 import tomllib
+import warnings
 
-from tribo import Simulation
+from tribo import Simulation, TriboWarning
 
 from tribo_thermal.plugin import EXAMPLE
 
@@ -31,6 +33,9 @@ SHARING = {
     "ball all": BALL_ALL,
     "held hot": {**BALL_ALL, "heat_paths": {"ball": {"length": "50 mm", "area": "78.5 mm^2"}}},
 }
+
+findings = {}
+"""Of all runs the first of each kind."""
 
 CONCLUSION = """
 Surfaces that touch have one temperature: heating the contact makes both wear faster, and
@@ -54,7 +59,10 @@ def case(friction, energy, sharing):
 
 def ratio(friction, energy, sharing):
     """Return the volume lost by the ball over that lost by the disk."""
-    last = Simulation(case(friction, energy, sharing)).run().saves()[-1]
+    result = Simulation(case(friction, energy, sharing)).run()
+    for finding in result.findings:
+        findings.setdefault(finding.kind, finding)
+    last = result.saves()[-1]
     lost = {name: body["wear_volume_m3"] for name, body in last["bodies"].items()}
     return lost["ball"] / lost["disk"]
 
@@ -71,6 +79,7 @@ def rounded(value):
 
 def main():
     """Print the table and what follows from it."""
+    warnings.simplefilter("ignore", TriboWarning)
     table = {
         (sharing, friction, energy): ratio(friction, energy, sharing)
         for sharing in SHARING
@@ -97,6 +106,7 @@ def main():
         ]
         print(f"  {sharing:<10}" + (", ".join(enough) or "nothing here"))
     print(CONCLUSION)
+    print(*findings.values(), sep="\n", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -40,13 +40,14 @@ def tables(
         leaves = [leaf for path in paths for leaf in leaves_at(run.case, path)]
         varied = {labelled(name, unit): value for name, value, unit in leaves}
         row = {"run": run.number, "status": "waiting", **varied}
-        message = failures.get(run.path.name, "")
+        message, kinds = failures.get(run.path.name, ""), ""
         if message:
             row["status"] = "failed"
         elif run.path.exists():
             try:
                 with Result.open(run.path) as result:
                     message = "; ".join(result.notices)
+                    kinds = "; ".join(each.kind for each in result.findings)
                     row["status"] = "done" if result.status == "done" else "interrupted"
                     if result.status == "done":
                         row |= _measured(result)
@@ -54,11 +55,11 @@ def tables(
                         saves.append(pandas.DataFrame(begin | result.table("saves")))
             except CaseError as error:
                 row["status"], message = "interrupted", str(error)
-        rows.append(row | {"file": run.path.name, "message": message})
+        rows.append(row | {"file": run.path.name, "findings": kinds, "message": message})
     table = pandas.DataFrame(rows)
     if "steps" in table:
         table["steps"] = table["steps"].astype("Int64")
-    last = ["file", "message"]
+    last = ["file", "findings", "message"]
     table = table[[*table.columns.difference(last, sort=False), *last]]
     return table, pandas.concat(saves) if saves else pandas.DataFrame(columns=["run", "save"])
 

@@ -18,13 +18,11 @@ def tribo_components() -> tuple[type[Component], ...]:
 
 @hookimpl
 def tribo_lab_rows(result: Result) -> list[LabRow]:
-    """Offer the largest wear depth over the first approach, and whether the film holds there."""
+    """Offer the largest wear depth over the first approach, up to which the film holds."""
     if not any(RATIO.name in result.body(name).effects for name in result.body_names):
         return []
     first, *_, last = result.saves()
     depth = max(body["max_wear_depth_m"] for body in last["bodies"].values())
     part = depth / first["approach_m"]
-    verdict = "" if part < SHALLOW else ", which is exceeded"
-    return [
-        LabRow(f"wear depth over elastic approach (film.mixed holds below 1{verdict})", part, "")
-    ]
+    label = f"wear depth over elastic approach (film.mixed holds below {SHALLOW:g})"
+    return [LabRow(label, part, "", limit=SHALLOW)]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import pandas as pd
 from scipy.ndimage import binary_dilation
 from scipy.special import chdtrc
 from tribo import Array, CaseError, Finding, NumericalError
-from tribo.kernel_api import Model, signed
+from tribo.kernel_api import Model, leaves, signed
 
 from tribo_inverse.calibration.linearised import COLLINEAR, normalised
 from tribo_inverse.calibration.quantities import (
@@ -53,16 +54,35 @@ def of_case(model: Model, half_width_x: float) -> list[Finding]:
         return [Finding("sensitivity", f"not known, since {error}")]
     depth, time = f"depth of {found.body}", f"time until {found.body} reaches stop.depth"
     what = depth if found.of == "depth" else time
+    kelvin = {
+        ".".join(map(str, place)): value
+        for place, value, mark in leaves(model.case)
+        if mark and mark.unit == "K"
+    }
     return [
-        Finding(
-            "sensitivity",
-            f"{what} {change:+.2f} ± {found.uncertainty[path]:.2f} % for 1 % more",
-            value=change,
-            uncertainty=found.uncertainty[path],
-            place=path,
-        )
+        _sensitivity(what, path, change, found.uncertainty[path], kelvin.get(path))
         for path, change in [*found.percent.items()][:MOST]
     ]
+
+
+def _sensitivity(
+    what: str, path: str, change: float, uncertainty: float, kelvin: float | None
+) -> Finding:
+    """Word by how many per cent an answer changes for 1 % more of a number, or 1 K more."""
+    # A per cent of a temperature is one of its distance from absolute zero.
+    more, per = ("1 %", 1.0) if kelvin is None else ("1 K", 100 / kelvin)
+    return Finding(
+        "sensitivity",
+        f"{what} {per * change:+.2f} ± {per * uncertainty:.2f} % for {more} more",
+        value=per * change,
+        uncertainty=per * uncertainty,
+        place=path,
+    )
+
+
+def of_run(finding: Finding, runs: Sequence[str] = ()) -> Finding:
+    """Word what some runs of a fit had to say, or all of them."""
+    return replace(finding, words=": ".join([*([", ".join(runs)] if runs else []), str(finding)]))
 
 
 def of_fit(

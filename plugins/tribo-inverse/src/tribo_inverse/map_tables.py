@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from functools import partial
 from io import BytesIO
 from pathlib import Path
@@ -31,7 +32,7 @@ def maps_json(found: FittedMaps, level: float) -> dict[str, Any]:
         "by_grid": found.by_grid,
         "p_value": found.p_value,
         "notes": found.notes,
-        "findings": [each._asdict() for each in found.findings],
+        "findings": [asdict(each) for each in found.findings],
         "maps": {
             name: {key: value.tolist() for key, value in _arrays(each, level).items()}
             for name, each in found.maps.items()

@@ -10,9 +10,10 @@ from tribo import CaseError, Friction, Layer, Load, Material, NumericalError, Re
 from tribo.kernel_api import (
     DataTable,
     Heading,
+    LabReport,
     TableRow,
     environment,
-    findings,
+    findings_of,
     lab_report,
     lab_sentences,
     report_blocks,
@@ -57,9 +58,9 @@ def result_page(result: Result, verified: Path | None = None) -> str:
         title=Path(result.name).stem,
         answer=sentence(result, lab, estimates),
         trust=trust(estimates),
-        tables=_tables(result, estimates),
+        tables=_tables(result, lab, estimates),
         remarks=list(lab_sentences(result, lab)),
-        notes=result.notices,
+        notes=list(map(str, lab.findings)),
         drawing=drawing(case, swept) if _is_whole(case) else "",
         facts=facts(case),
         data=charts(result),
@@ -85,9 +86,9 @@ def made_here() -> dict[str, Any]:
     return {"provenance": [("report made with", words)], "citation": citation}
 
 
-def _tables(result: Result, estimates: Sequence[Estimate]) -> list[DataTable]:
+def _tables(result: Result, lab: LabReport, estimates: Sequence[Estimate]) -> list[DataTable]:
     """Return the tables of the lab report, and the uncertainties after what they are of."""
-    tables = (block for block in report_blocks(result) if isinstance(block, DataTable))
+    tables = (block for block in report_blocks(result, lab) if isinstance(block, DataTable))
     saves, wear, *others = tables
     rows = [
         TableRow((row["name"], amount(row["value"], row["unit"]), _uncertainty(row)))
@@ -102,7 +103,7 @@ def _ruled(result: Result) -> dict[str, Any]:
     """Return which numbers of the case rule its answer, or why that is not known."""
     try:
         model = Simulation(result.case).model
-        found = findings(model, result.saves()[0]["contact_half_width_x_m"])
+        found = findings_of(model, result.saves()[0]["contact_half_width_x_m"])
     except (CaseError, NumericalError) as error:
         return {"why": f"Not known for this case: {error}", "rows": []}
     ruling = [each for each in found if each.kind == "sensitivity"]

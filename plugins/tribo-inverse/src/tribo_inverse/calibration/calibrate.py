@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -133,7 +133,7 @@ class Calibration:
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data in SI units, the fitted cases as TOML; NaN stands for none."""
         fitted = {name: to_toml(tables) for name, tables in self.fitted.items()}
-        findings = [each._asdict() for each in self.findings]
+        findings = [asdict(each) for each in self.findings]
         more = {"p_value": self.p_value, "fitted": fitted, "notes": self.notes}
         return plain(self) | more | {"findings": findings}
 
@@ -279,7 +279,7 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
         findings=(
             *_of_places(experiment, last.maps),
             *of_fit(estimates, data, jacobian, None if scatters else freedom),
-            *(Finding("run", notice) for notice in last.notices),
+            *last.findings,
         ),
     )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -50,7 +50,7 @@ class Choice:
         """Return it as plain data in SI units; NaN stands for none."""
         own = [self.calibrations[name].as_json() for name in self.cases["case"]]
         cases = self.cases.assign(calibration=own).to_dict("records")
-        return {"verdict": self.verdict, "findings": [self.finding._asdict()], "cases": cases}
+        return {"verdict": self.verdict, "findings": [asdict(self.finding)], "cases": cases}
 
 
 def choose_case(

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from tribo import Array, Case, CaseError, Heights
+from tribo import Array, Case, CaseError, Finding, Heights
 from tribo.kernel_api import case_tables, located, validate_case
 
 from tribo_inverse.calibration.cells import (
@@ -46,6 +46,7 @@ from tribo_inverse.calibration.setups import (
     make_run,
     unmeasured,
 )
+from tribo_inverse.findings import of_run
 
 LINEAR_BELOW = 0.1
 """Part of the largest depth of a profile or map below which depths are taken as linear."""
@@ -199,7 +200,7 @@ class Experiment:
         if key in self.runs:
             return self.runs[key]
         responses, grid_sigma = np.empty((2, len(self.table) + len(self.predicted)))
-        notices: dict[str, list[str]] = {}
+        runs: dict[Finding, list[str]] = {}
         maps: dict[int, Array] = {}
         for i, (rows, wanted) in enumerate(self.readings):
             tables, name = self.setups[i].tables, f"run {self.run_count + i + 1}"
@@ -208,8 +209,8 @@ class Experiment:
             for j, depth in made.maps.items():
                 shape = surface_shape(self.setups[i].model, wanted[j].body)
                 maps[int(rows[j])] = depth[: shape[0]]
-            for notice in made.notices:
-                notices.setdefault(notice, []).append(self.setups[i].name or "the case as it is")
+            for finding in made.findings:
+                runs.setdefault(finding, []).append(self.setups[i].name or "the case as it is")
         positive = ~self.table["quantity"].isin(FIELDS).to_numpy()
         for each in self.table[positive & (responses <= 0)[: len(self.table)]].itertuples():
             raise CaseError(
@@ -217,11 +218,11 @@ class Experiment:
                 "give start in fit",
                 each.place,
             )
-        notes = (
-            notice if len(of) == len(self.setups) else f"{', '.join(of)}: {notice}"
-            for notice, of in notices.items()
+        findings = tuple(
+            of_run(finding, () if len(names) == len(self.setups) else names)
+            for finding, names in runs.items()
         )
-        self.runs[key] = SetupRun(responses, grid_sigma, maps, tuple(notes))
+        self.runs[key] = SetupRun(responses, grid_sigma, maps, findings)
         return self.runs[key]
 
     def problem(self, values: Array) -> Problem:

@@ -20,7 +20,7 @@ from tribo_inverse.calibration.measured import MapEntry
 from tribo_inverse.calibration.prior import Prior
 from tribo_inverse.calibration.quantities import DEPTH_MAP
 from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes
-from tribo_inverse.findings import SIGNIFICANT, off_level, off_middle
+from tribo_inverse.findings import SIGNIFICANT, of_run, off_level, off_middle
 
 FAR = 2.0
 """Standard deviations of the prior by which the mean coefficient may be off."""
@@ -74,7 +74,7 @@ def calibrate_maps(
             "the fit went too far from the case to be computed: check the maps' pitch, level and "
             f"uncertainty, and the coefficients of the case; {error}"
         ) from error
-    more = [Finding("run", str(notice)) for notice in last.state.notices]
+    more = [of_run(each) for each in last.state.findings]
     for each in read:
         more += each.findings(found.maps[each.entry.body].off, model.grid.spacing)
     return replace(found, findings=(*found.findings, *more))

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from tribo import Array, Case, CaseError, Simulation, TriboWarning
+from tribo import Array, Case, CaseError, Finding, Simulation, TriboWarning
 from tribo.kernel_api import (
     Model,
     about,
@@ -57,7 +57,7 @@ class SetupRun(NamedTuple):
     """Their standard deviations due to the grid."""
     maps: Mapping[int, Array]
     """Depths all over a surface, shape (rows, ny), by the index of the reading."""
-    notices: tuple[str, ...]
+    findings: tuple[Finding, ...]
 
 
 def find_setups(
@@ -136,14 +136,14 @@ def make_run(
         for p, value in zip(parameters, values, strict=True)
     }
     with warnings.catch_warnings():
-        # The calibration reports the notices of its last run.
+        # The calibration reports the findings of its last run.
         warnings.simplefilter("ignore", TriboWarning)
         numbers = ", ".join(f"{path} = {value:.4g}" for path, value in settings.items())
         with about(f"{name}, with {numbers}"):
             case = validate_case(apply_settings(tables, settings))
             result = Simulation(case).run()
     with result:
-        return SetupRun(*read_all(result, wanted), result.notices)
+        return SetupRun(*read_all(result, wanted), result.findings)
 
 
 def _check_entry(model: Model, entry: MeasuredEntry, place: str) -> None:

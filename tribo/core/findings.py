@@ -1,0 +1,352 @@
+"""What is to be known of a case or a run, as data and in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+from tribo.core.words import readable
+
+NOTHING_WRONG = ("begin", "layer", "stop")
+"""Kinds that say what the case itself asks for."""
+FEW_CELLS = 8
+"""Cells across a first contact, below which its pressure is inaccurate."""
+STEEP = 0.3
+"""Half-width of a contact over the radius of a body, above which the half-space is doubted."""
+DEEP = 0.1
+"""Wear depth over the radius of curvature, above which a wear coefficient is doubted."""
+SHARP = 1.2
+"""Largest pressure at the edge of a contact over that inside, above which it is an artefact."""
+COARSE, FINE = 0.05, 0.01
+"""Error of the depth by too few positions that is reported, and that with those advised."""
+UNLIKE = 0.01
+"""Relative difference of a track from the period that is reported."""
+CHATTERING = 0.5
+"""Part of the load: implicit steps were seen to hand back up to 0.012 on smooth and rough balls,
+stable explicit ones, as they begin, 0.28; unstable ones between 0.6 and 0.9."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What is to be known of a case, a run or a fit.
+
+    Parameters
+    ----------
+    kind : str
+        What it is about, in a word or two, such as ``"averaging"``.
+    words : str
+        What is so, and what to do.
+    value, uncertainty, limit : float, optional
+        The number that it is about, in SI units, and the number that it should keep to.
+    place : str, optional
+        Where in the case, as its path or the name of a body; empty for all of it.
+    time, distance : float, optional
+        From when on it holds, in s, and from which sliding distance on, in m.
+    """
+
+    kind: str
+    words: str
+    value: float | None = None
+    uncertainty: float | None = None
+    limit: float | None = None
+    place: str = ""
+    time: float | None = None
+    distance: float | None = None
+
+    def __str__(self) -> str:
+        """Return the sentence that is printed of a run."""
+        if self.time is None or self.distance is None:
+            return f"{self.kind}: {self.words}"
+        time, distance = (f"{float(f'{value:.4g}'):g}" for value in (self.time, self.distance))
+        return f"{self.kind}: at {time} s ({distance} m) {self.words}"
+
+    @property
+    def is_warning(self) -> bool:
+        """Whether it is more than what the case asks for."""
+        return self.kind not in NOTHING_WRONG
+
+    def at(self, time: float, distance: float) -> Finding:
+        """Return the finding from a time (s) and sliding distance (m) on."""
+        return replace(self, time=time, distance=distance)
+
+
+def few_cells(cells: float) -> Finding:
+    """Word a first contact of only a few cells."""
+    return Finding(
+        "resolution",
+        f"the first contact is only {cells:.1f} cells wide, so its pressure is inaccurate "
+        f"until it has grown: raise grid.cells for {FEW_CELLS} or more",
+        value=cells,
+        limit=FEW_CELLS,
+        place="grid.cells",
+    )
+
+
+def broken_period(body: str, along: str, jump: float) -> Finding:
+    """Word a surface that jumps by so much (m) where the contact repeats along an axis."""
+    return Finding(
+        "period",
+        f"the surface of {body} does not repeat with the window: along {along} it "
+        f"jumps by {1e9 * jump:.3g} nm (root mean square) from one period to the next, "
+        "and presses there; give it a period of the window's length or a part of it",
+        value=jump,
+        limit=0.0,
+        place=f"bodies.{body}.surface",
+    )
+
+
+def too_wide(body: str, ratio: float, radius: float, time: float) -> Finding:
+    """Word a contact whose half-width is so large a part of a radius (m) at a time (s)."""
+    return Finding(
+        "half-space",
+        f"at {readable(time, '.3g')} s the contact's half-width a is {ratio:.2f} of the radius R "
+        f"of {body}, {1e3 * radius:.3g} mm: a half-space with small slopes asks for a/R well "
+        "below 1 (0.1, say), and pressures and depths may be far off",
+        value=ratio,
+        limit=STEEP,
+        place=f"bodies.{body}",
+        time=time,
+    )
+
+
+def too_deep(body: str, depth: float, radius: float) -> Finding:
+    """Word a wear depth that is implausible for a radius of curvature, both in m."""
+    return Finding(
+        "depth",
+        f"{body} would wear about {1e3 * depth:.3g} mm deep, which is {depth / radius:.3g} "
+        f"times the radius of curvature of {1e3 * radius:.3g} mm: is its wear coefficient in "
+        "the unit that was meant? A bare k is in 1/Pa; write '1e-6 mm^3/(N m)' for that unit",
+        value=depth / radius,
+        limit=DEEP,
+        place=f"bodies.{body}",
+    )
+
+
+def unusual(place: str, question: str, value: float, limit: float) -> Finding:
+    """Word a value of the case that is beyond a usual limit."""
+    return Finding("unusual", f"{place} is {question}", value=value, limit=limit, place=place)
+
+
+def short_of_a_lap(body: str, distance: float, length: float) -> Finding:
+    """Word a run that slides over a part of a body's track only, both in m."""
+    return Finding(
+        "lap",
+        f"the run slides {distance:.3g} m, {distance / length:.2g} of the track of {body}, "
+        f"which is {length:.3g} m long: its wear is averaged over the whole track, also "
+        "where the contact never comes to; slide once over it at least, and for the "
+        "average to hold many times",
+        value=distance,
+        limit=length,
+        place=f"bodies.{body}",
+    )
+
+
+def averaged(words: str) -> Finding:
+    """Word where averaging over a track does not hold, as the motion says."""
+    return Finding("averaging", words, place="kinematics")
+
+
+def unlike_the_period(body: str, length: float, period: float) -> Finding:
+    """Word a track averaged over a length other than the period of an endless contact, in m."""
+    return Finding(
+        "averaging",
+        f"the contact repeats every {1e3 * period:.4g} mm without an end, but what one "
+        f"period wears off {body} is averaged over a track of {1e3 * length:.4g} mm: "
+        f"{body} wears {period / length:.2g} times as much as it would; make the track "
+        'as long as the window, or resolve it by kinematics.positions = "cells"',
+        value=length,
+        limit=period,
+        place=f"bodies.{body}",
+    )
+
+
+def coarse_cycle(positions: int, apart: float, error: float, advised: int) -> Finding:
+    """Word so few positions, so far apart (m), that depths are off by a part `error`."""
+    return Finding(
+        "quadrature",
+        f"the {positions} positions of the cycle, {1e3 * apart:.3g} mm apart, "
+        f"leave the wear depth uncertain by about {100 * error:.2g} %, weighted with the load; "
+        f"raise kinematics.positions to {advised} for {100 * FINE:g} %",
+        value=error,
+        limit=COARSE,
+        place="kinematics.positions",
+    )
+
+
+def peak_at_the_edge(largest: float, inside: float) -> Finding:
+    """Word a largest pressure at the edge of the contact, with that inside, in Pa."""
+    return Finding(
+        "resolution",
+        f"the largest pressure, {1e-6 * largest:.4g} MPa, stands in cells at the edge of the "
+        f"contact alone, and {1e-6 * inside:.4g} MPa inside of it: it changes with the size of the "
+        "cells and from step to step; compare pressures in the centre instead",
+        value=largest,
+        limit=SHARP * inside,
+    )
+
+
+def chattering(part: float) -> Finding:
+    """Word a pressure of which such a part goes back and forth between cells."""
+    return Finding(
+        "chattering",
+        f"the pressure chatters: {100 * part:.0f} % of the load goes back "
+        f"and forth between cells from step to step, and {100 * CHATTERING:.0f} % are allowed; "
+        "shorten the steps (stepping.time_step), or use stepping.type = 'implicit'",
+        value=part,
+        limit=CHATTERING,
+        place="stepping",
+    )
+
+
+def unstable(time_step: float, increment: float, limit: float) -> Finding:
+    """Word an explicit step (s) that slides beyond the stability limit, both in m."""
+    largest = time_step * limit / increment
+    return Finding(
+        "stability",
+        f"{time_step:.4g} s slides {increment:.4g} m, beyond the stability limit of {limit:.4g} m, "
+        f"and the pressure may chatter; the largest stable step is {largest:.4g} s",
+        value=time_step,
+        limit=largest,
+        place="stepping.time_step",
+    )
+
+
+def layer_worn_through(body: str, layer: int, bottom: float) -> Finding:
+    """Word a layer, counted from 1, of which the deepest point passes the bottom, in m."""
+    return Finding(
+        "layer",
+        f"layer {layer} of {body}, down to {1e6 * bottom:.4g} µm, is worn through at its "
+        "deepest point",
+        value=bottom,
+        place=f"bodies.{body}.layers.{layer - 1}",
+    )
+
+
+def begun_worn(result: str, time: float, afresh: Sequence[str], left: Sequence[str]) -> Finding:
+    """Word a begin with the bodies of a result at a time (s), and which states it has otherwise."""
+    return Finding(
+        "begin",
+        f"the bodies begin as worn as in {result} at {time:g} s; wear depths, "
+        "volumes and load_distance go on from there, time and distance begin anew"
+        + (f"; what it does not have begins afresh: {', '.join(afresh)}" if afresh else "")
+        + (f"; left out of it is {', '.join(left)}" if left else ""),
+        place="begin",
+    )
+
+
+def ended(time: float, depth: float, limit: float) -> Finding:
+    """Word the end of a run at a time (s), with its wear depth beside stop.depth, both in m."""
+    words, most = f"ended at {time:.6g} s", f"{1e6 * limit:.4g} µm"
+    if depth >= limit:
+        words += f", where the wear depth reached {most}"
+    else:
+        words += f" with a wear depth of {1e6 * depth:.4g} µm; stop.depth, {most}, is not reached"
+    return Finding("stop", words, value=depth, limit=limit, place="stop.depth")
+
+
+def positions_chosen(count: int, reason: str, *, optional: bool = False) -> Finding:
+    """Word the positions at which a cycle is resolved, and why."""
+    remedy = '; kinematics.positions = "average" is faster and less accurate' if optional else ""
+    return _positions(f"the cycle is resolved at {count} positions, as {reason}{remedy}", count)
+
+
+def fewer_positions(count: int, asked: int) -> Finding:
+    """Word a cycle that has fewer cells than it was to have positions."""
+    return _positions(
+        f"the cycle is resolved at {count} positions, every cell of it, in place of {asked}", count
+    )
+
+
+def averaged_although(reason: str, refused: object) -> Finding:
+    """Word a stroke that is averaged because it cannot be resolved."""
+    return _positions(f"the stroke is averaged although {reason}: {refused}", 1)
+
+
+def _positions(words: str, count: int) -> Finding:
+    return Finding("positions", words, value=count, place="kinematics.positions")
+
+
+def would_stop(words: str, time: float, end: float) -> Finding:
+    """Word why a run would stop at a time before its end, both in s."""
+    return Finding("stop", f"the run would stop {words}", value=time, limit=end)
+
+
+def outgrown(size: tuple[float, float], time: float | None, end: float) -> Finding:
+    """Word a window (m) that the contact outgrows at a time before the end, both in s."""
+    lx, ly = (1e3 * edge for edge in size)
+    when = "" if time is None else f", at about {readable(time, '.3g')} s"
+    return Finding(
+        "window",
+        f"the contact outgrows the window of {lx:.4g} × {ly:.4g} mm, and the run would "
+        f"stop there{when}: make grid.size larger (and grid.cells with it)",
+        value=time,
+        limit=end,
+        place="grid.size",
+    )
+
+
+def trial_failed(error: object, *, on_any_cells: bool) -> Finding:
+    """Word a trial run that failed; what a coarse grid cannot carry through, a finer one may."""
+    may = "" if on_any_cells else " (the run, on finer cells, may yet go to its end)"
+    return Finding("trial", f"a trial run on a coarse grid failed{may}: {error}")
+
+
+def beyond(label: str, value: float, limit: float, unit: str) -> Finding:
+    """Word a value of a finished run for which a model does not hold any more."""
+    words = f"{label} is {value:.4g}, beyond {limit:g} {unit}".rstrip()
+    return Finding("validity", words, value=value, limit=limit)
+
+
+def other_grid(labels: Sequence[str], reference: str) -> Finding:
+    """Word results on another grid than the one that they are compared with."""
+    return Finding(
+        "grid",
+        f"{', '.join(labels)}: not on the grid of {reference}, so that only scalars "
+        "and sections are compared, the latter interpolated where both windows reach",
+    )
+
+
+def paired(label: str, names: Sequence[tuple[str, str]]) -> Finding:
+    """Word the bodies of a result that are compared with bodies of other names."""
+    pairs = ", ".join(f"{own!r} with {name!r}" for own, name in names)
+    return Finding("bodies", f"{label}: compares {pairs}; --match NAME=NAME pairs them otherwise")
+
+
+def goes_on(label: str, end: float, last: float) -> Finding:
+    """Word a result that has later saves than the last common one, both in s."""
+    words = f"{label} goes on to {end:g} s, beyond the last common save"
+    return Finding("end", words, value=end, limit=last)
+
+
+def not_done(label: str, status: str) -> Finding:
+    """Word a run that did not come to its end."""
+    return Finding("status", f"{label} is {status}, not done")
+
+
+def of_runs(finding: Finding, labels: Sequence[str]) -> Finding:
+    """Word what several runs have to say."""
+    return replace(finding, words=f"{'; '.join(labels)}: {finding}")
+
+
+def failed(error: object) -> Finding:
+    """Word what ended a run."""
+    return Finding("failed", str(error))
+
+
+def damaged(damage: str) -> Finding:
+    """Word a checkpoint that could not be read."""
+    return Finding("checkpoint", f"{damage}; this is what the checkpoint before it holds")
+
+
+def worn_through(findings: Iterable[Finding]) -> list[dict[str, str | int | float | None]]:
+    """Return which layers of which bodies were worn through, and when, as plain data."""
+    places = [(each, each.place.split(".")) for each in findings if each.kind == "layer"]
+    return [
+        {
+            "body": place[1],
+            "layer": int(place[3]) + 1,
+            "distance_m": each.distance,
+            "time_s": each.time,
+        }
+        for each, place in places
+    ]
