@@ -25,6 +25,8 @@ MEASURE = """
     from tribo.simulation.memory import memory_needed, memory_left
     from tribo.simulation.run import Simulation
     warnings.simplefilter("ignore")
+    # Imported when they are first used, and no part of what a case takes.
+    import h5py, scipy.fft, scipy.ndimage, scipy.optimize
     cells = 320
     for case in sys.argv[1:]:
         if not os.fork():
