@@ -77,10 +77,10 @@ class GuardedMotion(Guard[Kinematics]):
         rate = readonly(np.ones(grid.cells))
         own = self.ask(getattr, exposure, "rows"), grid.cells[1]
         mean = self.ask(exposure.average, rate)
-        if exposure.averaged:
+        if exposure.starts is None:
             mean = self.array("average", mean, own, where)
         elif not np.array_equal(mean, rate):
-            raise self.bad("average", "not the depth itself, as it must be but on a track", where)
+            raise self.bad("average", "not the rate itself, as on any rows of its own", where)
         passing = rate if exposure.starts is None else readonly(np.ones(own))
         self.array("envelope", self.ask(exposure.envelope, passing), own, where)
         self.number("volume", self.ask(exposure.volume, readonly(mean)), where)

@@ -79,7 +79,10 @@ class KinematicsChecks(Checks):
         motion = GuardedMotion(self._make())
         motion.check_distance(motion.end_time(None))
         for grid in (GRID, RepeatingGrid(size=GRID.size, cells=GRID.cells)):
-            self._exposures(grid)
+            rate = samples.hertz_pressure(grid)
+            for exposure in self._exposures(grid).values():
+                itself = exposure.swept or np.array_equal(exposure.average(rate), rate)
+                require(itself, "the average of a body that is not swept is not the rate itself")
 
     def path_never_shrinks(self) -> None:
         """The sliding distance never decreases, also where the motion turns round."""
