@@ -26,6 +26,7 @@ from tribo.component import Component
 from tribo.core.dimensions import _SYMBOLS, _UNPREFIXED, PREFIXES
 from tribo.core.errors import TriboError
 from tribo.core.units import _KINDS, Quantity
+from tribo.guards.answers import ANSWERS
 from tribo.packages import COMMANDS
 from tribo.registry import hookspecs
 from tribo.registry.kinds import KINDS
@@ -49,6 +50,7 @@ def write(folder: Path) -> None:
         "columns": "\n".join(columns_table()),
         "hooks": "\n".join(hooks_table()),
         "kinds": "\n".join(kinds_table()),
+        "answers": "\n".join(answers_tables()),
         "plugin_api": "\n".join(plugin_page()),
     }
     for name, text in pages.items():
@@ -179,6 +181,18 @@ def kinds_table() -> Iterator[str]:
         module = inspect.getmodule(base)
         question = (inspect.getdoc(module) or "").splitlines()[0]
         yield f"| `{base.__name__}` | {question} |"
+
+
+def answers_tables() -> Iterator[str]:
+    """Yield what a component of each kind must answer, as the guard in a run holds it."""
+    for kind, answers in ANSWERS.items():
+        yield f"`{KINDS[kind].__name__}`\n"
+        yield "| Answer | Meaning | Unit | Shape | Limits |\n| --- | --- | --- | --- | --- |"
+        for answer in answers.values():
+            shape = f"broadcasts to {answer.shape}" if answer.spreads else answer.shape
+            cells = (answer.description, answer.unit, shape or "a number", answer.limits)
+            yield f"| `{answer.name}` | {' | '.join(cells)} |"
+        yield ""
 
 
 def plugin_page() -> Iterator[str]:

@@ -98,12 +98,16 @@ def holed(self, grid):
 
 
 for name, words, height in (
-    ("column", "of body 'ball' gave a height", lambda s, grid: Sphere.height(s, grid)[:, :1]),
-    ("holed", "a height map that is not finite in 1 cells", holed),
+    (
+        "column",
+        "of body 'ball' gave 'height' that is float64 of shape (32, 1)",
+        lambda s, grid: Sphere.height(s, grid)[:, :1],
+    ),
+    ("holed", "'height' that is not finite in 1 cells", holed),
     ("no_scan", "FileNotFoundError: scan.opd", raising(FileNotFoundError("scan.opd"))),
 ):
     ZOO.bad(name, Ball, words, height=height)
-for name, words, curvature in (("one_curvature", "not an array of shape (2,): 3", lambda self: 3),):
+for name, words, curvature in (("one_curvature", "'curvature' that is 3", lambda self: 3),):
     ZOO.bad(name, Ball, words, curvature=property(curvature))
 
 # Effects.
@@ -122,12 +126,16 @@ class Heat(Effect):
 
 
 for name, words, fields in (
-    ("no_fields", "instead of its fields", lambda self, contact: None),
+    ("no_fields", "NoneType as its fields", lambda self, contact: None),
     ("forgets_the_field", "gave no 'zoo_heat' for body 'ball'", lambda self, contact: {}),
 ):
     ZOO.bad(name, Heat, words, saved=True, fields=fields)
 for name, words, heat in (
-    ("short_heat", "not an array of shape (32, 32)", lambda self, pressure: pressure[1:]),
+    (
+        "short_heat",
+        "'zoo_heat' for body 'ball' that is float64 of shape (31, 32)",
+        lambda self, pressure: pressure[1:],
+    ),
     ("heat_raises", "raised KeyError: 'steel'", raising(KeyError("steel"))),
     ("heat_writes", "read-only", lambda self, pressure: writing(pressure)),
 ):
@@ -164,7 +172,11 @@ for name, words, spoilt in (
     ("no_rate", "of body 'ball' gave a NoneType", lambda self, good, local: None),
     ("rate_nan", "not finite in", rated(lambda r, local: {"depth_rate": r.depth_rate * np.nan})),
     ("short_rate", "of shape", rated(lambda r, local: {"depth_rate": r.depth_rate[1:]})),
-    ("grows", "gave a negative", rated(lambda r, local: {"depth_rate": -r.depth_rate})),
+    (
+        "grows",
+        "'depth_rate' that is from -",
+        rated(lambda r, local: {"depth_rate": -r.depth_rate}),
+    ),
     (
         "wears_untouched",
         "that is not 0 in",
@@ -177,12 +189,14 @@ for name, words, spoilt in (
     ZOO.bad(name, Law, words, saved=True, spoilt=spoilt)
 for name, words, spoilt in (
     ("forgets_its_state", "no rate for its state field 'slid'", lambda r, local: {}),
-    ("ages", "a rate of 'slid' that is not 0 in", lambda r, local: {"slid": r.depth_slope}),
+    ("ages", "'rate of slid' that is not 0 in", lambda r, local: {"slid": r.depth_slope}),
 ):
     spoilt = rated(lambda r, local, rates=spoilt: {"state_rates": rates(r, local)})
     ZOO.bad(name, Slides, words, saved=True, spoilt=spoilt)
 ZOO.bad("starts_nowhere", Slides, "but starts with {}", initial_state=lambda self: {})
-ZOO.bad("starts_nan", Slides, "an initial 'slid'", initial_state=lambda self: {"slid": np.nan})
+ZOO.bad(
+    "starts_nan", Slides, "'initial slid' that is nan", initial_state=lambda self: {"slid": np.nan}
+)
 
 # Contact solvers.
 
@@ -230,22 +244,22 @@ def used_again(self, problem, start=None):
 
 
 for name, words, spoilt in (
-    ("no_solution", "NoneType instead of", lambda self, s, problem: None),
+    ("no_solution", "NoneType as its solution", lambda self, s, problem: None),
     ("short", "of shape (31, 32)", solution(lambda s: {"pressure": s.pressure[1:]})),
     ("nan_p", "1 cells", solution(lambda s: {"pressure": point(s.pressure, corner=np.nan)})),
     (
         "adhesive",
-        "a negative pressure (-5",
+        "'pressure' that is from -5 to ",
         solution(lambda s: {"pressure": point(s.pressure, corner=-5.0, more=5.0)}),
     ),
     ("too_hard", "above the hardness of 2e+09 Pa", solution(focused)),
     ("too_strong", "carries 100.01 N", solution(lambda s: {"pressure": 1.0001 * s.pressure})),
     (
         "no_approach",
-        "gave an approach, a number",
+        "'approach' that is nan",
         solution(lambda s: {"approach": np.nan}),
     ),
-    ("no_residuals", "instead of Residuals", solution(lambda s: {"residuals": None})),
+    ("no_residuals", "NoneType as its residuals", solution(lambda s: {"residuals": None})),
     ("divides", "raised ZeroDivisionError: division by zero", lambda self, s, problem: 1 / 0),
     ("mute", "raised NumericalError", raising(NumericalError())),
     ("gives_up", "it did not like it", raising(NumericalError("it did not like it"))),

@@ -25,11 +25,16 @@ def stopping(time, distance):
 for name, words, saved, parts in (
     ("backwards", "it must slide on from 0", False, path(lambda t, s: -s)),
     ("stands_still", "slides from 0 m to 0 m", False, path(lambda t, s: 0.0)),
-    ("no_path", "that is not a finite number: a NoneType", False, path(lambda t, s: None)),
+    ("no_path", "'distance_at' at 0 s that is a NoneType", False, path(lambda t, s: None)),
     # Between the times that are tried at first.
     ("turns_back", "does not slide on", True, path(lambda t, s: s if abs(t - 7) > 0.1 else 0.0)),
     ("stops", "raised OverflowError: too late", True, path(stopping)),
-    ("ends_before", "before it begins", False, {"end_time": property(lambda self: -3.0)}),
+    (
+        "ends_before",
+        "'end_time' that is -3; ",
+        False,
+        {"end_time": property(lambda self: -3.0)},
+    ),
     ("no_inverse", "not the inverse", False, {"time_at": lambda self, s: 5 * s}),
     ("loses_time", "puts 0.", True, {"time_at": lambda self, s: 10 * s if 80 * s % 1 == 0 else 0}),
     ("no_exposures", "gave exposures of a NoneType", False, {"exposures": lambda *given: None}),
@@ -41,7 +46,7 @@ for name, words, saved, parts in (
     ),
     (
         "exposes_a_class",
-        "as exposure of body 'disk'",
+        "as the exposure of body 'disk'",
         False,
         {"exposures": lambda self, grid, bodies: {"ball": Stationary(grid), "disk": Track}},
     ),
@@ -70,19 +75,27 @@ def doubled(self, rate):
 
 
 for name, words, average in (
-    ("average_none", "gave an average for body 'ball' that", lambda self, rate: None),
-    ("average_negative", "gave a negative average", lambda self, rate: -np.abs(rate)),
+    ("average_none", "'average' for body 'ball' that", lambda self, rate: None),
+    ("average_negative", "'average' for body 'ball' that", lambda self, rate: -np.abs(rate)),
     ("average_writes", "read-only", doubled),
     ("average_raises", "raised IndexError: out", staticmethod(raising(IndexError("out")))),
 ):
     exposed(name, words, average=average)
-exposed("volume_nan", "not a finite number: nan", volume=lambda self, depth: np.nan)
+exposed("volume_nan", "'volume' for body 'ball' that is nan", volume=lambda self, depth: np.nan)
 for name, words, envelope in (
-    ("envelope_short", "an array of shape (32, 32)", lambda self, field: field[1:]),
+    (
+        "envelope_short",
+        "'envelope' for body 'ball' that is float64 of shape (31, 32)",
+        lambda self, field: field[1:],
+    ),
 ):
     exposed(name, words, envelope=envelope)
 for name, words, compliance in (
-    ("compliance_array", "instead of a WearCompliance", lambda self, k, p: k),
-    ("compliance_below_0", "a negative", lambda self, k, p: WearCompliance(-k, np.zeros(32))),
+    ("compliance_array", "ndarray as a compliance for body 'ball'", lambda self, k, p: k),
+    (
+        "compliance_below_0",
+        "'local' for body 'ball' that is from -",
+        lambda self, k, p: WearCompliance(-k, np.zeros(32)),
+    ),
 ):
     exposed(name, words, compliance=compliance)

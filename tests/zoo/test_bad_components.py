@@ -65,7 +65,7 @@ def test_the_smallest_compliance_is_a_number(run):
     zoo.bad(
         "boastful",
         DcFft,
-        "a smallest compliance that is not a finite number",
+        "'smallest_compliance' that is a str",
         smallest_compliance=lambda self, system: "tiny",
     )
     (bad,) = zoo.kept

@@ -47,14 +47,6 @@ class Field:
     def __str__(self) -> str:
         return f"{self.name} [{self.unit}] {self.description}"
 
-    def outside(self, low: float, high: float) -> str:
-        """Return which limit values from `low` to `high` pass, in words; empty if none."""
-        if self.at_least is not None and low < self.at_least:
-            return f"below {self.at_least:g} {self.unit} ({low:.6g})"
-        if self.at_most is not None and high > self.at_most:
-            return f"above {self.at_most:g} {self.unit} ({high:.6g})"
-        return ""
-
 
 def check_declared(owner: object, who: str) -> None:
     """Check the fields that a class provides or keeps, and the names of those that it requires.

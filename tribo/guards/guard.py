@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
+from functools import cached_property
 from numbers import Number
 from typing import Any, Generic, ParamSpec, TypeVar
 
@@ -15,6 +15,7 @@ from tribo.component import Component
 from tribo.core.arrays import Array
 from tribo.core.errors import BadValues, NumericalError, PluginError, TriboError
 from tribo.core.words import said
+from tribo.guards.answers import Answer, answers_of
 from tribo.guards.trial_time import check_time
 
 REAL = "fiub"
@@ -32,6 +33,11 @@ class Guard(Generic[C]):
     def __init__(self, component: C, body: str | None = None) -> None:
         self.component = component
         self.body = body
+
+    @cached_property
+    def answers(self) -> Mapping[str, Answer]:
+        """What the component must answer, by name."""
+        return answers_of(self.component)
 
     def __str__(self) -> str:
         """Return what messages call it, as ``wear law 'archard' of body 'ball'``."""
@@ -58,54 +64,54 @@ class Guard(Generic[C]):
                 raise NumericalError(f"{self}: {error}") from error
             raise
 
-    def number(self, what: str, value: object) -> float:
-        """Return `value`, which is meant to be `what` ("an approach"), as a finite float."""
-        if isinstance(value, float | int) and math.isfinite(value):
-            return float(value)
-        plain = _plain(value)
-        if plain.shape != () or not np.isfinite(plain):
-            raise BadValues(f"{self} gave {what} that is not a finite number: {_shown(value)}")
+    def number(self, name: str, value: object, where: str = "") -> float:
+        """Return the answer `name`, which is a number, as a float."""
+        plain = value if isinstance(value, float | int) else _plain(value)
+        if isinstance(plain, np.ndarray):
+            if plain.shape != ():
+                raise self.bad(name, _shown(value), where)
+            plain = float(plain)
+        least, most = self.answers[name].range
+        if not least <= plain <= most:
+            raise self.bad(name, f"{plain:.6g}", where)
         return float(plain)
 
-    def field(
-        self,
-        what: str,
-        values: object,
-        shape: tuple[int, ...],
-        *,
-        spread: bool = False,
-        at_least: float = -np.inf,
-    ) -> Array:
-        """Return `values`, which are meant to be `what`, as finite floats of this shape.
-
-        With `spread` they need only broadcast to it; the array cannot be written to any more.
-        """
+    def array(self, name: str, values: object, shape: tuple[int, ...], where: str = "") -> Array:
+        """Return the answer `name` as floats of this shape, which cannot be written to any more."""
+        answer = self.answers[name]
         plain = values if isinstance(values, np.ndarray) else _plain(values)
-        if spread and plain.shape != shape:
+        if answer.spreads and plain.shape != shape:
             with suppress(ValueError):
                 plain = np.broadcast_to(plain, shape)
         if plain.shape != shape or plain.dtype.kind not in REAL:
-            raise BadValues(
-                f"{self} gave {what} that is not an array of shape {shape}: {_shown(values)}"
-            )
+            raise self.bad(name, f"{_shown(values)}, not of shape {shape}", where)
         # Sums depend on the order in memory, and a checkpoint keeps but one.
         array = np.asarray(plain, dtype=np.float64, order="C")
         low, high = np.minimum.reduce(array, axis=None), np.maximum.reduce(array, axis=None)
+        least, most = answer.range
         # Both are NaN if any value is.
-        if not -np.inf < low <= high < np.inf:
+        if not least <= low <= high <= most:
             bad = np.count_nonzero(~np.isfinite(array))
-            raise BadValues(f"{self} gave {what} that is not finite in {bad} cells")
-        if low < at_least:
-            raise BadValues(f"{self} gave a negative {what.partition(' ')[2]} ({low:.3g})")
+            fault = f"not finite in {bad} cells" if bad else f"from {low:.6g} to {high:.6g}"
+            raise self.bad(name, fault, where)
         if array.base is not None:
             # What it is a view of could still be written to.
             array = array.copy()
         array.setflags(write=False)
         return array
 
-    def wrong(self, answer: object, instead: str) -> PluginError:
-        """Return the error of an answer of the wrong type."""
-        return PluginError(f"{self} gave a {type(answer).__name__} {instead}")
+    def bad(self, name: str, fault: str, where: str = "") -> BadValues:
+        """Return the error of the answer `name`, with what is wrong and what is allowed."""
+        return BadValues(
+            f"{self} gave {name!r}{where} that is {fault}; {self.answers[name].needed}"
+        )
+
+    def typed(self, answer: object, kind: type, method: str) -> Any:
+        """Return an answer, which is meant to be `method` ("its rate"), if it is of a class."""
+        if not isinstance(answer, kind):
+            given, needed = type(answer).__name__, kind.__name__
+            raise PluginError(f"{self} gave a {given} as {method}; it must be a {needed}")
+        return answer
 
 
 def _plain(value: object) -> NDArray[Any]:

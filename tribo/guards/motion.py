@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from tribo.core.arrays import Array, readonly
+from tribo.core.arrays import readonly
 from tribo.core.contact import WearCompliance
 from tribo.core.errors import BadValues, PluginError
 from tribo.core.grid import Grid
@@ -26,46 +26,34 @@ class GuardedMotion(Guard[Kinematics]):
 
     def cycle(self, grid: Grid) -> tuple[Position, ...]:
         """Return the positions of a cycle, whose shares add up to 1."""
-        answer = self.ask(lambda: tuple(self.component.cycle(grid)))
-        if not answer or not all(isinstance(position, Position) for position in answer):
-            raise self.wrong(answer, "as positions of its cycle")
-        shares = [self.number("a share of the path", position.share) for position in answer]
-        if min(shares) < 0 or abs(sum(shares) - 1) > WHOLE:
-            raise BadValues(
-                f"{self} gave shares of the path that add up to {sum(shares):g}, not to 1"
+        positions = []
+        for each in self.ask(lambda: tuple(self.component.cycle(grid))):
+            position = self.typed(each, Position, "a position of its cycle")
+            reach = position.reach
+            positions.append(
+                Position(
+                    self.number("share", position.share),
+                    self._speeds(position.speeds),
+                    None if reach is None else self.array("reach", reach, grid.cells),
+                    self.number("rest", position.rest),
+                )
             )
-        rests = [self.number("a time at rest", position.rest) for position in answer]
-        if min(rests) < 0:
-            raise BadValues(f"{self} gave a time at rest of {min(rests):g} s/m")
-        return tuple(
-            Position(share, self._speeds(position.speeds), self._reach(position.reach, grid), rest)
-            for share, rest, position in zip(shares, rests, answer, strict=True)
-        )
-
-    def _reach(self, answer: Array | None, grid: Grid) -> Array | None:
-        if answer is None:
-            return None
-        what = "a sliding distance of each point"
-        reach = self.field(what, answer, grid.cells)
-        if np.min(reach) <= 0:
-            raise BadValues(f"{self} gave {what} of which one is not positive")
-        return reach
+        self._add_up("share", [position.share for position in positions])
+        return tuple(positions)
 
     def _speeds(self, answer: Speeds | None) -> Speeds | None:
         if answer is None:
             return None
-        what = "speeds of a cycle with their shares of the distance"
-        pairs = self.field(what, answer, (self.ask(len, answer), 2))
-        if np.min(pairs) < 0:
-            raise BadValues(f"{self} gave {what} of which one is negative")
-        total = float(sum(pairs[:, 1]))
-        if abs(total - 1) > WHOLE:
-            raise BadValues(
-                f"{self} gave shares of the distance that add up to {total:g}, not to 1"
-            )
+        pairs = self.array("speeds", answer, (self.ask(len, answer), 2))
+        self._add_up("speeds", pairs[:, 1])
         return [(float(speed), float(share)) for speed, share in pairs]
 
-    def exposures(self, grid: Grid, bodies: Sequence[str]) -> dict[str, Exposure]:
+    def _add_up(self, name: str, shares: Iterable[float]) -> None:
+        total = float(sum(shares))
+        if abs(total - 1) > WHOLE:
+            raise BadValues(f"{self} gave {name!r} with shares that add up to {total:g}, not to 1")
+
+    def exposures(self, grid: Grid, bodies: Sequence[str], positions: int) -> dict[str, Exposure]:
         """Return how each body meets the contact; exposures not tribo's own are tried once."""
         answer = self.ask(self.component.exposures, grid, bodies)
         if not isinstance(answer, Mapping) or set(answer) != set(bodies):
@@ -74,46 +62,40 @@ class GuardedMotion(Guard[Kinematics]):
                 f"{self} gave exposures of {given}, but the bodies are {list(bodies)}"
             )
         for body, exposure in answer.items():
-            if not isinstance(exposure, Exposure):
-                raise self.wrong(exposure, f"as exposure of body {body!r}")
-            lengths = np.asarray(getattr(exposure, "length", 1.0))
-            if not np.all((lengths > 0) & np.isfinite(lengths)):
-                raise BadValues(f"{self} has a track of length {lengths!s:.60} m for body {body!r}")
+            self.typed(exposure, Exposure, f"the exposure of body {body!r}")
+            where = f" for body {body!r}"
+            length = np.asarray(getattr(exposure, "length", 1.0))
+            self.array("length", length, length.shape, where)
             if type(exposure) not in (Stationary, Track, Passing):
-                self._try(exposure, f"for body {body!r}", grid)
+                self._try(exposure, where, grid)
+            if exposure.starts is not None:
+                self._check_starts(exposure, exposure.starts, positions, grid)
         return {body: answer[body] for body in bodies}
 
     def _try(self, exposure: Exposure, where: str, grid: Grid) -> None:
         """Hold an exposure to its contract, which is the same at each call."""
-        rate, own = (
-            readonly(np.ones(grid.cells)),
-            (self.ask(getattr, exposure, "rows"), grid.cells[1]),
-        )
+        rate = readonly(np.ones(grid.cells))
+        own = self.ask(getattr, exposure, "rows"), grid.cells[1]
         mean = self.ask(exposure.average, rate)
         if exposure.starts is None:
-            mean = self.field(f"an average {where}", mean, own, at_least=0.0)
+            mean = self.array("average", mean, own, where)
         elif not np.array_equal(mean, rate):
-            raise PluginError(
-                f"{self} gave an average {where} that is not the rate itself, which is laid on the "
-                "body at each of its starts"
-            )
+            raise self.bad("average", "not the rate itself, as on any rows of its own", where)
         passing = rate if exposure.starts is None else readonly(np.ones(own))
-        self.field(f"an envelope {where}", self.ask(exposure.envelope, passing), own)
-        self.number(f"a volume {where}", self.ask(exposure.volume, readonly(mean)))
+        self.array("envelope", self.ask(exposure.envelope, passing), own, where)
+        self.number("volume", self.ask(exposure.volume, readonly(mean)), where)
         given = self.ask(exposure.compliance, rate, rate)
-        if given is None:
-            return
-        if not isinstance(given, WearCompliance):
-            raise self.wrong(given, "instead of a WearCompliance")
-        self.field(f"a local compliance {where}", given.local, grid.cells, at_least=0.0)
-        self.field(f"a swept compliance {where}", given.swept, grid.cells[1:], at_least=0.0)
+        if given is not None:
+            self.typed(given, WearCompliance, f"a compliance{where}")
+            self.array("local", given.local, grid.cells, where)
+            self.array("swept", given.swept, grid.cells[1:], where)
 
-    def check_starts(self, exposure: Exposure, positions: int, grid: Grid) -> None:
+    def _check_starts(
+        self, exposure: Exposure, given: Sequence[int], positions: int, grid: Grid
+    ) -> None:
         """Hold `starts` to one row for each position, in the body's rows, the middle one midway."""
-        if exposure.starts is None:
-            return
         rows, window = exposure.rows, grid.cells[0]
-        starts = [int(self.number("a start", start)) for start in exposure.starts]
+        starts = [int(self.number("starts", start)) for start in given]
         if grid.period is not None and rows != window:
             raise PluginError(
                 f"{self} has {rows} rows where the contact repeats with the window; it needs "
@@ -131,25 +113,23 @@ class GuardedMotion(Guard[Kinematics]):
 
     def end_time(self, distance: float | None) -> float:
         """Return when the motion ends, or has slid `distance` (m) if that is sooner, in s."""
-        end = self.number("an end", self.ask(getattr, self.component, "end_time"))
-        if distance is not None:
-            end = min(end, self.time_at(distance))
-        if end <= 0:
-            raise PluginError(f"{self} ends at {end:g} s, before it begins")
-        return end
+        end = self.number("end_time", self.ask(getattr, self.component, "end_time"))
+        return end if distance is None else min(end, self.time_at(distance))
 
     def edges(self) -> list[float]:
         """Return the times at which its speed jumps, in s."""
-        answer = self.ask(lambda: list(self.component.edges))
-        return [self.number("a time at which its speed jumps", time) for time in answer]
+        times = self.ask(lambda: list(self.component.edges))
+        return [self.number("edges", time) for time in times]
 
     def distance_at(self, time: float) -> float:
         """Return the sliding distance from 0 to `time` (s), in m."""
-        return self.number(f"a distance at {time:g} s", self.ask(self.component.distance_at, time))
+        distance = self.ask(self.component.distance_at, time)
+        return self.number("distance_at", distance, f" at {time:g} s")
 
     def time_at(self, distance: float) -> float:
         """Return the time at which it has slid `distance` (m), in s."""
-        return self.number(f"a time at {distance:g} m", self.ask(self.component.time_at, distance))
+        time = self.ask(self.component.time_at, distance)
+        return self.number("time_at", time, f" at {distance:g} m")
 
     def check_distance(self, end: float) -> None:
         """Refuse a distance that does not grow from 0 to `end` (s), or is not `time_at`'s inverse.
@@ -178,6 +158,4 @@ class GuardedMotion(Guard[Kinematics]):
     def limitation(self, *seen: Any) -> str | None:
         """Return why its averaging no longer holds, if so; see `Kinematics.limitation`."""
         answer = self.ask(self.component.limitation, *seen)
-        if not isinstance(answer, str | None):
-            raise self.wrong(answer, "as its limitation")
-        return answer
+        return None if answer is None else self.typed(answer, str, "its limitation")

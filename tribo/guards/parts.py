@@ -21,7 +21,6 @@ from tribo.core.contact import (
 from tribo.core.errors import BadValues, CaseError, PluginError
 from tribo.core.fields import (
     FRICTION_COEFFICIENT,
-    LOAD_SHARE,
     ContactConditions,
     Field,
     LocalConditions,
@@ -30,14 +29,13 @@ from tribo.core.fields import (
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.effects.effect import Effect
+from tribo.guards.answers import initial, rate_of
 from tribo.guards.guard import Guard
 from tribo.surfaces.surface import Surface
 from tribo.wear.law import WearLaw
 
 NUDGE = 1e-6
 """Part of the largest pressure by which it is raised to find a slope that a law leaves out."""
-LIMITED = {field.name: field for field in (FRICTION_COEFFICIENT, LOAD_SHARE)}
-"""Fields that a run itself acts on, whose limits are its own."""
 LOAD_BALANCE = 1e-6
 ABOVE_CAP = 1e-6
 
@@ -47,11 +45,11 @@ class GuardedSurface(Guard[Surface]):
 
     def __init__(self, surface: Surface, body: str, grid: Grid) -> None:
         super().__init__(surface, body)
-        self.height = self.field("a height map", self.ask(surface.height, grid), grid.cells)
+        self.height = self.array("height", self.ask(surface.height, grid), grid.cells)
         self.curvature: tuple[float, float] | None = None
         curvature: object = self.ask(getattr, surface, "curvature")
         if curvature is not None:
-            along, across = self.field("a curvature", curvature, (2,))
+            along, across = self.array("curvature", curvature, (2,))
             self.curvature = float(along), float(across)
 
 
@@ -91,32 +89,23 @@ class GuardedLaw(Guard[WearLaw]):
         slope = answer.depth_slope if mean is None else np.zeros(shape)
         if slope is None:
             slope = self._slope(local, depth)
-        slope = self.field("a derivative", slope, shape, spread=True)
+        slope = self.array("depth_slope", slope, shape)
         state = _rates(self, answer.state_rates, dict.fromkeys(self.initial_state, shape))
-        for name, change in state.items():
-            self._untouched(f"a rate of {name!r}", change, local.pressure)
+        # What is not touched neither wears nor changes: a law is asked near the contact.
+        untouched = local.pressure == 0
+        named = {"depth_rate": depth, **{rate_of(field): state[field] for field in state}}
+        for name, values in named.items():
+            if bare := np.count_nonzero((values != 0) & untouched):
+                raise self.bad(name, f"not 0 in {bare} cells where the pressure is 0")
         return WearRate(depth, np.maximum(slope, 0.0) if np.min(slope) < 0 else slope, state)
 
     def _depth(
         self, local: LocalConditions, mean: WearRate | None = None
     ) -> tuple[WearRate, Array]:
-        answer = self.ask(self.component.rate, local) if mean is None else mean
-        pressure = local.pressure
-        if not isinstance(answer, WearRate):
-            raise self.wrong(answer, "instead of a WearRate")
-        what = "a depth per metre"
-        depth = self.field(what, answer.depth_rate, pressure.shape, spread=True, at_least=0.0)
-        self._untouched(what, depth, pressure)
+        given = self.ask(self.component.rate, local) if mean is None else mean
+        answer: WearRate = self.typed(given, WearRate, "its rate")
+        depth = self.array("depth_rate", answer.depth_rate, local.pressure.shape)
         return answer, depth
-
-    def _untouched(self, what: str, values: Array, pressure: Array) -> None:
-        """Refuse values that are not 0 where nothing presses: a law is asked near the contact."""
-        bare = np.count_nonzero((values != 0) & (pressure == 0))
-        if bare:
-            raise BadValues(
-                f"{self} gave {what} that is not 0 in {bare} cells where the pressure is 0; what "
-                "is not touched neither wears nor changes"
-            )
 
     def _slope(self, local: LocalConditions, depth: Array) -> Array:
         """Return the derivative of the depth in pressure, by a finite step up; 0 at no pressure."""
@@ -152,24 +141,19 @@ class GuardedEffect(Guard[Effect]):
 
     def fields(self, contact: ContactConditions) -> dict[str, dict[str, Array]]:
         """Return each provided field for each body, shape (nx, ny)."""
-        answer = self.ask(self.component.fields, contact)
-        if not isinstance(answer, Mapping):
-            raise self.wrong(answer, "instead of its fields")
+        given = self.ask(self.component.fields, contact)
+        answer = self.typed(given, Mapping, "its fields")
         found: dict[str, dict[str, Array]] = {}
         when = "" if contact.speed > 0 else " at rest"
-        for field in self.provides:
-            of_bodies = answer.get(field.name, {})
-            found[field.name] = {}
+        for name in [field.name for field in self.provides]:
+            of_bodies = answer.get(name, {})
+            found[name] = {}
             for body in contact.materials:
                 values = of_bodies.get(body) if isinstance(of_bodies, Mapping) else None
-                what = f"{field.name!r} for body {body!r}{when}"
+                where = f" for body {body!r}{when}"
                 if values is None:
-                    raise PluginError(f"{self} gave no {what}")
-                array = self.field(what, values, contact.pressure.shape, spread=True)
-                low, high = float(np.min(array)), float(np.max(array))
-                if outside := LIMITED.get(field.name, field).outside(low, high):
-                    raise BadValues(f"{self} gave {what} that is {outside}")
-                found[field.name][body] = array
+                    raise PluginError(f"{self} gave no {name!r}{where}")
+                found[name][body] = self.array(name, values, contact.pressure.shape, where)
         frictions = found.get(FRICTION_COEFFICIENT.name, {}).values()
         if any(not np.array_equal(one, other) for one, other in pairwise(frictions)):
             raise BadValues(
@@ -197,7 +181,7 @@ class GuardedSolver(Guard[ContactSolver]):
     def smallest_compliance(self, system: ContactSystem) -> float | None:
         """Return the smallest eigenvalue of K, in m/Pa, if the solver knows it."""
         answer = self.ask(self.component.smallest_compliance, system)
-        return None if answer is None else self.number("a smallest compliance", answer)
+        return None if answer is None else self.number("smallest_compliance", answer)
 
     def solve(
         self, problem: ContactProblem, start: ContactSolution | None = None
@@ -218,19 +202,23 @@ class GuardedSolver(Guard[ContactSolver]):
             coupling = replace(coupling, shares=readonly(coupling.shares), bodies=bodies)
         answers: object = self.ask(self.component.solve_cycle, asked, starts, coupling)
         if not isinstance(answers, Sequence) or len(answers) != len(problems):
-            raise self.wrong(answers, f"instead of the solutions of {len(problems)} positions")
+            raise PluginError(
+                f"{self} gave a {type(answers).__name__} as the solutions of a cycle; it must be a "
+                f"list of {len(problems)}, one for each position"
+            )
         return [self._held(*pair) for pair in zip(problems, answers, strict=True)]
 
-    def _held(self, problem: ContactProblem, answer: object) -> ContactSolution:
+    def _held(self, problem: ContactProblem, given: object) -> ContactSolution:
         """Return what is held to the contract of an answer to `problem`."""
-        if not isinstance(answer, ContactSolution):
-            raise self.wrong(answer, "instead of a ContactSolution")
-        if not isinstance(answer.residuals, Residuals):
-            raise self.wrong(answer.residuals, "instead of Residuals")
+        answer: ContactSolution = self.typed(given, ContactSolution, "its solution")
         grid = problem.system.grid
         cap = problem.system.cap if problem.cap is None else problem.cap
-        pressure = self.field("a pressure", answer.pressure, grid.cells, at_least=0.0)
-        overlap = self.field("an overlap", answer.overlap, grid.cells, at_least=0.0)
+        pressure = self.array("pressure", answer.pressure, grid.cells)
+        overlap = self.array("overlap", answer.overlap, grid.cells)
+        approach = self.number("approach", answer.approach)
+        iterations = self.number("iterations", answer.iterations)
+        residuals = vars(self.typed(answer.residuals, Residuals, "its residuals"))
+        _, *claimed = self.array("residuals", list(residuals.values()), (3,)).tolist()
         carried = float(pressure.sum()) * grid.cell_area
         if not abs(carried - problem.load) <= LOAD_BALANCE * problem.load:
             raise BadValues(
@@ -242,42 +230,33 @@ class GuardedSolver(Guard[ContactSolver]):
                 f"{self} gave a pressure of {np.max(pressure[above]):.9g} Pa, above the hardness "
                 f"of {np.min(cap):.9g} Pa that it says it honours"
             )
-        told = [answer.approach, answer.iterations, *vars(answer.residuals).values()]
-        what = "an approach, a number of iterations and residuals"
-        approach, iterations, _, *claimed = self.field(what, told, (len(told),)).tolist()
-        residuals = Residuals(abs(carried / problem.load - 1), *claimed)
-        return ContactSolution(pressure, approach, overlap, int(iterations), residuals)
+        force = abs(carried / problem.load - 1)
+        return ContactSolution(
+            pressure, approach, overlap, int(iterations), Residuals(force, *claimed)
+        )
 
 
 def _initial_state(
     who: GuardedLaw | GuardedEffect, fields: Sequence[Field], given: object
 ) -> dict[str, float]:
     """Return the initial value of each state field, in the order in which they are declared."""
-    declared = {field.name: field for field in fields}
+    declared = [field.name for field in fields]
     if not isinstance(given, Mapping) or set(given) != set(declared):
         raise PluginError(
             f"{who} declares the state fields {sorted(declared)}, but starts with {given!r:.80}"
         )
-    first = {}
-    for name, field in declared.items():
-        first[name] = who.number(f"an initial {name!r}", given[name])
-        if outside := field.outside(first[name], first[name]):
-            raise BadValues(f"{who} gave an initial {name!r} that is {outside}")
-    return first
+    return {name: who.number(initial(name), given[name]) for name in declared}
 
 
 def _rates(
     who: GuardedLaw | GuardedEffect, answer: object, shapes: Mapping[str, tuple[int, ...]]
 ) -> dict[str, Array]:
     """Return the rate of each state field, at its shape."""
-    if not isinstance(answer, Mapping):
-        raise who.wrong(answer, "as rates of its state")
-    found = {}
-    for name, shape in shapes.items():
-        if name not in answer:
+    rates = who.typed(answer, Mapping, "rates of its state")
+    for name in shapes:
+        if name not in rates:
             raise PluginError(f"{who} gave no rate for its state field {name!r}")
-        found[name] = who.field(f"a rate of {name!r}", answer[name], shape, spread=True)
-    return found
+    return {name: who.array(rate_of(name), rates[name], shapes[name]) for name in shapes}
 
 
 def _unwritable(problem: ContactProblem) -> ContactProblem:

@@ -50,10 +50,9 @@ def assemble(case: Case) -> Model:
     motion, solver = GuardedMotion(case.kinematics), GuardedSolver(case.contact)
     with located("kinematics"):
         window = as_it_repeats(grid, case.contact)
-        exposures = motion.exposures(window, list(bodies))
-        cycle = Cycle(grid, motion.cycle(window), exposures)
-        for exposure in exposures.values():
-            motion.check_starts(exposure, len(cycle), window)
+        positions = motion.cycle(window)
+        exposures = motion.exposures(window, list(bodies), len(positions))
+        cycle = Cycle(grid, positions, exposures)
     cap, share, hardness = yielding(bodies, case.contact)
     # Before the first array is made.
     check_memory(grid, memory_needed(case, exposures, plastic=cap is not None))

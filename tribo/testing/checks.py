@@ -16,6 +16,7 @@ from tribo.component import Component
 from tribo.core.arrays import Array
 from tribo.core.dimensions import scale
 from tribo.core.errors import CaseError
+from tribo.guards.answers import answers_of
 from tribo.testing.child import Lost, Unknown, child
 from tribo.testing.compare import (
     CheckFailed,
@@ -26,7 +27,7 @@ from tribo.testing.compare import (
     require,
     values_in,
 )
-from tribo.testing.rescaling import UNITS, in_other_units, rescaled
+from tribo.testing.rescaling import UNITS, in_other_units, rescaled, units_of
 
 BODIES = ("ball", "disk")
 """Names of the bodies that components are tried with."""
@@ -82,7 +83,7 @@ class Checks(ABC):
 
     def _units(self, component: Any) -> Mapping[str, float]:
         """Return by what inputs and answers are multiplied in the other units, by their names."""
-        return UNITS
+        return {**UNITS, **units_of(answers_of(component))}
 
     def _make(self) -> Any:
         """Return a new component with the configuration."""

@@ -12,10 +12,11 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.fields import ContactConditions, LocalConditions, WearRate
 from tribo.core.grid import Grid
+from tribo.guards.answers import rate_of
 from tribo.guards.parts import GuardedEffect
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
-from tribo.testing.checks_local import LocalChecks, rate_of
+from tribo.testing.checks_local import LocalChecks
 from tribo.testing.compare import (
     apply_if,
     expect_close,

@@ -12,13 +12,14 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.units import quantities
+from tribo.guards.answers import initial, rate_of
 from tribo.stepping.extrapolation import Division, integrated
 from tribo.stepping.relaxation import Limits
 from tribo.testing import samples
 from tribo.testing.ageing import aged
 from tribo.testing.checks import Checks
 from tribo.testing.compare import apply_if, first_difference, locked, require
-from tribo.testing.rescaling import UNITS, factor, renewed
+from tribo.testing.rescaling import renewed, units_of
 
 _SPANS = (1e-2, 1.0, 30.0)
 """Over which a model is asked to advance, in m or s."""
@@ -33,13 +34,8 @@ class LocalChecks(Checks):
     """What rates of the state are per: m or s."""
 
     def _units(self, component: Any) -> Mapping[str, float]:
-        required = map(samples.known_field, component.requires)
-        units = dict(UNITS)
-        for field in (*required, *component.state_fields, *getattr(component, "provides", ())):
-            units[field.name] = factor(field.unit)
-            units[f"the initial {field.name!r}"] = factor(field.unit)
-            units[rate_of(field.name)] = factor(field.unit) / factor(self._per)
-        return units
+        given = [*map(samples.known_field, component.requires), *component.state_fields]
+        return {**super()._units(component), **units_of({each.name: each for each in given})}
 
     @abstractmethod
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
@@ -62,7 +58,7 @@ class LocalChecks(Checks):
         """Return what a component answers of its state, by what that is called."""
         starts = component.initial_state().items()
         return {rate_of(name): values for name, values in rates.items()} | {
-            f"the initial {name!r}": value for name, value in starts
+            initial(name): value for name, value in starts
         }
 
     def _samples(self, component: Any) -> list[Any]:
@@ -234,11 +230,6 @@ class LocalChecks(Checks):
                     if first_difference(answers, self._call(component, other)):
                         idle = idle - {name}
         require(not idle, f"{', '.join(sorted(idle))}: no answer changes by 1 % more of it")
-
-
-def rate_of(name: str) -> str:
-    """Return what the rate of a state field is called."""
-    return f"the rate of {name!r}"
 
 
 def _at(given: Any, name: str, value: float) -> Any:

@@ -13,12 +13,12 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.fields import LocalConditions, WearRate
+from tribo.guards.answers import rate_of
 from tribo.guards.parts import GuardedLaw
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
-from tribo.testing.checks_local import LocalChecks, rate_of
+from tribo.testing.checks_local import LocalChecks
 from tribo.testing.compare import apply_if, expect_close, locked, require
-from tribo.testing.rescaling import factor
 
 _SHAPE = (7, 6)
 # Not an order of magnitude apart, so that a pressure between two is like both.
@@ -66,9 +66,6 @@ class WearLawChecks(LocalChecks):
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
         rate = component.rate(inputs)
         return {**_parts(rate), **self._state_answers(component, rate.state_rates)}
-
-    def _units(self, component: Any) -> Mapping[str, float]:
-        return {**super()._units(component), "depth": 1.0, "derivative": factor("1/Pa")}
 
     def answers_fit_a_run(self) -> None:
         """Rates are finite and not negative, 0 where the pressure is, one for each state field."""
@@ -155,20 +152,6 @@ class WearLawChecks(LocalChecks):
                     needed = np.broadcast_to(whole[name], _SHAPE).reshape(-1, 1)[chosen]
                     expect_close(f"{name} with points {what}", found, needed, 1e-12)
 
-    def untouched_points_keep_their_state(self) -> None:
-        """Where the pressure is 0 no state changes: points beyond the window are not asked."""
-        law = self._make()
-        apply_if(bool(law.state_fields), "it keeps no state")
-        for local in self._samples(law):
-            for name, values in law.rate(local).state_rates.items():
-                changes = np.broadcast_to(values, _SHAPE)[local.pressure == 0]
-                worst = float(np.max(np.abs(changes)))
-                require(
-                    worst == 0,
-                    f"{name!r} changes by {worst:.3g} per metre where the pressure is 0; what a "
-                    "track has of that would depend on the size of the window",
-                )
-
     def runs_under_implicit_stepping(self) -> None:
         """Under implicit steps and stroke averaging each body loses just what the law says."""
         law = self._make()
@@ -217,6 +200,6 @@ def _chosen(local: LocalConditions, chosen: Any) -> LocalConditions:
 
 def _parts(rate: WearRate) -> dict[str, Array]:
     """Return the arrays of a rate, by what they are called."""
-    parts = {"depth": rate.depth_rate, "derivative": rate.depth_slope}
+    parts = {"depth_rate": rate.depth_rate, "depth_slope": rate.depth_slope}
     parts |= {rate_of(name): values for name, values in rate.state_rates.items()}
     return {name: values for name, values in parts.items() if values is not None}

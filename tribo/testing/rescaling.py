@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import BaseModel
 
 from tribo.core.dimensions import scale
+from tribo.core.fields import Field
 from tribo.core.units import parts, quantities
 from tribo.testing.compare import NotApplicable
 
@@ -29,25 +30,28 @@ def factor(unit: str) -> float:
     return 2.0 ** sum(power * n for power, n in zip(_POWERS, dimension, strict=True))
 
 
+def units_of(fields: Mapping[str, Field]) -> dict[str, float]:
+    """Return by what values in the units of some fields are multiplied, by the fields' names."""
+    return {name: factor(field.unit) for name, field in fields.items()}
+
+
 UNITS: Mapping[str, float] = MappingProxyType(
     {
         name: factor(unit)
         for unit, names in {
-            "m": "distance track gap approach overlap height rate average path",
-            "m^3": "volume",
+            "m": "distance track gap rate own",
             "1/m": "curvature",
-            "s": "time end",
+            "s": "time",
             "m/s": "speed",
-            "s/m": "rest",
             "N": "load",
             "Pa": "pressure modulus cap",
             "m/Pa": "local",
-            "1/Pa": "swept",
+            "1/Pa": "swept slope",
         }.items()
         for name in names.split()
     }
 )
-"""Factors of what components are given and answer, by its name."""
+"""Factors of what components are given, by its name."""
 
 
 def rescaled(table: T) -> T:

@@ -251,7 +251,7 @@ def as_if_it_stayed(self, derivative, pressure):
 
 MUTANTS += wrong(
     Motion,
-    ("exposures_fit_a_run", exposed(swept=False)),
+    ("answers_fit_a_run", exposed(swept=False)),
     (
         "averages_are_linear",
         exposed(average=lambda self, rate: np.sqrt(Track.average(self, rate**2))),
@@ -262,9 +262,9 @@ MUTANTS += wrong(
     ),
     ("envelope_covers_the_field", exposed(envelope=Track.average)),
     ("compliance_is_the_average_of_a_linear_law", exposed(compliance=as_if_it_stayed)),
-    ("windows_lie_on_the_body", resolved(8)),
-    ("windows_lie_on_the_body", resolved(9, rows=30)),
-    ("windows_lie_on_the_body", resolved(9)),
+    ("answers_fit_a_run", resolved(8)),
+    ("answers_fit_a_run", resolved(9, rows=30)),
+    ("answers_fit_a_run", resolved(9)),
     ("larger_contacts_are_limited_no_less", {"limitation": lambda self, *track: 7}),
     ("larger_contacts_are_limited_no_less", {"check_contact": refusing}, ValueError),
     ("runs_a_case", {"time_at": at_once}),
