@@ -167,6 +167,6 @@ def _snake_case(name: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
 
 
-def _registry(info: ValidationInfo) -> shorthand.Registry:
-    given: shorthand.Registry | None = (info.context or {}).get("registry")
+def _registry(info: ValidationInfo) -> shorthand.Components:
+    given: shorthand.Components | None = (info.context or {}).get("registry")
     return given or shorthand.registry()

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 
-class Registry(Protocol):
+class Components(Protocol):
     """Where the class is found that a name in a case stands for."""
 
     def lookup(self, kind: str, name: str) -> type[Any]:
@@ -21,7 +21,7 @@ class Registry(Protocol):
 
 run: Callable[..., Any]
 """Run a case, and return the result."""
-registry: Callable[[], Registry]
+registry: Callable[[], Components]
 """Return the registry of the built-in and the installed plugins."""
 report: Callable[..., Any]
 """Return what a laboratory would measure of a result."""
