@@ -12,8 +12,8 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.core.state import State
+from tribo.stepping.division import Division, integrated
 from tribo.stepping.evolution import accumulated
-from tribo.stepping.extrapolation import Division, integrated
 from tribo.stepping.memory import Memory, remembered, under
 from tribo.stepping.rates import Moment, local_fields
 
