@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
 import numpy as np
-from tribo import Array, CaseError
+from tribo import Array
 from tribo.kernel_api import CELLS, Memory, Part, Values, over, retraced, transposed
 
 from tribo_inverse.adjoint.course import Before, Other
@@ -221,18 +221,16 @@ class Together(Remembering):
     def is_pointwise(self) -> bool:
         """Whether a point's depth follows the pressures of its own cells alone.
 
-        Then `bodies` say all that the wear adds to the system of a step. Not where effects are
-        refused, as those that reach beyond a box.
+        Then `bodies` say all that the wear adds to the system of a step.
         """
         model = self.stages.model
         if len(model.cycle) > 1 or self.stages.layered or model.laws.filling:
             return False
         if any(kept.weights is not None for kept in self.stages.kept):
             return False
-        try:
-            _, reach = self.stages.first
-        except CaseError:
+        if self.stages.loads_change:
             return False
+        reach = self.stages.reach
         return all(each == ALONE for each in (reach.pressure, *reach.states))
 
     @cached_property
