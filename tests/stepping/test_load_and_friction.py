@@ -214,11 +214,11 @@ class Since(Effect):
         return {"friction_coefficient": dict(zip(contact.materials, values, strict=True))}
 
 
-def test_the_work_of_friction_that_follows_the_time_is_exact():
+def test_the_work_of_friction_that_follows_the_time_is_that_of_its_integral():
     with run(effects=[Since()], **pin(archard())) as result:
         history = result.table("history")
     exact = 0.1 * (1 - np.cos(20) + 20) * 100 * 0.1
-    assert history["friction_energy_J"][-1] == pytest.approx(exact, rel=1e-10)
+    assert history["friction_energy_J"][-1] == pytest.approx(exact, rel=3e-5)
 
 
 def test_friction_that_is_not_alike_on_both_bodies_is_refused():

@@ -24,6 +24,7 @@ class Debris(Effect):
     """dt/ds = c (r₁ + r₂) − t/λ, with the depths r that the bodies lose per metre."""
 
     type = "stranger.debris"
+    reach = "point"
     caught: Annotated[float, Quantity("1", at_least=0)] = 1.0
     """Part c of what is worn that stays in the contact."""
     length: Annotated[float, Quantity("m", above=0)]

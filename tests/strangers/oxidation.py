@@ -12,6 +12,7 @@ class OxideFilm(Effect):
     """w/(w + power), with the power of friction w = μ p v."""
 
     type = "stranger.oxide_film"
+    reach = "point"
     power: Annotated[float, Quantity("W/m^2", above=0)]
     """Power of friction per area at which half the surface is oxidised."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from tribo.component import Component
 from tribo.core.arrays import Array
@@ -32,6 +32,10 @@ class Effect(Component):
     state_fields: ClassVar[tuple[Field, ...]] = ()
     """What it remembers; each field starts at `initial_state`, is kept in the result, and answers
     whoever requires its name."""
+
+    reach: ClassVar[Literal["point", "contact"] | tuple[int, int] | None] = None
+    """What its fields and rates at a point follow: the ``"point"`` alone; the load and the area of
+    the ``"contact"`` too; or points so many cells away along x and y. Gradients need it."""
 
     def check(self, materials: Mapping[str, Material], swept: frozenset[str]) -> None:
         """Raise `CaseError` if the effect cannot serve these bodies.

@@ -10,7 +10,7 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 
 if TYPE_CHECKING:
-    from tribo.stepping.extrapolation import Division
+    from tribo.stepping.division import Division
     from tribo.stepping.memory import Memory
     from tribo.stepping.rates import Moment
 

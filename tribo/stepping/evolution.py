@@ -13,11 +13,11 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import WearRate
 from tribo.stepping.contacts import in_stripes
-from tribo.stepping.extrapolation import Division, integrated
+from tribo.stepping.division import Division, integrated
+from tribo.stepping.integrator import Limits, Rates, Values
 from tribo.stepping.layers import in_layers
 from tribo.stepping.memory import Memory, laid
 from tribo.stepping.rates import CycleRates, Moment, wear_rates
-from tribo.stepping.relaxation import Limits, Rates, Values
 
 if TYPE_CHECKING:
     from tribo.stepping.model import Model

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,28 +12,13 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.core.state import State
+from tribo.stepping.division import Division, integrated
 from tribo.stepping.evolution import accumulated
-from tribo.stepping.extrapolation import Division
 from tribo.stepping.memory import Memory, remembered, under
 from tribo.stepping.rates import Moment, local_fields
 
 if TYPE_CHECKING:
     from tribo.stepping.model import Model
-
-ACCURACY = 1e-6
-"""Difference of two rules, of all work so far, above which parts of a step are halved. The finer of
-them is far closer, where friction is smooth."""
-MOST_PARTS = 12
-"""Parts after which they are taken as they are."""
-PLACES = 0.5 + 0.5 * np.array(
-    [-1, -np.sqrt(2 / 3), -np.sqrt(1 / 5), 0, np.sqrt(1 / 5), np.sqrt(2 / 3), 1]
-)
-"""Places within a part, 0 to 1."""
-COARSE = np.array([1, 0, 5, 0, 5, 0, 1]) / 12
-"""Weights of Lobatto's rule, of four of them."""
-FINE = np.array([77, 432, 625, 672, 625, 432, 77]) / 2940
-"""Those of Kronrod's extension (Gander, W., Gautschi, W. (2000), Adaptive quadrature - revisited,
-BIT 40, 84-101)."""
 
 
 def friction_force(model: Model, state: State) -> float:
@@ -114,26 +98,9 @@ def _varying_work(
     if model.laws.friction_remembers:
         end = Moment(after.time, after.distance, after.speed)
         return accumulated(model, memory, contacts, increment, end, plan, force)
-    allowed = ACCURACY * before.friction_energy / increment
-    return increment * _mean_of(partial(force, memory), allowed)
 
+    def rates(_: Sequence[Array], passed: float, __: float) -> list[Array]:
+        return [np.array(force(memory, passed))]
 
-def _mean_of(values: Callable[[float], float], allowed: float) -> float:
-    """Return the mean of values from 0 to 1, to an accuracy of itself, or to what is `allowed`."""
-
-    def tried(begin: float, end: float) -> tuple[float, float, float, float]:
-        length = end - begin
-        found = np.array([values(begin + length * place) for place in PLACES.tolist()])
-        coarse, fine = (length * float(np.sum(rule * found)) for rule in (COARSE, FINE))
-        return abs(fine - coarse), begin, end, fine
-
-    parts = [tried(0.0, 1.0)]
-    while len(parts) < MOST_PARTS:
-        total = sum(fine for *_, fine in parts)
-        if sum(error for error, *_ in parts) <= max(ACCURACY * total, allowed):
-            break
-        worst = max(parts)
-        parts.remove(worst)
-        _, begin, end, _ = worst
-        parts += [tried(begin, 0.5 * (begin + end)), tried(0.5 * (begin + end), end)]
-    return float(sum(fine for *_, fine in parts))
+    _, (work,), _ = integrated(rates, [], increment, [])
+    return float(work)

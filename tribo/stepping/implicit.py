@@ -17,9 +17,9 @@ from tribo.core.errors import BadValues, NumericalError, PluginError
 from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.stepping.contacts import counted, solve_cycle, undeformed
+from tribo.stepping.division import Division
 from tribo.stepping.events import Worn
 from tribo.stepping.evolution import Course, course, sloped
-from tribo.stepping.extrapolation import Division
 from tribo.stepping.friction import with_friction_work
 from tribo.stepping.linear_wear import linear_wear
 from tribo.stepping.memory import filling, remembered

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError
 from tribo.core.fields import ContactConditions, LocalConditions, WearRate
 from tribo.core.grid import Grid
@@ -31,6 +31,9 @@ from tribo.wear.law import WearLaw
 _LONGEST = 60.0
 """Time for which a state has been there at most, in s."""
 _FAR = 100.0
+_VARIED, _SLIGHT = 1e-3, 1e-6
+"""Part by which a cell is varied, and of an answer that beyond `reach` may change: rounding, and
+what changes with the square of the part."""
 
 
 class EffectChecks(LocalChecks):
@@ -118,6 +121,25 @@ class EffectChecks(LocalChecks):
             needed = np.broadcast_to(np.asarray(usual[where]), GRID.cells)
             expect_close(f"{where} in a larger window", inside, needed, 1e-9)
 
+    def reach_is_as_declared(self) -> None:
+        """Nothing follows pressure, state or wear of points further away than `reach` says."""
+        effect = self._make()
+        apply_if(effect.reach, "it declares no reach")
+        whole = effect.reach == "contact"
+        for sample in self._samples(effect):
+            given = locked(_even(sample)) if whole else sample
+            usual = dict(values_in(self._call(effect, given)))
+            for what, cells, other in _varied(given, balanced=whole):
+                near = _near(cells, effect.reach if isinstance(effect.reach, tuple) else (0, 0))
+                for where, values in values_in(self._call(effect, locked(other))):
+                    before = np.asarray(usual[where], dtype=float)
+                    change = np.abs(np.asarray(values, dtype=float) - before)
+                    off = np.max(np.where(near, 0.0, np.broadcast_to(change, GRID.cells)))
+                    require(
+                        off <= _SLIGHT * np.max(np.abs(before)),
+                        f"{where} follows {what} further away than reach = {effect.reach!r}",
+                    )
+
     def slopes_are_derivatives(self) -> None:
         """A field called NAME_slope is the derivative of the field NAME in pressure."""
         effect = self._make()
@@ -155,6 +177,53 @@ class EffectChecks(LocalChecks):
         effect = self._make()
         law = _reads([field.name for field in effect.provides])
         samples.run(self._fields, law=law, effects=[effect])
+
+
+def _varied(
+    given: ContactConditions, *, balanced: bool
+) -> Iterator[tuple[str, list[tuple[int, int]], ContactConditions]]:
+    """Yield what is varied, at which cells, and the conditions with it.
+
+    The pressure is varied at one cell; or, balanced, at three so that Σp and Σp² stay.
+    """
+    nx, ny = GRID.cells
+    cells = [(nx // 2, ny // 2), (nx // 2 + 1, ny // 2 + 1), (nx // 2 + 3, ny // 2 - 1)]
+    cells = cells if balanced else cells[:1]
+    parts = [1.0]
+    if balanced:
+        three = np.array([given.pressure[cell] for cell in cells])
+        parts = np.cross(np.ones(3), three / three.max()).tolist()
+    pressure = given.pressure.copy()
+    for cell, part in zip(cells, parts, strict=True):
+        pressure[cell] += _VARIED * part * given.pressure[cells[0]]
+    yield "the pressure", cells, replace(given, pressure=pressure)
+    for what in ("state", "wear_rates"):
+        fields: Mapping[str, Array] = getattr(given, what)
+        for name, values in fields.items():
+            if values.shape == GRID.cells:
+                other = values.copy()
+                other[cells[0]] += _VARIED * float(np.max(np.abs(values)))
+                varied: dict[str, Any] = {what: {**fields, name: other}}
+                yield repr(name), cells[:1], replace(given, **varied)
+
+
+def _even(given: ContactConditions) -> ContactConditions:
+    """Return conditions with fields that are alike at all points: what follows Σ μ p follows Σp."""
+    fields = {
+        name: {body: np.full_like(values, np.mean(values)) for body, values in of_bodies.items()}
+        for name, of_bodies in given.fields.items()
+    }
+    return replace(given, fields=fields)
+
+
+def _near(cells: Sequence[tuple[int, int]], reach: tuple[int, int]) -> Mask:
+    """Return where the window lies no further from any of some cells than it is reached."""
+    near = np.zeros(GRID.cells, dtype=bool)
+    for along, across in cells:
+        rows, columns = (np.arange(n) for n in GRID.cells)
+        in_row = np.abs(rows - along) <= reach[0]
+        near |= in_row[:, None] & (np.abs(columns - across) <= reach[1])
+    return near
 
 
 def _turned(of_bodies: Mapping[str, Any]) -> dict[str, Any]:

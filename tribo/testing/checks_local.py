@@ -13,8 +13,8 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.units import quantities
 from tribo.guards.answers import initial, rate_of
-from tribo.stepping.extrapolation import Division, integrated
-from tribo.stepping.relaxation import Limits
+from tribo.stepping.division import Division, integrated
+from tribo.stepping.integrator import Limits
 from tribo.testing import samples
 from tribo.testing.ageing import aged
 from tribo.testing.checks import Checks

@@ -46,6 +46,7 @@ class Grains(Effect):
     """What wear leaves, which lifts the bodies apart and takes its part of the load."""
 
     type = "grains"
+    reach = "point"
     begins: float = 2e-8
     cover: float = 1e-6
     stays: float = 2.0
@@ -80,6 +81,7 @@ class Heat(Effect):
     """A temperature after the load and the area of the contact, and of a bulk that warms."""
 
     type = "heat"
+    reach = "contact"
     flash: float = 1e-2
     capacity: float = 2.0
     provides = (Field("temperature", "K", "Above that around."),)
@@ -130,6 +132,7 @@ class Blurs(Effect):
     """A temperature that follows the pressure beside each point."""
 
     type = "blurs"
+    reach = (0, 3)
     provides = Heat.provides
 
     def fields(self, contact):
@@ -137,10 +140,18 @@ class Blurs(Effect):
         return {"temperature": dict.fromkeys(contact.materials, beside)}
 
 
+class Far(Blurs):
+    """Such a temperature, of an effect that says that it may come from further away."""
+
+    type = "far"
+    reach = (2, 3)
+
+
 class Grows(Effect):
     """A layer that grows under pressure in time, at rest too, and flows off."""
 
     type = "grows"
+    reach = "point"
     begins: float = 2e-8
     rate: float = 5e-17
     stays: float = 5.0
@@ -157,6 +168,7 @@ class Creeps(Grows):
     """Such a layer that also spreads, the faster the thicker it is, and wear lands beside it."""
 
     type = "creeps"
+    reach = (1, 1)
     spreads: float = 0.05
     over: float = 1e-7
     on: str | None = None
@@ -432,16 +444,13 @@ def test_each_term_counts(monkeypatch, kind, owner, method, change):
 
 
 @pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"effects": [Mirrors()]}, "what 'mirrors' makes of a point follows points further than"),
-        ({"effects": [Heat(), Creeps()]}, "or points beside it and the load or the area too"),
-    ],
+    "effects", [[Mirrors()], [Far()], [Heat(), Creeps()]], ids=["undeclared", "far", "both"]
 )
-def test_what_is_not_covered_is_refused(changes, message):
+def test_what_is_not_covered_is_refused(effects):
     bodies = pair(Softens(k=K), archard())
-    with pytest.raises(CaseError, match=message):
-        gradient(run(bodies=bodies, stepping=LONG, **changes), Volume("ball"), [])
+    with pytest.raises(CaseError) as refused:
+        gradient(run(bodies=bodies, stepping=LONG, effects=effects), Volume("ball"), [])
+    assert refused.value.path == "effects"
 
 
 def test_the_load_and_the_area_are_told_apart_where_pressures_are_nearly_even():

@@ -50,6 +50,10 @@ debris(
     share=lambda self, c: -np.expm1(-np.mean(c.state["debris"]) / self.cover) + 0 * c.pressure,
 )
 debris(
+    "Debris carries at the next point, and is said to reach none",
+    share=lambda self, c: -np.expm1(-np.roll(c.state["debris"], 1, axis=0) / self.cover),
+)
+debris(
     "The debris that wear is just making carries too",
     share=lambda self, c: (
         -np.expm1(-(c.state["debris"] + self.length * self.source(c)) / self.cover)

@@ -104,6 +104,7 @@ class Heating(Effect):
     """T = T0 + μ p v / c: heat goes through a film of conductance c, shared by the bodies."""
 
     type = "honest.heating"
+    reach = "point"
     ambient: Annotated[float, Quantity("K", above=0)] = 293.0
     """Temperature T0 far away."""
     conductance: Annotated[float, Quantity("W/(m^2 K)", above=0)] = 1e5
@@ -151,6 +152,7 @@ class Debris(Effect):
     """dt/ds = c (r1 + r2) - t/length; debris carries the part 1 - exp(-t/cover)."""
 
     type = "honest.debris"
+    reach = "point"
     caught: Annotated[float, Quantity("1", at_least=0)] = 0.8
     """Part c of what is worn that becomes debris."""
     length: Annotated[float, Quantity("m", above=0)] = 0.5
@@ -181,6 +183,7 @@ class Bath(Effect):
     """C dT/dt = friction's power - G (T - T0): one temperature of the oil, which thins it."""
 
     type = "honest.bath"
+    reach = "contact"
     ambient: Annotated[float, Quantity("K", above=0)] = 300.0
     """Temperature T0 far away, and at first."""
     capacity: Annotated[float, Quantity("J/K", above=0)] = 50.0
@@ -232,6 +235,7 @@ class Tribofilm(Effect):
     """dc/dt = v (1 - c)/length under pressure, less c/life; the film has a friction of its own."""
 
     type = "honest.tribofilm"
+    reach = "point"
     dry: Annotated[float, Quantity("1", at_least=0)] = 0.5
     """Coefficient of friction of bare metal."""
     filmed: Annotated[float, Quantity("1", at_least=0)] = 0.1

@@ -25,6 +25,7 @@ class FrictionTraction(Effect):
     """
 
     type = "energy.friction_traction"
+    reach = "point"
 
     provides = (TRACTION, SLOPE)
     requires = ("friction_coefficient",)

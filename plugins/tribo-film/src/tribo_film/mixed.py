@@ -60,6 +60,7 @@ class Mixed(Effect):
     model_config = ConfigDict(json_schema_extra={"examples": [{**EXAMPLE, "roughness": "0.2 um"}]})
 
     type = "film.mixed"
+    reach = "contact"
     viscosity: Annotated[float, Quantity("Pa s", at_least=0, usual=(1e-5, 20.0))]
     """Dynamic viscosity of the lubricant at ambient pressure."""
     pressure_viscosity: Annotated[float, Quantity("1/Pa", above=0, usual=(1e-10, 1e-6))]

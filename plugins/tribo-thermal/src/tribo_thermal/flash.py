@@ -94,6 +94,7 @@ class Flash(Effect):
     )
 
     type = "thermal.flash"
+    reach = "contact"
     ambient: Annotated[float, Quantity("K", above=0, usual=(150.0, 2000.0))]
     """Temperature of the surroundings and of every heat sink."""
     source: Profile = "uniform"

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import ConfigDict
@@ -43,6 +43,11 @@ class Debris(Effect):
     """
 
     provides = (LOAD_SHARE,)
+
+    @property
+    def reach(self) -> Literal["point", "contact"]:  # type: ignore[override]
+        """The point; and the mean pressure, where it fills the gap."""
+        return "contact" if self.fills else "point"
 
     @property
     def state_fields(self) -> tuple[Field, ...]:  # type: ignore[override]

@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
 import numpy as np
-from tribo import Array, CaseError
-from tribo.kernel_api import CELLS, Memory, over
+from tribo import Array
+from tribo.kernel_api import CELLS, Memory, Part, Values, over, retraced, transposed
 
 from tribo_inverse.adjoint.course import Before, Other
 from tribo_inverse.adjoint.linear import Carrier
 from tribo_inverse.adjoint.passing import lowered, with_bottoms
-from tribo_inverse.adjoint.replay import ReplayedPart, replayed, weight
+from tribo_inverse.adjoint.rate_stage import RatePlace, RateStage
 from tribo_inverse.adjoint.response import ALONE, Arrays, Field
 from tribo_inverse.adjoint.slopes import Slopes, Sloping
 from tribo_inverse.adjoint.stages import together
@@ -155,61 +155,54 @@ class Remembering:
         return total + _dot(along.by_cell, rates, along.found) if asks else total
 
     @cached_property
-    def _parts(self) -> list[ReplayedPart[Slopes]]:
-        return replayed(self.stages)
+    def _retraced(self) -> tuple[Sequence[Part], Mapping[int, Slopes]]:
+        """The parts of the increment, and by the identity of rates in them their derivatives."""
+        increment, length = self.stages, self.stages.slid.increment
+        asked = dict[int, tuple[Values, RateStage]]()
+
+        def known(stage: RateStage) -> Values:
+            own = len(increment.own)
+            rates = [*stage.means[own:], *stage.means[:own]]
+            asked[id(rates)] = rates, stage
+            return rates
+
+        def rates(states: Sequence[Array], passed: float, step: float) -> Values:
+            return known(increment.at([states], [RatePlace(passed, step * length)])[0])
+
+        first, parts = known(increment.start), increment.slid.plan.parts
+        if increment.along:
+            exact = increment.advances and increment.model.laws.advances
+            done = retraced(
+                rates,
+                increment.begin,
+                first,
+                length,
+                increment.limits,
+                parts,
+                of_steps=increment.of_steps,
+                knows_means=exact and not increment.loads_change,
+            )
+        else:
+            done = [Part(length, [0.0] * len(increment.begin), [[first]], [], [], [])]
+        used = {id(rates): asked[id(rates)][1] for part in done for rates in part.stages}
+        return done, dict(zip(used, increment.sloped([*used.values()]), strict=True))
 
     def _back(self, depth: Sequence[Field], after: Sequence[Field]) -> _Back:
         """Go back from derivatives in the depths and the states after."""
         total: list[Field] = [0.0] * (3 + len(depth))
-        along = list[_Seeded]()
+        along, count = list[_Seeded](), len(after)
+        parts, slopes = self._retraced
 
-        def behind(seeded: _Seeded, before: Sequence[Field]) -> list[Field]:
-            """Go back through rates; return what they add to derivatives in the states before."""
+        def behind(rates: Values, seeds: list[Field]) -> Sequence[Field]:
+            seeded = slopes[id(rates)], [*seeds[count:], *seeds[:count]]
             along.append(seeded)
             found, states = self.stages.behind(*seeded)
             total[:] = _added(total, found)
-            return _added(before, states)
+            return states
 
-        for part in reversed(self._parts):
-            before: list[Field] = [0.0] * len(after)
-            bends: list[Field] = [0.0] * len(after)
-            starts: list[_Seeded] = []
-            lengths = [len(row) for row in part.rows]
-            pairs = zip(part.rows, part.lasting, part.bending, strict=True)
-            for steps, (row, counted, bent_by) in zip(lengths, pairs, strict=True):
-                counts = weight(steps, lengths)
-                seeds = [counts * seed for seed in after]
-                step = part.length / steps
-                deep = [step * counts * seed for seed in depth]
-                for stage in reversed(row):
-                    for at, bend in enumerate(bent_by):
-                        if np.ndim(bend):
-                            bends[at] = bends[at] + seeds[at] * stage.means[len(depth) + at] * bend
-                    kept = [seed * by for seed, by in zip(seeds, counted, strict=True)]
-                    each: _Seeded = (stage, [*deep, *kept])
-                    if stage is row[0]:
-                        _join(starts, *each)
-                    else:
-                        seeds = behind(each, seeds)
-                before = _added(before, seeds)
-            self._join_relaxing(starts, part, bends)
-            for each in starts:
-                before = behind(each, before)
-            after = before
+        before = transposed(parts, after, depth, behind)
         pressure, load, square, *factors = total
-        return _Back(pressure, load, square, factors, after, _Along(along, self.stages))
-
-    def _join_relaxing(
-        self, seeded: list[_Seeded], part: ReplayedPart[Slopes], bends: Sequence[Field]
-    ) -> None:
-        """Add derivatives in the rates that tell how fast states relax, from those in that."""
-        own = len(self.stages.own)
-        for at, moved, by in part.moved:
-            falls = np.asarray(part.relaxing[at]) < 0
-            for stage, sign in ((moved, 1.0), (part.rows[0][0], -1.0)):
-                seeds: list[Field] = [0.0] * (own + len(bends))
-                seeds[own + at] = sign * falls * bends[at] / by
-                _join(seeded, stage, seeds)
+        return _Back(pressure, load, square, factors, before, _Along(along, self.stages))
 
 
 @dataclass(frozen=True)
@@ -228,18 +221,16 @@ class Together(Remembering):
     def is_pointwise(self) -> bool:
         """Whether a point's depth follows the pressures of its own cells alone.
 
-        Then `bodies` say all that the wear adds to the system of a step. Not where effects are
-        refused, as those that reach beyond a box.
+        Then `bodies` say all that the wear adds to the system of a step.
         """
         model = self.stages.model
         if len(model.cycle) > 1 or self.stages.layered or model.laws.filling:
             return False
         if any(kept.weights is not None for kept in self.stages.kept):
             return False
-        try:
-            _, reach = self.stages.first
-        except CaseError:
+        if self.stages.loads_change:
             return False
+        reach = self.stages.reach
         return all(each == ALONE for each in (reach.pressure, *reach.states))
 
     @cached_property
@@ -257,7 +248,8 @@ class Together(Remembering):
                 by = self._back(seeds, none).pressure
                 found.append((own, self.stages.embedded(np.broadcast_to(by, shape))))
             return found
-        start, window = self._parts[0].rows[0][0], np.ones(self.stages.pressure.shape)
+        parts, slopes = self._retraced
+        start, window = slopes[id(parts[0].rows[0][0])], np.ones(self.stages.pressure.shape)
         return [
             (own, self.stages.slid.increment * own.part(self.stages.box) * by.own * window)
             for own, by in zip(self.stages.own, start.by_pressure, strict=False)
@@ -308,15 +300,6 @@ class Alone(Remembering):
     @property
     def _shape(self) -> tuple[int, int]:
         return self.stages.own[0].rows, self.stages.model.grid.cells[1]
-
-
-def _join(seeded: list[_Seeded], stage: Slopes, seeds: Sequence[Field]) -> None:
-    """Add derivatives in the rates of a stage, to those in them that there are already."""
-    for at, (other, before) in enumerate(seeded):
-        if other is stage:
-            seeded[at] = stage, _added(before, seeds)
-            return
-    seeded.append((stage, seeds))
 
 
 def _times(by: Array, fields: Sequence[Field]) -> list[Field]:

@@ -16,16 +16,8 @@ ASIDE = 1e-7
 """The same where it is varied to one side only, or a derivative may soon change."""
 LEAST = 0.1
 """Part of a cell's pressure that must be varied to find what follows it."""
-AGREES, CERTAIN = 1e-4, 1e-7
-"""Relative difference up to which a change in all that is varied is the sum of its parts; and of
-parts that leave out most of what it could follow."""
-
 MOST = 25
 """Points around one, itself among them, that it may follow."""
-PLACES = 8
-"""About as many cells are varied, one after the other, to see how far points follow them."""
-SLIGHT = 1e-9
-"""Of the largest change, what is below it is none."""
 
 Arrays = list[Array]
 Field = Array | float
@@ -128,29 +120,6 @@ def near(
     ]
 
 
-def reached(changes: Arrays, place: Sequence[int]) -> Offset:
-    """Return how far apart points are that follow the one at a place, which has changed these."""
-    position, *cell = place
-    far = [0, 0]
-    for change in changes:
-        hit = np.abs(change[position]) > SLIGHT * np.max(np.abs(change[position]))
-        for axis, index in enumerate(cell):
-            apart = np.abs(np.flatnonzero(np.any(hit, axis=1 - axis)) - index)
-            around = np.minimum(apart, hit.shape[axis] - apart)
-            far[axis] = max(far[axis], int(np.max(around, initial=0)))
-    return far[0], far[1]
-
-
-def furthest(reaches: Sequence[Offset], *, on_track: bool = False) -> Offset:
-    """Return the furthest of all; `ALONE` where that is too far.
-
-    What is one along a track reaches no further along it.
-    """
-    along, across = (max(far) for far in zip(*reaches, strict=True))
-    along = 0 if on_track else along
-    return (along, across) if (2 * along + 1) * (2 * across + 1) <= MOST else ALONE
-
-
 def _colours(shape: Sequence[int], reach: Offset) -> Array:
     """Return numbers from 0 on, alike only on cells that are too far apart for one to follow both.
 
@@ -226,17 +195,3 @@ def _inverse(one: Array, other: Array) -> Array:
     ones = np.ones_like(one)
     matrix: Array = np.stack([np.stack([ones, ones], -1), np.stack([one, other], -1)], -2)
     return np.asarray(np.linalg.pinv(matrix, rcond=1e-9), dtype=np.float64)
-
-
-def agrees(parts: Sequence[Arrays], found: Arrays, rates: Arrays, within: float) -> bool:
-    """Whether rates, in a change of all at once, change by the sum of what they do by each part.
-
-    It need be so within a part of the largest change; those by pressures and by a state may all but
-    cancel.
-    """
-    return all(
-        np.max(np.abs(sum(changes) - other))
-        <= within * max(np.max(np.abs(each)) for each in (other, *changes))
-        + 1e-8 * NUDGE * np.max(np.abs(rate))
-        for *changes, other, rate in zip(*parts, found, rates, strict=True)
-    )

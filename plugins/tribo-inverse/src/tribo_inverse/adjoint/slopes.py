@@ -16,22 +16,16 @@ from tribo_inverse.adjoint.local import localised
 from tribo_inverse.adjoint.passing import Layered
 from tribo_inverse.adjoint.rate_stage import RatePlace, RateStage
 from tribo_inverse.adjoint.response import (
-    AGREES,
     ALONE,
     ASIDE,
-    CERTAIN,
-    NUDGE,
-    PLACES,
+    MOST,
     Arrays,
     Field,
     Offset,
     Response,
-    agrees,
     back,
-    furthest,
     local,
     near,
-    reached,
     shared,
 )
 from tribo_inverse.adjoint.stages import Stages, together
@@ -85,37 +79,41 @@ class Sloping(Stages):
         return self.at([self.begin], [place])[0]
 
     @cached_property
-    def first(self) -> tuple[Slopes, Reach]:
-        """The slopes there, and how far points follow each other.
-
-        Effects are refused of which a change in all at once is not the sum of its parts.
-        """
-        alone = [ALONE] * len(self.begin)
-        # What is taken to follow its own cell alone must do so to the last digits.
-        for pressure, within in ((ALONE, CERTAIN), (None, AGREES)):
-            reach = Reach(pressure, alone)
-            (slopes,) = self._sloped([self.start], reach)
-            if not self.model.laws.effects or self._agrees(slopes, within):
-                return slopes, reach
-        reach = self._reached(slopes)
-        (slopes,) = self._sloped([self.start], reach)
-        if self._agrees(slopes, AGREES):
-            return slopes, reach
-        who = ", ".join(repr(effect.component.type) for effect in self.model.laws.effects)
-        raise CaseError(
-            f"what {who} makes of a point follows points further than a few cells from it, or "
-            "points beside it and the load or the area too, through which no gradient goes",
-            "effects",
+    def reach(self) -> Reach:
+        """How far points follow each other, as the effects declare it."""
+        effects = [effect.component for effect in self.model.laws.effects]
+        declared = [effect.reach for effect in effects]
+        cells = [reach for reach in declared if isinstance(reach, tuple)]
+        alone, whole = [ALONE] * len(self.begin), "contact" in declared
+        if silent := [repr(effect.type) for effect in effects if effect.reach is None]:
+            raise CaseError(
+                f"{', '.join(silent)} does not declare its reach, which a gradient needs; let its "
+                'class say reach = "point", reach = "contact", or cells along x and y as (1, 1)',
+                "effects",
+            )
+        if not cells:
+            return Reach(None if whole else ALONE, alone)
+        along, across = (max(far) for far in zip(*cells, strict=True))
+        if whole or (2 * along + 1) * (2 * across + 1) > MOST:
+            who = ", ".join(repr(effect.type) for effect in effects)
+            raise CaseError(
+                f"what {who} makes of a point follows points beside it and the load or the area "
+                f"too, or more than {MOST} points, through which no gradient goes",
+                "effects",
+            )
+        return Reach(
+            (along, across),
+            [
+                ALONE if state.size == 1 else _on(kept, (along, across))
+                for kept, state in zip(self.kept, self.begin, strict=True)
+            ],
         )
 
     def sloped(self, stages: Sequence[RateStage]) -> list[Slopes]:
         """Return stages with their derivatives."""
         if not self.model.laws.effects:
-            return self._sloped(stages, Reach(ALONE, [ALONE] * len(self.begin)))
-        first, reach = self.first
-        return [
-            first if stage is self.start else self._sloped([stage], reach)[0] for stage in stages
-        ]
+            return self._sloped(stages, self.reach)
+        return [self._sloped([stage], self.reach)[0] for stage in stages]
 
     def seen(self, seeds: Sequence[Field]) -> list[Field]:
         """Return derivatives in the rates of each cell from those in their means over points."""
@@ -262,20 +260,25 @@ class Sloping(Stages):
         def rates(pressure: Array) -> Arrays:
             return self.rates(states, places, self.told(places, pressure))
 
-        pressure = np.broadcast_to(self.pressure, (len(places), *self.pressure.shape))
         if reach is None:
-            return shared(rates, pressure)
-        if self.model.laws.effects:
-            return local(rates, found, pressure, reach)
+            return shared(
+                rates, np.broadcast_to(self.pressure, (len(places), *self.pressure.shape))
+            )
         told = self.told(places)
-        responses = local(lambda told: self.rates(states, places, told), found, told)
+        responses = local(lambda told: self.rates(states, places, told), found, told, reach)
         if not self.loads_change:
             return responses
         # Along the increment pressures are told in proportion to the load.
         total = over(np.sum(self.pressure, CELLS))
         longer = over(np.sum(told, CELLS)) / total
-        of_own = [longer * each.own for each in responses]
-        return [Response(own, -own * self.pressure / total) for own in of_own]
+        return [
+            Response(
+                longer * each.own,
+                -longer * each.change(self.pressure, self.pressure) / total,
+                beside={offset: longer * slope for offset, slope in each.beside.items()},
+            )
+            for each in responses
+        ]
 
     def _by_state(
         self,
@@ -317,65 +320,17 @@ class Sloping(Stages):
 
             ones = np.ones((1, carrier.rows, self.model.grid.cells[1]))
             seen = self._seen_by(carrier)
-            of_bodies.append(near(rates, found, ones, ASIDE * ones, reach, seen))
+            far = _on(carrier, reach)
+            of_bodies.append(near(rates, found, ones, ASIDE * ones, far, seen))
         return of_bodies
 
     def _seen_by(self, carrier: Carrier) -> Callable[[Array], Array]:
         return lambda own: carrier.seen(own, self.box)
 
-    def _reached(self, slopes: Slopes) -> Reach:
-        """Return how far apart points follow each other, as seen from some that touch."""
-        states, places = slopes.states, [slopes.place]
-        touching = np.argwhere(self.pressure > 0)
-        nudges = self.nudges(states, slopes.rates, slopes.place.over)
-        of_pressure, of_states = [], [list[Offset]() for _ in states]
 
-        def far(now: Arrays) -> Offset:
-            changes = [after[0] - before for after, before in zip(now, slopes.rates, strict=True)]
-            return reached(changes, where)
-
-        for where in touching[:: 1 + len(touching) // PLACES].tolist():
-            one = np.zeros_like(self.pressure)
-            one[tuple(where)] = 1.0
-            told = self.told(places, (self.pressure * (1 + NUDGE * one))[None])
-            of_pressure.append(far(self.rates(together([states]), places, told)))
-            for at, (kept, nudge) in enumerate(zip(self.kept, nudges, strict=True)):
-                cell = kept.gathered(one, self.box) > 0
-                moved = self.held([*states[:at], states[at] + nudge * cell, *states[at + 1 :]])
-                of_states[at].append(far(self.rates(together([moved]), places)))
-        return Reach(
-            furthest(of_pressure),
-            [
-                ALONE if nudge.size == 1 else furthest(each, on_track=kept.weights is not None)
-                for kept, nudge, each in zip(self.kept, nudges, of_states, strict=True)
-            ],
-        )
-
-    def _agrees(self, slopes: Slopes, within: float) -> bool:
-        """Whether a change in all at once is the sum of its parts, within a part of it."""
-        random, held, places = np.random.default_rng(0), slopes.states, [slopes.place]
-        nudges = self.nudges(held, slopes.rates, slopes.place.over)
-        nudges = [
-            by * random.uniform(0.5, 1.5, state.shape)
-            for by, state in zip(nudges, held, strict=True)
-        ]
-        by = NUDGE * self.pressure * random.uniform(-1, 1, self.pressure.shape)
-        ends = [
-            self.held([state + sign * nudge for state, nudge in zip(held, nudges, strict=True)])
-            for sign in (1, -1)
-        ]
-        higher, lower = (
-            self.rates(
-                together([end]), places, self.told(places, (self.pressure + sign * by)[None])
-            )
-            for end, sign in zip(ends, (1, -1), strict=True)
-        )
-        parts = [[each.change(self.pressure, 2 * by) for each in slopes.by_pressure]]
-        for kept, responses, up, down in zip(self.kept, slopes.by_state, *ends, strict=True):
-            span = kept.seen(up - down, self.box)
-            parts.append([each.change(span, span) for each in responses])
-        found = [up[0] - down[0] for up, down in zip(higher, lower, strict=True)]
-        return agrees(parts, found, slopes.rates, within)
+def _on(carrier: Carrier, reach: Offset) -> Offset:
+    """Return how far that is on a body: what is one along a track reaches no further along it."""
+    return reach if carrier.weights is None else (0, reach[1])
 
 
 def _at(stage: int, responses: Sequence[Response]) -> list[Response]:

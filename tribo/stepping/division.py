@@ -1,4 +1,4 @@
-"""Rates integrated over an increment by extrapolation, to an accuracy of its own."""
+"""How an increment is divided so that states within it are integrated accurately."""
 
 from __future__ import annotations
 
@@ -11,8 +11,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import BadValues
-from tribo.stepping.neville import EXACT, PLAIN, RELAXING, apart, extrapolated, part_of, within
-from tribo.stepping.relaxation import Limits, Rates, Values, relaxing
+from tribo.stepping.integrator import EXACT, Limits, Part, Rates, Values, apart, part_of, solved
 
 ACCURACY = 3e-5
 """Error of an increment, summed over the cells, relative to what it integrates."""
@@ -210,21 +209,20 @@ class _Problem:
         """Return what a part of the increment would end with."""
         values, limits, count = here.values, self.limits, len(here.values)
         span, first = part * self.length, here.rates
-        along = partial(_along, self.rates, here.passed, part)
+        along = partial(self._along, here.passed, part)
         if self.of_steps and part < 1:
             first = along(values, 0.0, 1.0)
-        slopes = relaxing(along, values, first, span, limits) if relaxes else [0.0] * count
-        best, rough, samples, moved = extrapolated(
+        taken = solved(
             along,
             values,
             first,
-            slopes,
             span,
-            RELAXING if relaxes else PLAIN,
             limits,
+            relaxes=relaxes,
             of_steps=self.of_steps,
             knows_means=self.knows_means,
         )
+        best, rough = taken.end, taken.rough
         sizes = [
             np.maximum.reduce([np.abs(old), np.abs(new), FADED * peak])
             for old, new, peak in zip(values, best, here.peaks, strict=False)
@@ -233,14 +231,14 @@ class _Problem:
             np.maximum(np.abs(new), part * np.abs(old))
             for old, new in zip(here.sums, best[count:], strict=True)
         ]
-        held = [within(*each) for each in zip(best, limits, strict=False)]
+        held = [limit.hold(value) for value, limit in zip(best, limits, strict=False)]
         at_end = is_last and math.isinf(accuracy)
         last = first if at_end or self.of_steps else along(held, 1.0, part)
         errors = [apart(*each) for each in zip(best, rough, strict=True)]
         off = max(map(part_of, errors, sizes), default=0.0)
         if not self.repeated:
             # Trials held to a limit agree with each other, whatever the state goes to.
-            off = max(off, *map(part_of, moved, sizes), 0.0)
+            off = max(off, *map(part_of, taken.beyond, sizes), 0.0)
         if off <= accuracy < math.inf and not (self.knows_means and off <= EXACT):
             if self.layered:
                 at = [
@@ -251,7 +249,7 @@ class _Problem:
                 late = self._late(along, values, held, at[4], span)
                 off = max(off, *map(part_of, late, sizes[count - len(late) : count]))
             elif not self.of_steps:
-                off = max(off, _jump(samples, last, span, here.sums, count))
+                off = max(off, _jump(_samples(taken), last, span, here.sums, count))
         sums = [old + new for old, new in zip(here.sums, best[count:], strict=True)]
         beyond = [
             _beyond(value, np.maximum(size, peak), limit)
@@ -260,6 +258,13 @@ class _Problem:
         peaks = [np.maximum(old, np.abs(new)) for old, new in zip(here.peaks, held, strict=True)]
         end = _Place(here.passed + part, held, peaks, sums, last)
         return _Trial(end, off, errors, beyond)
+
+    def _along(
+        self, passed: float, part: float, values: Sequence[Array], share: float, step: float
+    ) -> Values:
+        """Return the rates at a place within a part, 0 to 1, over a step of it."""
+        held = [limit.hold(value) for value, limit in zip(values, self.limits, strict=True)]
+        return self.rates(held, passed + share * part, step * part)
 
     def _between(
         self, along: Rates, start: Sequence[Array], end: Sequence[Array], share: float
@@ -314,11 +319,9 @@ def _looser(plan: Division) -> Division:
     return Division(((1 / MOST_PARTS, False),) * MOST_PARTS, math.inf)
 
 
-def _along(
-    rates: Rates, passed: float, part: float, values: Sequence[Array], share: float, step: float
-) -> Values:
-    """Return the rates at a place within a part of the increment, 0 to 1, over a step of it."""
-    return rates(values, passed + share * part, step * part)
+def _samples(part: Part) -> list[Values]:
+    """Return the rates at 0, 1/2, 1/3 and 2/3 of a part."""
+    return [part.rows[0][0], part.rows[1][1], *part.rows[2][1:]]
 
 
 def _jump(

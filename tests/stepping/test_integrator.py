@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from scipy.special import lambertw
 
 from tribo.core.errors import BadValues
-from tribo.stepping.extrapolation import integrated
-from tribo.stepping.relaxation import Limits
+from tribo.stepping.division import integrated
+from tribo.stepping.integrator import Limits, retraced, transposed
 
 ANY = Limits(-np.inf, np.inf, "'a' of a test")
 ONE = np.ones((1, 1))
@@ -124,3 +125,102 @@ def test_a_rate_that_jumps_is_followed_beside_depths_in_layers():
     limits = [BETWEEN, Limits(-np.inf, np.inf, "a depth", relaxes=False)]
     _, (total,), _ = integrated(rates, [0 * ONE, 0 * ONE], 2.0, limits, layered=[False])
     assert total[0, 0] == pytest.approx(2 - 0.9 * np.log(2), rel=3e-3)
+
+
+LENGTHS = [1e-3, 0.1, 1.0, 3.0, 30.0, 1e4]
+FREE = Limits(0.0, np.inf, "'a' of a test")
+
+
+@pytest.mark.parametrize("length", LENGTHS)
+@pytest.mark.parametrize(
+    ("first", "rates", "state", "total"),
+    [
+        # Running-in by the distance slid, five times as fast at first.
+        (0.0, lambda y: (ONE, 1 + 4 * np.exp(-y)), lambda s: s, lambda s: s - 4 * np.expm1(-s)),
+        # A bath, and what follows it.
+        (0.0, lambda y: (1 - y, y), lambda s: -np.expm1(-s), lambda s: s + np.expm1(-s)),
+        # A film that grows out of itself.
+        (
+            0.01,
+            lambda y: (y * (1 - y), y),
+            lambda s: 0.01 / (0.01 + 0.99 * np.exp(-s)),
+            lambda s: s + np.log(0.01 + 0.99 * np.exp(-s)),
+        ),
+    ],
+    ids=["running-in", "bath", "growth"],
+)
+def test_state_and_sum_follow_the_closed_form(first, rates, state, total, length):
+    (last,), (summed,), _ = integrated(
+        lambda values, *_: [*rates(values[0])], [first * ONE], length, [FREE]
+    )
+    assert last[0, 0] == pytest.approx(state(length), rel=3e-5, abs=0)
+    assert summed[0, 0] == pytest.approx(total(length), rel=3e-5, abs=0)
+
+
+@pytest.mark.parametrize("length", LENGTHS[:-1])
+def test_debris_that_stays_bears_part_of_the_load_that_wears(length):
+    def rates(values, *_):
+        return [np.exp(-values[0]), np.exp(-values[0])]
+
+    (last,), (summed,), _ = integrated(rates, [0 * ONE], length, [FREE])
+    assert last[0, 0] == pytest.approx(np.log1p(length), rel=3e-5, abs=0)
+    assert summed[0, 0] == pytest.approx(np.log1p(length), rel=3e-5, abs=0)
+
+
+@pytest.mark.parametrize("length", [30.0, 1e4])
+def test_debris_comes_to_where_it_flows_off_as_it_comes(length):
+    (last,), _, _ = integrated(
+        lambda values, *_: [2 * np.exp(-values[0]) - values[0]], [0 * ONE], length, [FREE]
+    )
+    assert last[0, 0] == pytest.approx(float(lambertw(2).real), rel=3e-5)
+
+
+def test_the_transpose_is_the_derivative():
+    begin = [np.array([[0.2, 1.0, 3.0]]), np.array([[0.0, 0.5, 2.0]])]
+    seeds = [
+        np.array([[1.0, -2.0, 0.5]]),
+        np.array([[0.3, 1.0, -1.0]]),
+        np.array([[2.0, 1.0, 1.0]]),
+    ]
+    limits, at, asked = [FREE, FREE], {}, list[float]()
+
+    def along(number):
+        def rates(values, *_):
+            a, b = values
+            found = [number - a - 0.2 * a * b, a - 4 * b, np.exp(-a) * b]
+            at[id(found)] = found, a, b
+            return found
+
+        return rates
+
+    *_, plan = integrated(along(1.5), begin, 5.0, limits)
+    assert len(plan.parts) > 1
+
+    def parts(start, number):
+        rates = along(number)
+        first, how = rates(start, 0.0, 1.0), {"of_steps": False, "knows_means": False}
+        return retraced(rates, start, first, 5.0, limits, plan.parts, **how)
+
+    def objective(start, number):
+        done = parts(start, number)
+        ends = [*done[-1].end[:2], sum(part.end[2] for part in done)]
+        return sum(float(np.sum(seed * end)) for seed, end in zip(seeds, ends, strict=True))
+
+    def behind(found, given):
+        (_, a, b), (of_a, of_b, of_sum) = at[id(found)], given
+        asked.append(float(np.sum(of_a)))
+        by_a = -(1 + 0.2 * b) * of_a + of_b - np.exp(-a) * b * of_sum
+        return [by_a, -0.2 * a * of_a - 4 * of_b + np.exp(-a) * of_sum]
+
+    found = transposed(parts(begin, 1.5), seeds[:2], seeds[2:], behind)
+    for state in (0, 1):
+        for point in range(3):
+            by = np.zeros((1, 3))
+            by[0, point] = 1e-5
+            ends = [[*begin], [*begin]]
+            ends[0][state], ends[1][state] = begin[state] + by, begin[state] - by
+            higher, lower = (objective(end, 1.5) for end in ends)
+            needed = (higher - lower) / 2e-5
+            assert found[state][0, point] == pytest.approx(needed, rel=1e-6, abs=1e-8)
+    needed = (objective(begin, 1.5 + 1e-5) - objective(begin, 1.5 - 1e-5)) / 2e-5
+    assert sum(asked) == pytest.approx(needed, rel=1e-6)
