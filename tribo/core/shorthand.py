@@ -3,29 +3,28 @@
 `tribo.methods` gives them, so that no module names what lies above it.
 """
 
-from __future__ import annotations
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any, Protocol
 
-from collections.abc import Callable
-from typing import Any, Protocol
+    class Components(Protocol):
+        """Where the class is found that a name in a case stands for."""
+
+        def lookup(self, kind: str, name: str) -> type[Any]:
+            """Return the class of a kind that a name stands for."""
+
+        def choices(self, kind: str) -> str:
+            """Return the names of a kind, as text."""
 
 
-class Components(Protocol):
-    """Where the class is found that a name in a case stands for."""
-
-    def lookup(self, kind: str, name: str) -> type[Any]:
-        """Return the class of a kind that a name stands for."""
-
-    def choices(self, kind: str) -> str:
-        """Return the names of a kind, as text."""
-
-
-run: Callable[..., Any]
+run: "Callable[..., Any]"
 """Run a case, and return the result."""
-registry: Callable[[], Components]
+registry: "Callable[[], Components]"
 """Return the registry of the built-in and the installed plugins."""
-report: Callable[..., Any]
+report: "Callable[..., Any]"
 """Return what a laboratory would measure of a result."""
-plot: Callable[..., Any]
+plot: "Callable[..., Any]"
 """Write the pictures of a result, and return their paths."""
-html: Callable[..., str]
+html: "Callable[..., str]"
 """Show a result in a notebook."""
