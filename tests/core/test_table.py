@@ -3,6 +3,8 @@
 import linecache
 
 import pytest
+from pydantic import Field
+from pydantic.json_schema import SkipJsonSchema
 
 from tribo import Archard, Body, Flat, Grid, Load, Material, Output, Sphere
 from tribo.core.table import Table, descriptions
@@ -61,3 +63,14 @@ def test_a_table_typed_into_a_notebook_has_the_descriptions_of_its_keys():
     names = {"Table": Table, "__name__": "no module"}
     exec(compile(cell, "<cell>", "exec"), names)
     assert descriptions(names["Typed"]) == {"k": "Of wear."}
+
+
+def test_a_schema_has_the_descriptions_by_the_keys_that_it_has():
+    class Hidden(Table):
+        k: float = Field(1.0, alias="lambda")
+        """Of wear."""
+        unseen: SkipJsonSchema[int] = 0
+        """Of nobody."""
+
+    keys = Hidden.model_json_schema()["properties"]
+    assert {name: each["description"] for name, each in keys.items()} == {"lambda": "Of wear."}

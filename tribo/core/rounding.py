@@ -1,4 +1,4 @@
 """What is equal but for rounding."""
 
 ROUND_OFF = 1e-9
-"""Relative difference that sums of floats may make: that of 10⁷ operations, and no physics'."""
+"""Relative difference that sums of some million floats may make."""

@@ -58,8 +58,10 @@ class Table(BaseModel):
     ) -> JsonSchemaValue:
         """Describe each key by the docstring of its field."""
         made = handler.resolve_ref_schema(handler(schema))
+        keys = made.get("properties", {})
         for name, text in descriptions(cls).items():
-            made["properties"][name]["description"] = text
+            # One that is left out of the schema has no key.
+            keys.get(cls.model_fields[name].alias or name, {})["description"] = text
         return made
 
     def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:

@@ -51,7 +51,7 @@ class Answer(Field):
         """What is allowed, in words."""
         unit = "" if self.unit == "1" else f"in {self.unit}"
         shape = self.shape and f"of shape {self.shape}"
-        return ", ".join(filter(None, ("it must be finite", unit, self.limits, shape)))
+        return ", ".join(filter(None, ("it must be real and finite", unit, self.limits, shape)))
 
 
 def _table(*answers: Answer) -> Mapping[str, Answer]:

@@ -73,7 +73,7 @@ class Guard(Generic[C]):
             plain = float(plain)
         least, most = self.answers[name].range
         if not least <= plain <= most:
-            raise self.bad(name, f"{plain:.6g}", where)
+            raise self.bad(name, f"{plain!s:.24}", where)
         return float(plain)
 
     def array(self, name: str, values: object, shape: tuple[int, ...], where: str = "") -> Array:
@@ -84,7 +84,8 @@ class Guard(Generic[C]):
             with suppress(ValueError):
                 plain = np.broadcast_to(plain, shape)
         if plain.shape != shape or plain.dtype.kind not in REAL:
-            raise self.bad(name, f"{_shown(values)}, not of shape {shape}", where)
+            other = f", not of shape {shape}" if plain.shape != shape else ""
+            raise self.bad(name, _shown(values) + other, where)
         # Sums depend on the order in memory, and a checkpoint keeps but one.
         array = np.asarray(plain, dtype=np.float64, order="C")
         low, high = np.minimum.reduce(array, axis=None), np.maximum.reduce(array, axis=None)
@@ -92,7 +93,8 @@ class Guard(Generic[C]):
         # Both are NaN if any value is.
         if not least <= low <= high <= most:
             bad = np.count_nonzero(~np.isfinite(array))
-            fault = f"not finite in {bad} cells" if bad else f"from {low:.6g} to {high:.6g}"
+            worst = low if low < least else high
+            fault = f"not finite in {bad} cells" if bad else f"{worst:.6g} somewhere"
             raise self.bad(name, fault, where)
         if array.base is not None:
             # What it is a view of could still be written to.
@@ -100,11 +102,13 @@ class Guard(Generic[C]):
         array.setflags(write=False)
         return array
 
-    def bad(self, name: str, fault: str, where: str = "") -> BadValues:
-        """Return the error of the answer `name`, with what is wrong and what is allowed."""
-        return BadValues(
-            f"{self} gave {name!r}{where} that is {fault}; {self.answers[name].needed}"
-        )
+    def bad(self, name: str, fault: str, where: str = "", needed: str = "") -> BadValues:
+        """Return the error of the answer `name`, with what is wrong and what is `needed`.
+
+        That is what its declaration allows, if left out.
+        """
+        needed = needed or self.answers[name].needed
+        return BadValues(f"{self} gave {name!r}{where} that is {fault}; {needed}")
 
     def typed(self, answer: object, kind: type, method: str) -> Any:
         """Return an answer, which is meant to be `method` ("its rate"), if it is of a class."""

@@ -11,6 +11,7 @@ from tribo.core.arrays import readonly
 from tribo.core.contact import WearCompliance
 from tribo.core.errors import BadValues, PluginError
 from tribo.core.grid import Grid
+from tribo.core.rounding import ROUND_OFF
 from tribo.guards.guard import Guard
 from tribo.motion.cycle import Position, Speeds
 from tribo.motion.exposure import Exposure, Passing, Stationary, Track
@@ -18,7 +19,6 @@ from tribo.motion.kinematics import Kinematics
 
 SAMPLES = 8
 INVERSE = 1e-6
-WHOLE = 1e-9
 
 
 class GuardedMotion(Guard[Kinematics]):
@@ -50,7 +50,7 @@ class GuardedMotion(Guard[Kinematics]):
 
     def _add_up(self, name: str, shares: Iterable[float]) -> None:
         total = float(sum(shares))
-        if abs(total - 1) > WHOLE:
+        if abs(total - 1) > ROUND_OFF:
             raise BadValues(f"{self} gave {name!r} with shares that add up to {total:g}, not to 1")
 
     def exposures(self, grid: Grid, bodies: Sequence[str], positions: int) -> dict[str, Exposure]:
@@ -80,7 +80,8 @@ class GuardedMotion(Guard[Kinematics]):
         if exposure.starts is None:
             mean = self.array("average", mean, own, where)
         elif not np.array_equal(mean, rate):
-            raise self.bad("average", "not the rate itself, as on any rows of its own", where)
+            rule = "of a body with rows of its own it must be the rate itself"
+            raise self.bad("average", "another field than the rate", where, rule)
         passing = rate if exposure.starts is None else readonly(np.ones(own))
         self.array("envelope", self.ask(exposure.envelope, passing), own, where)
         self.number("volume", self.ask(exposure.volume, readonly(mean)), where)

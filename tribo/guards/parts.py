@@ -91,12 +91,13 @@ class GuardedLaw(Guard[WearLaw]):
             slope = self._slope(local, depth)
         slope = self.array("depth_slope", slope, shape)
         state = _rates(self, answer.state_rates, dict.fromkeys(self.initial_state, shape))
-        # What is not touched neither wears nor changes: a law is asked near the contact.
+        rule = "what is not touched neither wears nor changes"
         untouched = local.pressure == 0
         named = {"depth_rate": depth, **{rate_of(field): state[field] for field in state}}
         for name, values in named.items():
             if bare := np.count_nonzero((values != 0) & untouched):
-                raise self.bad(name, f"not 0 in {bare} cells where the pressure is 0")
+                fault = f"not 0 in {bare} cells where the pressure is 0"
+                raise self.bad(name, fault, needed=rule)
         return WearRate(depth, np.maximum(slope, 0.0) if np.min(slope) < 0 else slope, state)
 
     def _depth(

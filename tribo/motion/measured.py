@@ -137,7 +137,7 @@ class Measured(Kinematics):
         if distance <= 0:
             return 0.0
         # The end of a pass, but for rounding, comes before the rest with which the next may begin.
-        whole = max(0, math.ceil(distance / slid[-1] * (1 - ROUND_OFF)) - 1)
+        whole = max(0, math.ceil(distance / slid[-1] * (1 - 1e-12)) - 1)
         rest = min(distance - whole * slid[-1], slid[-1])
         # The first sample by which it has come so far, so that it moves on to it.
         after = max(1, int(np.searchsorted(slid, rest)))

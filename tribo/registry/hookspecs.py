@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pluggy
 
@@ -82,6 +82,17 @@ class Command(NamedTuple):
     name: str
     summary: str
     place: str
+
+
+ITEMS: Mapping[str, type[Any]] = {
+    "tribo_lab_rows": LabRow,
+    "tribo_export_formats": ExportFormat,
+    "tribo_height_formats": HeightFormat,
+    "tribo_templates": CaseTemplate,
+    "tribo_findings": Finding,
+    "tribo_commands": Command,
+}
+"""What the answers to a hook consist of."""
 
 
 @hookspec

@@ -9,7 +9,7 @@ import warnings
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
-from functools import cache
+from functools import cache, partial
 from traceback import walk_tb
 from typing import TYPE_CHECKING, Any
 
@@ -167,7 +167,8 @@ class Registry:
     def ask(self, hook: str, own: object = None, **arguments: object) -> list[Any]:
         """Return the items that a module of the kernel and the imported plugins answer to a hook.
 
-        That module, `own`, comes first. A plugin that raises is left out with a warning.
+        That module, `own`, comes first. A plugin that raises, or answers with something else, is
+        left out with a warning.
         """
         if own is not None and not self._manager.is_registered(own):
             self._manager.register(own)
@@ -177,11 +178,12 @@ class Registry:
             try:
                 with _process_kept():
                     answer = each.function(*(arguments[name] for name in each.argnames))
-                    items += answer.items() if isinstance(answer, Mapping) else answer or ()
-            except Exception as error:
+                    answered = answer.items() if isinstance(answer, Mapping) else answer or ()
+                    items += map(partial(_item, hook), answered)
+            except (Exception, SystemExit) as error:
                 warnings.warn(
                     f"{hook} of {each.plugin_name} is left out: it raised {said(error)}"
-                    f"{_place(error, *packages)}",
+                    f"{_place(error, *packages)}; --no-plugin leaves that plugin out",
                     TriboWarning,
                     stacklevel=2,
                 )
@@ -263,6 +265,14 @@ def from_all_plugins(hook: str, own: object = None) -> list[Any]:
     for plugin in registry.load_all():
         warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=3)
     return registry.ask(hook, own)
+
+
+def _item(hook: str, item: object) -> object:
+    """Return an item of an answer to a hook, if it is of the class that the hook asks for."""
+    kind = hookspecs.ITEMS.get(hook)
+    if kind is not None and not isinstance(item, kind):
+        raise TypeError(f"it answered with a {type(item).__name__}, not a {kind.__name__}")
+    return item
 
 
 def from_packages(hook: str, own: object, **arguments: object) -> list[Any]:

@@ -14,6 +14,7 @@ from pydantic import Field
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import BadValues, NumericalError, PluginError
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.stepping.contacts import counted, solve_cycle, undeformed
@@ -347,7 +348,7 @@ def _fitted(natural: float, remaining: float, last: float) -> float:
     They are halved down to `last` metres, which lets the pressure catch up with the wear.
     """
     increment = min(natural, max(0.5 * remaining, last)) if last else natural
-    if remaining <= increment * (1 + 1e-9):
+    if remaining <= increment * (1 + ROUND_OFF):
         return remaining
     # Two equal steps rather than a full one and a sliver.
     return 0.5 * remaining if remaining < 2 * increment else increment

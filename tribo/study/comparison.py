@@ -108,7 +108,7 @@ class Comparison:
         first, last = self.results[self.reference], self.times[-1]
         apart = [label for label, result in self.results.items() if result.grid != first.grid]
         found = [findings.other_grid(apart, self.reference)] if apart else []
-        of_runs: dict[Finding, list[str]] = {}
+        of_runs: dict[str, tuple[Finding, list[str]]] = {}
         for label, result in self.results.items():
             names = self.own_names[label].items()
             if paired := [(own, name) for name, own in names if own != name]:
@@ -118,8 +118,8 @@ class Comparison:
             if result.status != "done":
                 found.append(findings.not_done(label, result.status))
             for each in result.findings:
-                of_runs.setdefault(each, []).append(label)
-        return found + [findings.of_runs(each, labels) for each, labels in of_runs.items()]
+                of_runs.setdefault(str(each), (each, []))[1].append(label)
+        return found + [findings.of_runs(each, labels) for each, labels in of_runs.values()]
 
     def chosen_times(self, times: Sequence[float] = ()) -> list[float]:
         """Return the times to show: those given, else the first and the last common one.

@@ -8,6 +8,7 @@ from abc import abstractmethod
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
+from tribo.core.rounding import ROUND_OFF
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.surface import Surface
 
@@ -37,7 +38,7 @@ class Laid(Surface):
 
 def check_resolved(shortest: float, spacing: float, field: str) -> None:
     """Raise `CaseError` for a feature, in m, of fewer than four cells of length `spacing`."""
-    if shortest < FEWEST * spacing * (1 - 1e-9):
+    if shortest < FEWEST * spacing * (1 - ROUND_OFF):
         finer = math.ceil(10 * FEWEST * spacing / shortest) / 10
         raise CaseError(
             f"{1e6 * shortest:.4g} µm are {shortest / spacing:.2g} cells of "

@@ -10,6 +10,7 @@ from pydantic import ConfigDict, Field, model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.units import Quantity
 from tribo.surfaces.laid import Laid, check_resolved
 
@@ -81,11 +82,11 @@ class Rough(Laid):
             check_resolved(length, spacing, "cut_off")
         period = self.period or PERIOD * self.roll_off
         # In an order that does not depend on the grid; of a wave and its opposite one is drawn.
-        i, j = (int(period / length * (1 + 1e-9)) for length in shortest)
+        i, j = (int(period / length * (1 + ROUND_OFF)) for length in shortest)
         along, across = np.arange(-i, i + 1)[:, None] / period, np.arange(j + 1) / period
         phases = np.random.default_rng(self.seed).uniform(0, 2 * math.pi, (2 * i + 1, j + 1))
         wavenumber = np.hypot(along * root, across / root)
-        inside = wavenumber <= (1 + 1e-9) / self.cut_off
+        inside = wavenumber <= (1 + ROUND_OFF) / self.cut_off
         kept = (wavenumber > 0) & inside & ((across > 0) | (along > 0))
         amplitudes = np.zeros(phases.shape)
         rolled = np.maximum(wavenumber[kept] * self.roll_off, 1.0)

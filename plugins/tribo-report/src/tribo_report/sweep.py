@@ -103,11 +103,10 @@ def _answers(
 
 
 def _notes(runs: pd.DataFrame) -> Iterator[str]:
-    """Yield the findings of the first run of those that have findings of the same kinds."""
+    """Yield once what several runs have to say with other numbers."""
     found = runs[runs["message"].notna()]
-    # Tables of older versions, and runs that failed, have messages alone.
-    kinds = found.get("findings", found["message"]).fillna(found["message"])
-    for _, rows in found.groupby(kinds, sort=False):
+    alike = found["message"].str.replace(r"[\d.]+", "", regex=True)
+    for _, rows in found.groupby(alike, sort=False):
         numbers, text = list(rows["run"]), rows["message"].iloc[0]
         more = f" and {len(numbers) - 1} more" if len(numbers) > 1 else ""
         yield f"run {numbers[0]}{more}: {text}"

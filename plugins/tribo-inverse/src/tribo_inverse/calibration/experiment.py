@@ -200,7 +200,7 @@ class Experiment:
         if key in self.runs:
             return self.runs[key]
         responses, grid_sigma = np.empty((2, len(self.table) + len(self.predicted)))
-        runs: dict[Finding, list[str]] = {}
+        runs: dict[str, tuple[Finding, list[str]]] = {}
         maps: dict[int, Array] = {}
         for i, (rows, wanted) in enumerate(self.readings):
             tables, name = self.setups[i].tables, f"run {self.run_count + i + 1}"
@@ -210,7 +210,8 @@ class Experiment:
                 shape = surface_shape(self.setups[i].model, wanted[j].body)
                 maps[int(rows[j])] = depth[: shape[0]]
             for finding in made.findings:
-                runs.setdefault(finding, []).append(self.setups[i].name or "the case as it is")
+                names = runs.setdefault(str(finding), (finding, []))[1]
+                names.append(self.setups[i].name or "the case as it is")
         positive = ~self.table["quantity"].isin(FIELDS).to_numpy()
         for each in self.table[positive & (responses <= 0)[: len(self.table)]].itertuples():
             raise CaseError(
@@ -220,7 +221,7 @@ class Experiment:
             )
         findings = tuple(
             of_run(finding, () if len(names) == len(self.setups) else names)
-            for finding, names in runs.items()
+            for finding, names in runs.values()
         )
         self.runs[key] = SetupRun(responses, grid_sigma, maps, findings)
         return self.runs[key]
