@@ -133,3 +133,11 @@ def test_verify_has_the_cases_of_every_plugin():
     rows = json.loads(told("verify", "--only", "case of adds_", "--json"))["rows"]
     found = {row["case"]: (row["expected"], row["got"], row["verdict"]) for row in rows}
     assert found == {f"case of adds_{name}": (2.0, 2.5, "holds") for name in "abc"}
+
+
+def test_an_answer_of_another_class_is_left_out(folder):
+    file = folder / "adds_b.py"
+    file.write_text(file.read_text().replace("return [CaseT", "return ['text'] or [CaseT"))
+    message = told("new", "adds_a.case", "new.toml")
+    assert Path("new.toml").read_text() == "# of adds_a"
+    assert "tribo_templates of adds_b is left out" in message

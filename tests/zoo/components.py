@@ -174,7 +174,7 @@ for name, words, spoilt in (
     ("short_rate", "of shape", rated(lambda r, local: {"depth_rate": r.depth_rate[1:]})),
     (
         "grows",
-        "'depth_rate' that is from -",
+        "'depth_rate' that is -",
         rated(lambda r, local: {"depth_rate": -r.depth_rate}),
     ),
     (
@@ -249,7 +249,7 @@ for name, words, spoilt in (
     ("nan_p", "1 cells", solution(lambda s: {"pressure": point(s.pressure, corner=np.nan)})),
     (
         "adhesive",
-        "'pressure' that is from -5 to ",
+        "'pressure' that is -5 somewhere",
         solution(lambda s: {"pressure": point(s.pressure, corner=-5.0, more=5.0)}),
     ),
     ("too_hard", "above the hardness of 2e+09 Pa", solution(focused)),

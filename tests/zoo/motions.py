@@ -31,7 +31,7 @@ for name, words, saved, parts in (
     ("stops", "raised OverflowError: too late", True, path(stopping)),
     (
         "ends_before",
-        "'end_time' that is -3; ",
+        "'end_time' that is -3.0; ",
         False,
         {"end_time": property(lambda self: -3.0)},
     ),
@@ -94,7 +94,7 @@ for name, words, compliance in (
     ("compliance_array", "ndarray as a compliance for body 'ball'", lambda self, k, p: k),
     (
         "compliance_below_0",
-        "'local' for body 'ball' that is from -",
+        "'local' for body 'ball' that is -",
         lambda self, k, p: WearCompliance(-k, np.zeros(32)),
     ),
 ):
