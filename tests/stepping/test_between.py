@@ -198,7 +198,7 @@ class Twice(Bath):
     [
         ([Debris(length=1, on="pin")], "lies on 'pin'; the bodies are ball, disk"),
         ([Bath(), Twice()], "'warm' is provided twice"),
-        ([Bath(begin=-1)], "initial 'warm' that is below 0 K"),
+        ([Bath(begin=-1)], "'initial warm' that is -1"),
     ],
 )
 def test_a_state_that_cannot_be_is_refused(effects, words):

@@ -8,9 +8,9 @@ import stroke
 from paper_models import archard, last, named, sphere, steel
 
 from tribo import Grid, Rough, Simulation
+from tribo.core import findings
 from tribo.motion.cycle import missed_shares
 from tribo.motion.stroke import Stroke, spacing_for
-from tribo.simulation import validity
 from tribo.simulation.predict import predict
 from tribo.stepping.first_contact import first_contact
 from tribo.stepping.quadrature import cycle_error
@@ -91,7 +91,7 @@ def test_every_cell_and_the_average_have_no_such_error():
 
 def test_a_run_says_so_and_how_many_would_do(monkeypatch):
     # Positions so few that smooth bodies come to 5 % are refused.
-    monkeypatch.setattr(validity, "COARSE", 0.01)
+    monkeypatch.setattr(findings, "COARSE", 0.01)
     simulation = Simulation(resolved(7, duration=5).case)
     with pytest.warns(match=r"7 positions.*0\.075 mm apart.*by about 2.* to 11 for 1 %"):
         result = simulation.run()

@@ -83,9 +83,9 @@ def test_a_motion_that_states_no_speeds_has_the_mean_over_the_step():
     ("speeds", "words"),
     [
         ([(0.1, 0.5)], "add up to 0.5, not to 1"),
-        ([(-0.1, 1.0)], "speeds of a cycle"),
-        ([], "speeds of a cycle"),
-        ([("fast", 1.0)], "speeds of a cycle"),
+        ([(-0.1, 1.0)], "'speeds'"),
+        ([], "'speeds'"),
+        ([("fast", 1.0)], "'speeds'"),
         (7, "TypeError"),
     ],
 )

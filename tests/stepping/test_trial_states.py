@@ -87,7 +87,9 @@ class Worn(WearLaw):
 
 
 def test_a_law_that_is_bad_from_a_state_on_ends_the_run_there_by_name(tmp_path):
-    with pytest.raises(PluginError, match=r"wear law 'test\.worn' .* negative depth .* at 1 m"):
+    with pytest.raises(
+        PluginError, match=r"wear law 'test\.worn' .*'depth_rate' that is -.* at 1 m"
+    ):
         Simulation(model(Worn())).run(tmp_path / "run.h5")
 
 
@@ -104,7 +106,7 @@ class Ageing(WearLaw):
 
 
 def test_a_state_that_changes_where_nothing_presses_is_refused():
-    with pytest.raises(PluginError, match=r"rate of 'age' that is not 0 in \d+ cells where the"):
+    with pytest.raises(PluginError, match=r"'rate of age' that is not 0 in \d+ cells where the"):
         lost(model(Ageing()))
 
 

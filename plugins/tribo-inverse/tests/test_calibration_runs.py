@@ -147,7 +147,7 @@ def test_the_experiment_gives_the_weighed_coefficients_and_the_crown():
     half = 1.96 * 0.5 / 6**0.5
     assert disk.lower == pytest.approx(disk.value * (1 - half), rel=1e-3, abs=0)
     assert disk.upper == pytest.approx(disk.value * (1 + half), rel=1e-3, abs=0)
-    assert [each.place for each in of_kind(found, "resolution")] == [BALL_K, DISK_K]
+    assert [each.place for each in of_kind(found, "reading")] == [BALL_K, DISK_K]
     (crown,) = found.predictions.query("body == 'ball' and quantity == 'crown'").itertuples()
 
     def rigid(k_disk):
@@ -284,7 +284,7 @@ def test_a_resolution_leaves_open_its_part_of_the_loss(step):
     """Without fit the k of what was measured is fitted; that, at the end, is not predicted."""
     loss = {"body": "ball", "quantity": "mass", "value": mass(BALL), "resolution": step}
     found = calibrate(validate_case(CASE), {"measured": [{"time": 300.0, **loss}]})
-    (open_part,) = of_kind(found, "resolution")
+    (open_part,) = of_kind(found, "reading")
     assert open_part.value == pytest.approx(step / mass(BALL), rel=1e-6)
     assert found.settings == pytest.approx({BALL_K: BALL}, rel=1e-6, abs=0)
     assert ("ball", "mass") not in {(p.body, p.quantity) for p in found.predictions.itertuples()}

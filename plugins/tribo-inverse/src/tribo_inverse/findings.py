@@ -158,7 +158,7 @@ def _resolutions(estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array) -
             entry = data.iloc[int(np.argmax(np.abs(effect) * parts))]
             instrument = "balance" if entry.quantity == "mass" else "instrument"
             yield Finding(
-                "resolution",
+                "reading",
                 f"{each.path}: the {instrument}'s resolution dominates the uncertainty; "
                 f"the {named(entry)} read to {in_words(entry.quantity, entry.step)} "
                 f"leaves ±{percent(each.resolution_limit)} % open",
