@@ -120,24 +120,24 @@ def test_a_broken_plugin_is_left_out_of_the_formats(folder):
     assert "adds_c 1.0 is left out: ZeroDivisionError" in told("new", "adds_a.case", "new.toml")
 
 
-def test_a_hook_that_raises_is_named_by_file_and_line_and_hurts_no_other(folder):
+@pytest.mark.parametrize(
+    ("instead", "words"),
+    [
+        ("1 / 0; return [CaseT", "ZeroDivisionError: division by zero ({file}, line "),
+        ("return ['text'] or [CaseT", "TypeError: "),
+    ],
+    ids=["raises", "answers with another class"],
+)
+def test_a_hook_that_fails_is_named_and_hurts_no_other(folder, instead, words):
     file = folder / "adds_b.py"
-    file.write_text(file.read_text().replace("return [CaseT", "1 / 0; return [CaseT"))
+    file.write_text(file.read_text().replace("return [CaseT", instead))
     message = told("new", "adds_a.case", "new.toml")
     assert Path("new.toml").read_text() == "# of adds_a"
     assert "tribo_templates of adds_b is left out" in message
-    assert f"ZeroDivisionError: division by zero ({file}, line " in message
+    assert words.format(file=file) in message
 
 
 def test_verify_has_the_cases_of_every_plugin():
     rows = json.loads(told("verify", "--only", "case of adds_", "--json"))["rows"]
     found = {row["case"]: (row["expected"], row["got"], row["verdict"]) for row in rows}
     assert found == {f"case of adds_{name}": (2.0, 2.5, "holds") for name in "abc"}
-
-
-def test_an_answer_of_another_class_is_left_out(folder):
-    file = folder / "adds_b.py"
-    file.write_text(file.read_text().replace("return [CaseT", "return ['text'] or [CaseT"))
-    message = told("new", "adds_a.case", "new.toml")
-    assert Path("new.toml").read_text() == "# of adds_a"
-    assert "tribo_templates of adds_b is left out" in message
