@@ -19,7 +19,6 @@ from tribo.lab.against_hertz import hertz_contact
 from tribo.motion.stroke import check_spacing, spacing_for
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.registry import from_packages
-from tribo.simulation.doubt import unusual
 from tribo.stepping.model import Model
 from tribo.stepping.quadrature import cycle_error
 
@@ -41,8 +40,8 @@ def few_cells(model: Model, first: ContactSolution) -> Finding | None:
 
 @hookimpl(trylast=True)
 def tribo_findings(model: Model) -> list[Finding]:
-    """Say what is unusual in a case, and where its surfaces and its path do not fit."""
-    return [*unusual(model.case), *of_case(model)]
+    """Say where the surfaces and the path of a case do not fit."""
+    return of_case(model)
 
 
 def of_case(model: Model) -> list[Finding]:
