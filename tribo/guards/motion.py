@@ -81,7 +81,7 @@ class GuardedMotion(Guard[Kinematics]):
             mean = self.array("average", mean, own, where)
         elif not np.array_equal(mean, rate):
             rule = "of a body with rows of its own it must be the rate itself"
-            raise self.bad("average", "another field than the rate", where, rule)
+            raise self.bad("average", "not the rate itself", where, rule)
         passing = rate if exposure.starts is None else readonly(np.ones(own))
         self.array("envelope", self.ask(exposure.envelope, passing), own, where)
         self.number("volume", self.ask(exposure.volume, readonly(mean)), where)
