@@ -64,22 +64,6 @@ def test_smoothing_is_its_closed_form():
     assert late - K * PRESSURE * 200 == pytest.approx(0.3e-6 * np.log(6), rel=1e-4)
 
 
-@pytest.mark.parametrize(
-    "law",
-    [
-        RunningIn(law=ARCHARD, factor=6, over="0.2 GPa m"),
-        Smoothing(law=ARCHARD, factor=6, roughness="0.4 um", settled="0.1 um", depth="0.3 um"),
-    ],
-)
-def test_an_advance_of_a_surface_that_has_run_in_a_little_is_exact(law):
-    (name, before), *_ = zip(law.initial_state(), worn(law, 1.0, 100)[1:], strict=True)
-    local = LocalConditions(np.array([[PRESSURE, 0.0]]), 0.1, STEEL, {}, {name: np.full(2, before)})
-    mean = law.advance(local, 20.0)
-    depth, state = worn(law, 21.0, 400) - worn(law, 1.0, 100)
-    np.testing.assert_allclose(20 * mean.depth_rate, [[depth, 0.0]], rtol=1e-7)
-    np.testing.assert_allclose(20 * mean.state_rates[name], [[state, 0.0]], rtol=1e-7)
-
-
 def test_a_surface_smoother_than_it_settles_at_is_refused():
     with pytest.raises(ValidationError, match="settled must be less than roughness"):
         Smoothing(law=ARCHARD, factor=2, roughness="0.1 um", settled="0.1 um", depth="1 um")

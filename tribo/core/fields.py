@@ -33,6 +33,9 @@ class Field:
     fills : bool, optional
         Whether a state is a height, in m, that fills the gap: the bodies meet on it, as on debris
         or on a film that has grown.
+    breaks : tuple of float, optional
+        Values of a state at which a rate jumps, rising. A step ends at a point where its state
+        comes to one, and goes on from there; at the value itself rates are those above it.
     """
 
     name: str
@@ -43,6 +46,7 @@ class Field:
     typical: float | None = None
     uniform: bool = False
     fills: bool = False
+    breaks: tuple[float, ...] = ()
 
     def __str__(self) -> str:
         return f"{self.name} [{self.unit}] {self.description}"
@@ -73,6 +77,8 @@ def check_declared(owner: object, who: str) -> None:
             if names.count(name) > 1:
                 raise TypeError(f"{where}: the field {name!r} is declared twice")
         for each in fields:
+            if list(each.breaks) != sorted(set(each.breaks)):
+                raise TypeError(f"{where}: the breaks of {each.name!r} must rise: {each.breaks}")
             if each.fills and (each.unit != "m" or attribute == "provides"):
                 raise TypeError(
                     f"{where}: {each.name!r} cannot fill the gap: only a height that is kept as "
@@ -101,6 +107,12 @@ LOAD_SHARE = Field(
     at_most=1.0,
     typical=0.3,
 )
+WORN_DEPTH = Field("worn_depth", "m", "Depth that a point of the body has lost.")
+"""A law that has it among its `state_fields` is told it, and gives its depth rate as the rate.
+
+The run has it already: it is neither saved twice, nor begun anew. ``replace(WORN_DEPTH, breaks=…)``
+declares the depths at which the rate jumps.
+"""
 PLACE_X = Field(
     "place_x", "m", "Place along x on the body's own surface, 0 in its middle.", typical=1e-4
 )

@@ -92,23 +92,3 @@ class Effect(Component):
             By field name; arrays that broadcast to (nx, ny), one number of a uniform field.
         """
         return {}
-
-    def advance(self, contact: ContactConditions, time: float) -> Mapping[str, Array] | None:
-        """Return the exact mean of `state_rates` over a time, in which the effect's state goes on.
-
-        The contact stays as it is, its wear rates and fields too. None, unless overridden: the
-        rates are integrated.
-
-        Parameters
-        ----------
-        contact : ContactConditions
-            The contact, with the state before; its arrays must not be written to.
-        time : float
-            In s; `contact.speed` times it is slid.
-
-        Returns
-        -------
-        Mapping[str, ndarray] or None
-            As `state_rates`.
-        """
-        return None

@@ -8,9 +8,8 @@ from itertools import accumulate
 
 import numpy as np
 
-from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, PluginError
-from tribo.core.fields import Field, LocalConditions, WearRate
+from tribo.core.errors import CaseError
+from tribo.core.fields import WORN_DEPTH, Field, LocalConditions, WearRate
 from tribo.guards.guard import Guard
 from tribo.guards.parts import GuardedLaw
 
@@ -18,10 +17,9 @@ from tribo.guards.parts import GuardedLaw
 class LayeredLaw(GuardedLaw):
     """Laws of layers, from the top, the last of which is that of the body below.
 
-    It is told in the state which share of an increment each point spends in each layer. What laws
-    remember belongs to the point: it changes by the law of the layer that wears, and a field that
-    two of them have goes on from one to the other. Thicknesses, in m, are of all but the last.
-    Where all laws know the means of their rates each gives that over the part spent in its layer.
+    A law whose rate jumps at the depths worn where layers end. What laws remember belongs to the
+    point: it changes by the law of the layer that wears, and a field that two of them have goes on
+    from one to the other. Thicknesses, in m, are of all but the last.
     """
 
     def __init__(self, laws: Sequence[GuardedLaw], thicknesses: Sequence[float]) -> None:
@@ -30,52 +28,29 @@ class LayeredLaw(GuardedLaw):
         self.laws = tuple(laws)
         self.material = below.material
         self.requires = tuple(dict.fromkeys(name for law in laws for name in law.requires))
-        self.state_fields, self.initial_state = _state(laws)
         self.bottoms = tuple(accumulate(thicknesses))
-        self.advances = all(map(_knows_means, laws))
-        self.steady_above = not any(law.initial_state for law in laws[:-1])
+        fields, self.initial_state = _state(laws)
+        own = {each for law in laws for each in law.breaks}
+        depth = replace(WORN_DEPTH, breaks=tuple(sorted({*self.bottoms, *own})))
+        self.state_fields = (*fields, depth)
+        self.initial_state[WORN_DEPTH.name] = 0.0
 
-    def rate(self, local: LocalConditions, over: Array | float = 0.0) -> WearRate:
-        """Return the rates of the layers, weighted with their shares; see `GuardedLaw.rate`."""
+    def rate(self, local: LocalConditions) -> WearRate:
+        """Return at each point the rate of the layer that is at the surface there."""
+        layer_at = np.searchsorted(self.bottoms, local.state[WORN_DEPTH.name], side="right")
         depth, slope = np.zeros_like(local.pressure), np.zeros_like(local.pressure)
         changes = {name: np.zeros_like(local.pressure) for name in self.initial_state}
-        now = {name: local.state[name] for name in self.initial_state}
         for layer, law in enumerate(self.laws):
-            share = local.state.get(f"rate {layer}")
-            if share is None or not share.any():
+            here = layer_at == layer
+            if not here.any():
                 continue
             fields = {name: local.fields[name] for name in law.requires}
-            state = {name: now[name] for name in law.initial_state}
-            told = replace(local, material=law.material, fields=fields, state=state)
-            if self.advances and over:
-                # What counts for nothing is over some length all the same.
-                rate = law.rate(told, over * np.where(share > 0, share, 1.0))
-            else:
-                rate = law.rate(told)
-            depth = depth + share * rate.depth_rate
-            slope = slope + local.state[f"slope {layer}"] * rate.depth_slope
+            state = {name: local.state[name] for name in law.initial_state}
+            rate = law.rate(replace(local, material=law.material, fields=fields, state=state))
+            depth[here], slope[here] = rate.depth_rate[here], rate.depth_slope[here]
             for name, change in rate.state_rates.items():
-                changes[name] = changes[name] + share * change
-                if self.advances and over:
-                    # A point comes to the next layer with what it remembers of this one.
-                    now[name] = now[name] + over * share * change
-        return WearRate(depth, slope, changes)
-
-
-def _knows_means(law: GuardedLaw) -> bool:
-    """Whether a law knows the mean of its rate over a part that each point has of its own."""
-    if not law.advances:
-        return not law.initial_state
-    state = {name: np.full((1, 2), value) for name, value in law.initial_state.items()}
-    pressed = LocalConditions(np.ones((1, 2)), 1.0, law.material, {}, state)
-    over = np.array([[1.0, 2.0]])
-    try:
-        known = law.ask(law.component.advance, pressed, over) is not None
-        law.rate(pressed, over)
-    except PluginError:
-        # One that takes a single number is integrated.
-        return False
-    return known
+                changes[name][here] = change[here]
+        return WearRate(depth, slope, {**changes, WORN_DEPTH.name: depth})
 
 
 def _state(laws: Sequence[GuardedLaw]) -> tuple[tuple[Field, ...], dict[str, float]]:
@@ -84,6 +59,8 @@ def _state(laws: Sequence[GuardedLaw]) -> tuple[tuple[Field, ...], dict[str, flo
     first: dict[str, float] = {}
     for law in laws:
         for field in law.state_fields:
+            if field.name == WORN_DEPTH.name:
+                continue
             fields.setdefault(field.name, field)
             if (
                 first.setdefault(field.name, law.initial_state[field.name])

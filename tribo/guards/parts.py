@@ -21,6 +21,7 @@ from tribo.core.contact import (
 from tribo.core.errors import BadValues, CaseError, PluginError
 from tribo.core.fields import (
     FRICTION_COEFFICIENT,
+    WORN_DEPTH,
     ContactConditions,
     Field,
     LocalConditions,
@@ -56,41 +57,36 @@ class GuardedSurface(Guard[Surface]):
 class GuardedLaw(Guard[WearLaw]):
     """A wear law that suits its body's material, and the initial values of its state fields."""
 
-    bottoms: tuple[float, ...] = ()
-    """Depths at which layers end, in m, where a body has any (`tribo.guards.layered_law`)."""
-    steady_above = False
-    """Whether layers above the last remember nothing, so that points pass them at even rates."""
-    advances = False
-    """Whether it knows the exact mean of its rate."""
-
     def __init__(self, law: WearLaw, body: str, material: Material) -> None:
         super().__init__(law, body)
         self.material = material
         self.requires = law.requires
-        self.state_fields = law.state_fields
+        self.state_fields = tuple(law.state_fields)
         self.ask(law.check, material)
         self.initial_state = _initial_state(self, law.state_fields, self.ask(law.initial_state))
-        # Whether it does is a matter of the law's configuration.
-        self.advances = type(law).advance is not WearLaw.advance and not law.requires
-        if self.advances:
-            state = {name: np.full((1, 1), value) for name, value in self.initial_state.items()}
-            unloaded = LocalConditions(np.zeros((1, 1)), 1.0, material, {}, state)
-            self.advances = self.ask(law.advance, unloaded, 1.0) is not None
 
-    def rate(self, local: LocalConditions, over: Array | float = 0.0) -> WearRate:
-        """Return the law's rate at the shape of the pressure, its slope not negative.
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """The depths worn at which its rate jumps, as at the bottoms of layers, in m."""
+        depth = (field for field in self.state_fields if field.name == WORN_DEPTH.name)
+        return next(depth, WORN_DEPTH).breaks
 
-        Of a law that knows it that is the mean over a distance (m), without a slope.
-        """
-        knows = self.advances and np.any(over)
-        mean = self.ask(self.component.advance, local, over) if knows else None
-        answer, depth = self._depth(local, mean)
+    @property
+    def own_state(self) -> dict[str, float]:
+        """What it remembers beside the depth worn, and what that begins with."""
+        return {n: v for n, v in self.initial_state.items() if n != WORN_DEPTH.name}
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        """Return the law's rate at the shape of the pressure, its slope not negative."""
+        answer, depth = self._depth(local)
         shape = local.pressure.shape
-        slope = answer.depth_slope if mean is None else np.zeros(shape)
+        slope = answer.depth_slope
         if slope is None:
             slope = self._slope(local, depth)
         slope = self.array("depth_slope", slope, shape)
         state = _rates(self, answer.state_rates, dict.fromkeys(self.initial_state, shape))
+        if WORN_DEPTH.name in state:
+            state[WORN_DEPTH.name] = depth
         rule = "what is not touched neither wears nor changes"
         untouched = local.pressure == 0
         named = {"depth_rate": depth, **{rate_of(field): state[field] for field in state}}
@@ -100,10 +96,8 @@ class GuardedLaw(Guard[WearLaw]):
                 raise self.bad(name, fault, needed=rule)
         return WearRate(depth, np.maximum(slope, 0.0) if np.min(slope) < 0 else slope, state)
 
-    def _depth(
-        self, local: LocalConditions, mean: WearRate | None = None
-    ) -> tuple[WearRate, Array]:
-        given = self.ask(self.component.rate, local) if mean is None else mean
+    def _depth(self, local: LocalConditions) -> tuple[WearRate, Array]:
+        given = self.ask(self.component.rate, local)
         answer: WearRate = self.typed(given, WearRate, "its rate")
         depth = self.array("depth_rate", answer.depth_rate, local.pressure.shape)
         return answer, depth
@@ -131,7 +125,6 @@ class GuardedEffect(Guard[Effect]):
         self.requires = effect.requires
         self.provides = effect.provides
         self.state_fields = tuple(effect.state_fields)
-        self.advances = type(effect).advance is not Effect.advance
         self.carrier = self.ask(effect.carrier)
         if self.carrier is not None and self.carrier not in bodies:
             raise CaseError(
@@ -163,17 +156,11 @@ class GuardedEffect(Guard[Effect]):
             )
         return found
 
-    def state_rates(self, contact: ContactConditions, over: float = 0.0) -> dict[str, Array]:
-        """Return the change of each state field per second, (nx, ny), or (1, 1) if uniform.
-
-        Of an effect that knows it that is the mean over a time (s).
-        """
+    def state_rates(self, contact: ContactConditions) -> dict[str, Array]:
+        """Return the change of each state field per second, (nx, ny), or (1, 1) if uniform."""
         window = contact.pressure.shape
         shapes = {f.name: (1, 1) if f.uniform else window for f in self.state_fields}
-        mean = self.ask(self.component.advance, contact, over) if self.advances and over else None
-        if mean is None:
-            mean = self.ask(self.component.state_rates, contact)
-        return _rates(self, mean, shapes)
+        return _rates(self, self.ask(self.component.state_rates, contact), shapes)
 
 
 class GuardedSolver(Guard[ContactSolver]):

@@ -113,7 +113,7 @@ def assemble(case: Case) -> Model:
         surfaces=surfaces,
         cycle=cycle,
         contact=ContactSetup(solver, system, loads, _gaps(cycle, surfaces), share, hardness),
-        laws=Laws(laws, effects, cycle, friction),
+        laws=Laws(laws, effects, friction),
         end_time=end,
     )
     _check_ends(model)

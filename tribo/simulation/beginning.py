@@ -127,7 +127,7 @@ def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
             "average both",
             PLACE,
         )
-    initial = model.laws.wear[name].initial_state if name in model.laws.wear else {}
+    initial = model.laws.wear[name].own_state if name in model.laws.wear else {}
     law = {field: np.full_like(wear, value) for field, value in initial.items()}
     return BodyState(wear=wear, plastic=kept[1], law=law)
 

@@ -14,9 +14,9 @@ from tribo.core.measures import (
 from tribo.core.state import State
 from tribo.lab.running_in import contact_roughness
 from tribo.stepping.friction import friction_force
-from tribo.stepping.layers import caps
 from tribo.stepping.model import Model
 from tribo.stepping.quadrature import cycle_error
+from tribo.stepping.yielding import caps
 
 
 def measure(model: Model, state: State) -> Measures:

@@ -13,9 +13,9 @@ from tribo.core.contact import ContactProblem, ContactSolution, CycleCompliance
 from tribo.core.loads import ByPosition
 from tribo.core.state import BodyState, State
 from tribo.stepping.events import Solved
-from tribo.stepping.layers import caps
 from tribo.stepping.linear_wear import LinearWear
 from tribo.stepping.memory import filling, remembered
+from tribo.stepping.yielding import caps
 
 if TYPE_CHECKING:
     from tribo.stepping.model import Model
@@ -59,7 +59,7 @@ def undeformed(model: Model, state: State) -> Array:
 
     Shape (positions, nx, ny).
     """
-    gaps = np.stack(model.contact.gaps) - filling(model, remembered(state))
+    gaps = np.stack(model.contact.gaps) - filling(model, remembered(model, state))
     for position, gap in enumerate(gaps):
         for name, body in state.bodies.items():
             gap += model.cycle.maps[name].see(body.wear, position)

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import BadValues
-from tribo.stepping.integrator import EXACT, Limits, Part, Rates, Values, apart, part_of, solved
+from tribo.stepping.integrator import Kept, Part, Rates, Sum, Values, apart, part_of, solved
 
 ACCURACY = 3e-5
 """Error of an increment, summed over the cells, relative to what it integrates."""
@@ -49,54 +48,53 @@ class Division:
     parts: tuple[tuple[float, bool], ...] = ((1.0, False),)
     accuracy: float = ACCURACY
 
-    def until(self, share: float) -> Division:
-        """Return the parts of the first share of the increment, to be taken as they are."""
-        parts, left = [], share
-        for part, relaxes in self.parts:
-            if left > 0:
-                parts.append((min(part, left) / share, relaxes))
-            left -= part
-        return Division(tuple(parts), math.inf)
+
+@dataclass(frozen=True)
+class Integral:
+    """States at the end of an increment, what sums come to over it, and how it was divided.
+
+    `passed` has by state and break, both by number, the first share of the increment at which a
+    point rises to the break.
+    """
+
+    values: Values
+    sums: Values
+    plan: Division
+    passed: Mapping[tuple[int, int], float]
 
 
 def integrated(
     rates: Rates,
     start: Sequence[Array],
     length: float,
-    limits: Sequence[Limits],
+    kept: Sequence[Kept],
+    sums: Sequence[Sum] = (),
     plan: Division | None = None,
-    *,
-    knows_means: bool = False,
-    layered: Sequence[bool] = (),
-) -> tuple[Values, Values, Division]:
-    """Return states after an increment, what other rates come to over it, and how it was divided.
+) -> Integral:
+    """Integrate states and sums over an increment.
 
     Each part is solved by Euler steps, extrapolated; where that is not accurate, by exponential
     ones, exact for a state that relaxes linearly; and where that is not either, or leaves the
     limits of a state, in two halves. States that relax over far less than a part come to rest
-    there. Rates that jump would need parts without end: they are integrated less accurately.
+    there. At breaks that a state declares steps end; rates that jump elsewhere would need parts
+    without end, and are integrated less accurately.
 
     Parameters
     ----------
     rates : callable
-        The rates of the states, and after them those that are only integrated, at given states, a
-        part of the increment that has passed, and the part over which they are taken as constant.
+        The rates of the states, and after them of the sums, at given states and a part of the
+        increment that has passed.
     start : sequence of ndarray
         The states at the beginning.
     length : float
         The increment, in the unit that rates are per.
-    limits : sequence of Limits
-        One for each state: trial values are held to them.
+    kept : sequence of Kept
+        One for each state: trial values are held to its limits.
+    sums : sequence of Sum, optional
+        One for each sum.
     plan : Division, optional
         Parts to begin with; they are divided, but never joined, so that the answer follows
         smoothly from the rates.
-    knows_means : bool, optional
-        Whether rates are the exact means over the part that they are told of, as those of a model
-        that knows them: they are asked anew for each length.
-    layered : sequence of bool, optional
-        Of each of the last states that are depths worn in layers, at whose bottoms rates may jump,
-        whether its rates are such exact means. The others too are means over a part, as points pass
-        from layer to layer within it.
 
     Raises
     ------
@@ -112,7 +110,7 @@ def integrated(
     Exponential integrators, Acta Numerica 19, 209-286.
     """
     plan = plan or Division()
-    problem = _Problem(rates, length, limits, knows_means, layered, math.isinf(plan.accuracy))
+    problem = _Problem(rates, length, kept, sums, math.isinf(plan.accuracy))
     here = begin = problem.begin(start)
     waiting, done, missed = list(plan.parts), list[tuple[float, bool]](), 0.0
     worst = [0.0] * len(begin.rates)
@@ -129,9 +127,9 @@ def integrated(
         elif not relaxes:
             waiting[0] = part, True
         elif left and (part <= FINEST or len(waiting) + len(done) > MOST_LEAVING):
-            limit = limits[int(np.argmax(trial.beyond))]
+            of = kept[int(np.argmax(trial.beyond))]
             raise BadValues(
-                f"{limit.name} goes on beyond its limits of {limit.least:g} to {limit.most:g}: "
+                f"{of} goes on beyond its limits of {of.least:g} to {of.most:g}: "
                 "let its rate vanish there"
             )
         elif left or (part > FINEST and len(waiting) + len(done) < MOST_PARTS):
@@ -145,19 +143,20 @@ def integrated(
         amounts = [*here.peaks, *map(np.abs, here.sums)]
         missed = max(missed, *map(part_of, worst, amounts))
     if not missed <= ROUGHEST:
-        names = ", ".join(limit.name for limit in limits)
+        names = ", ".join(map(str, kept))
         raise BadValues(
             f"what is remembered ({names}) changes too often to be followed over {length:g} (m, or "
             "s of a rest): shorten the steps"
         )
-    return here.values, here.sums, replace(plan, parts=tuple(done))
+    return Integral(here.values, here.sums, replace(plan, parts=tuple(done)), here.breaks)
 
 
 @dataclass(frozen=True)
 class _Place:
     """A place along an increment: the part passed, states and sums there, and all rates.
 
-    `peaks` are the largest values of the states until there.
+    `peaks` are the largest values of the states until there, and `breaks` what `Integral.passed`
+    is.
     """
 
     passed: float
@@ -165,6 +164,7 @@ class _Place:
     peaks: Values
     sums: Values
     rates: Values
+    breaks: Mapping[tuple[int, int], float]
 
 
 @dataclass(frozen=True)
@@ -187,41 +187,28 @@ class _Problem:
 
     rates: Rates
     length: float
-    limits: Sequence[Limits]
-    knows_means: bool
-    layered: Sequence[bool]
+    kept: Sequence[Kept]
+    sums: Sequence[Sum]
     repeated: bool
-
-    @property
-    def of_steps(self) -> bool:
-        """Whether rates are means over the part that they are told of."""
-        return self.knows_means or len(self.layered) > 0
 
     def begin(self, start: Sequence[Array]) -> _Place:
         """Return the place where the increment begins."""
-        values, first = list(start), self.rates(start, 0.0, 1.0)
+        values, first = list(start), self.rates(start, 0.0)
         sums = [np.zeros_like(rate) for rate in first[len(values) :]]
-        return _Place(0.0, values, [np.abs(value) for value in values], sums, first)
+        return _Place(0.0, values, [np.abs(value) for value in values], sums, first, {})
 
     def tried(
         self, here: _Place, part: float, relaxes: bool, accuracy: float, *, is_last: bool
     ) -> _Trial:
         """Return what a part of the increment would end with."""
-        values, limits, count = here.values, self.limits, len(here.values)
-        span, first = part * self.length, here.rates
-        along = partial(self._along, here.passed, part)
-        if self.of_steps and part < 1:
-            first = along(values, 0.0, 1.0)
-        taken = solved(
-            along,
-            values,
-            first,
-            span,
-            limits,
-            relaxes=relaxes,
-            of_steps=self.of_steps,
-            knows_means=self.knows_means,
-        )
+        values, kept, count = here.values, self.kept, len(here.values)
+        span = part * self.length
+
+        def along(states: Sequence[Array], share: float) -> Values:
+            held = [of.hold(state) for state, of in zip(states, kept, strict=True)]
+            return self.rates(held, here.passed + share * part)
+
+        taken = solved(along, values, here.rates, span, kept, self.sums, relaxes=relaxes)
         best, rough = taken.end, taken.rough
         sizes = [
             np.maximum.reduce([np.abs(old), np.abs(new), FADED * peak])
@@ -231,75 +218,34 @@ class _Problem:
             np.maximum(np.abs(new), part * np.abs(old))
             for old, new in zip(here.sums, best[count:], strict=True)
         ]
-        held = [limit.hold(value) for value, limit in zip(best, limits, strict=False)]
+        held = [of.hold(value) for value, of in zip(best, kept, strict=False)]
         at_end = is_last and math.isinf(accuracy)
-        last = first if at_end or self.of_steps else along(held, 1.0, part)
+        last = taken.last or (here.rates if at_end else along(held, 1.0))
         errors = [apart(*each) for each in zip(best, rough, strict=True)]
         off = max(map(part_of, errors, sizes), default=0.0)
         if not self.repeated:
             # Trials held to a limit agree with each other, whatever the state goes to.
             off = max(off, *map(part_of, taken.beyond, sizes), 0.0)
-        if off <= accuracy < math.inf and not (self.knows_means and off <= EXACT):
-            if self.layered:
-                at = [
-                    self._between(along, values, held, share)
-                    for share in (0, 1 / 2, 1 / 3, 2 / 3, 1)
-                ]
-                off = max(off, _jump(at[:4], at[4], span, here.sums, count))
-                late = self._late(along, values, held, at[4], span)
-                off = max(off, *map(part_of, late, sizes[count - len(late) : count]))
-            elif not self.of_steps:
-                off = max(off, _jump(_samples(taken), last, span, here.sums, count))
-        sums = [old + new for old, new in zip(here.sums, best[count:], strict=True)]
+            off = max(off, *map(part_of, taken.unseen(along, last), sizes), 0.0)
+        passed = taken.passed()
+        if off <= accuracy < math.inf and taken.last is None:
+            # At a place where points pass breaks, rates jump as is known; elsewhere all may then.
+            passing = {kept[at].place for piece in taken.pieces for at in piece.ended}
+            amounts = [*sizes[:count], *map(np.abs, here.sums)]
+            places = [*(of.place for of in kept), *(of.place for of in self.sums)]
+            for at, place in enumerate(places):
+                if place not in passing and (passing or at >= count):
+                    rates = [each[at] for each in (*_samples(taken), last)]
+                    off = max(off, _jump(rates, span, amounts[at]))
+        totals = [old + new for old, new in zip(here.sums, best[count:], strict=True)]
         beyond = [
-            _beyond(value, np.maximum(size, peak), limit)
-            for value, size, peak, limit in zip(best, sizes, here.peaks, limits, strict=False)
+            _beyond(value, np.maximum(size, peak), of)
+            for value, size, peak, of in zip(best, sizes, here.peaks, kept, strict=False)
         ]
         peaks = [np.maximum(old, np.abs(new)) for old, new in zip(here.peaks, held, strict=True)]
-        end = _Place(here.passed + part, held, peaks, sums, last)
+        first = {at: here.passed + share * part for at, share in passed.items()}
+        end = _Place(here.passed + part, held, peaks, totals, last, {**first, **here.breaks})
         return _Trial(end, off, errors, beyond)
-
-    def _along(
-        self, passed: float, part: float, values: Sequence[Array], share: float, step: float
-    ) -> Values:
-        """Return the rates at a place within a part, 0 to 1, over a step of it."""
-        held = [limit.hold(value) for value, limit in zip(values, self.limits, strict=True)]
-        return self.rates(held, passed + share * part, step * part)
-
-    def _between(
-        self, along: Rates, start: Sequence[Array], end: Sequence[Array], share: float
-    ) -> Values:
-        """Return the rates where a share of a part has passed, in the layers where it begins."""
-        remembered = len(start) - len(self.layered)
-        states = [s + share * (e - s) for s, e in zip(start, end, strict=True)]
-        return along([*states[:remembered], *start[remembered:]], share, 0.0)
-
-    def _late(
-        self,
-        along: Rates,
-        start: Sequence[Array],
-        end: Sequence[Array],
-        stayed: Sequence[Array],
-        span: float,
-    ) -> list[float]:
-        """Return how far each depth may be off for what is remembered once points have passed.
-
-        What they have passed to in the last third of a part has none of it in any trial, but where
-        means are known. `stayed` are the rates at the end in the layers where the part begins.
-        """
-        remembered, count = len(start) - len(self.layered), len(start)
-        none = [0.0] * len(self.layered)
-        if all(self.layered):
-            return none
-        after = along(end, 1.0, 0.0)[remembered:count]
-        passed = [a != b for a, b in zip(after, stayed[remembered:count], strict=True)]
-        if not any(map(np.any, passed)):
-            return none
-        entered = along([*start[:remembered], *end[remembered:]], 1.0, 0.0)[remembered:count]
-        return [
-            0.0 if known else span / 3 * float(np.sum(np.abs(last - first), where=where))
-            for first, last, where, known in zip(entered, after, passed, self.layered, strict=True)
-        ]
 
 
 def _cut(waiting: list[tuple[float, bool]], accurate: float) -> None:
@@ -321,31 +267,22 @@ def _looser(plan: Division) -> Division:
 
 def _samples(part: Part) -> list[Values]:
     """Return the rates at 0, 1/2, 1/3 and 2/3 of a part."""
-    return [part.rows[0][0], part.rows[1][1], *part.rows[2][1:]]
+    first, half, thirds = ([step[0].rates for step in row] for row in part.rows[:3])
+    return [first[0], half[1], *thirds[1:]]
 
 
-def _jump(
-    samples: Sequence[Sequence[Array]],
-    last: Sequence[Array],
-    length: float,
-    sums: Sequence[Array],
-    count: int,
-) -> float:
+def _jump(rates: Sequence[Array], span: float, so_far: Array) -> float:
     """Return what a rate that jumps before or after all samples may hide, relative to all so far.
 
-    It is what the end of a part differs by from the cubic through the samples.
+    It is what the last, at the end of a part, differs by from the cubic through the others.
     """
-    worst = 0.0
-    for total, *at, end in zip(sums, *(each[count:] for each in (*samples, last)), strict=True):
-        first, half, third, two_thirds = at
-        off = float(np.sum(np.abs(9 * third - 16 * half + 9 * two_thirds - first - end)))
-        size = float(np.sum(np.max(np.abs([*at, end]), axis=0)))
-        if off > JUMP * size:
-            worst = max(worst, off * length / (float(np.sum(np.abs(total))) + size * length))
-    return worst
+    first, half, third, two_thirds, last = rates
+    off = float(np.sum(np.abs(9 * third - 16 * half + 9 * two_thirds - first - last)))
+    size = float(np.sum(np.max(np.abs(rates), axis=0)))
+    return off * span / (float(np.sum(so_far)) + size * span) if off > JUMP * size else 0.0
 
 
-def _beyond(values: Array, size: Array, limit: Limits) -> float:
+def _beyond(values: Array, size: Array, kept: Kept) -> float:
     """Return by how much values pass their limits, relative to the largest."""
-    over = max(limit.least - float(np.min(values)), float(np.max(values)) - limit.most, 0.0)
+    over = max(kept.least - float(np.min(values)), float(np.max(values)) - kept.most, 0.0)
     return over / float(np.max(size)) if over > 0 else 0.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -11,13 +11,12 @@ import numpy as np
 
 from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
-from tribo.core.fields import WearRate
+from tribo.core.fields import WORN_DEPTH, WearRate
 from tribo.stepping.contacts import in_stripes
 from tribo.stepping.division import Division, integrated
-from tribo.stepping.integrator import Limits, Rates, Values
-from tribo.stepping.layers import in_layers
+from tribo.stepping.integrator import Kept, Sum, Values
 from tribo.stepping.memory import Memory, laid
-from tribo.stepping.rates import CycleRates, Moment, wear_rates
+from tribo.stepping.rates import CycleRates, Moment, rates_at_each, wear_rates
 
 if TYPE_CHECKING:
     from tribo.stepping.model import Model
@@ -39,14 +38,15 @@ class Course:
         What is remembered at its end.
     plan : Division
         How the increment is divided for that to be accurate.
-    begun : callable or None
-        The course over the first metres of it; None where no body has layers.
+    passed : Mapping[str, Mapping[int, float]]
+        By body and layer, both that it has and the first share of the increment at which a point
+        is worn through it.
     """
 
     rates: CycleRates
     memory: Memory
     plan: Division = field(default_factory=Division)
-    begun: Callable[[float], Course] | None = None
+    passed: Mapping[str, Mapping[int, float]] = field(default_factory=dict)
 
 
 def course(
@@ -60,29 +60,28 @@ def course(
     """Return what an increment (m; s of a rest) comes to, from what is remembered before it.
 
     `moment` is its end. It is divided as in `plan`, or finer. Without anything to remember, rates
-    are those of `moment` throughout, but where a body wears through a layer. With it, the depths
-    worn of bodies in layers are integrated as well.
+    are those of `moment` throughout.
     """
-    layered = layered_bodies(model)
-    taken = None
-
-    def begun(first: float) -> Course:
-        end = moment.back(increment - first) if before.values else moment
-        parts = None if taken is None else taken.until(first / increment)
-        return course(model, before, contacts, first, end, parts)
-
     if not before.values:
-        shared, found = in_layers(model, before, contacts, increment, moment)
-        wear = tuple(each.wear for each in found)
-        return Course(wear, shared, begun=begun if layered else None)
-    of_model = partial(_rates, model, before, layered, contacts, increment, moment)
-    values, depths, taken = _followed(model, before, layered, of_model, increment, plan)
-    each = iter(depths)
+        return Course(wear_rates(model, contacts, before, moment), before)
+    rates = partial(_rates, model, before, contacts, increment, moment)
+    sums = [
+        Sum(name, partial(model.cycle.maps[name].see, position=position))
+        for position in range(len(contacts))
+        for name in model.laws.wear
+    ]
+    kept = kept_in(model, before)
+    found = integrated(rates, before.values, increment, kept, sums, plan)
+    each = iter(found.sums)
     mean = [
         {name: WearRate(np.maximum(next(each), 0.0) / increment) for name in model.laws.wear}
         for _ in contacts
     ]
-    return Course(mean, before.with_values(iter(values)), taken, begun if layered else None)
+    passed: dict[str, dict[int, float]] = {}
+    for (state, layer), share in found.passed.items():
+        if kept[state].name == WORN_DEPTH.name:
+            passed.setdefault(kept[state].place, {})[layer] = share
+    return Course(mean, before.with_values(iter(found.values)), found.plan, passed)
 
 
 def accumulated(
@@ -99,16 +98,15 @@ def accumulated(
     The increment (m), and the `moment` at its end, are those of `course`, and `plan` is how it was
     divided. The rate is asked with what is remembered and how much of the increment has passed.
     """
-    layered = layered_bodies(model)
-    states = len(before.values) + len(layered)
+    states = len(before.values)
 
-    def rates(values: Sequence[Array], passed: float, step: float) -> Values:
-        found = _rates(model, before, layered, contacts, increment, moment, values, passed, step)
-        now = memory_with(before, layered, values)
-        return [*found[:states], np.array(rate(now, passed))]
+    def rates(values: Sequence[Array], passed: float) -> Values:
+        found = _rates(model, before, contacts, increment, moment, values, passed)
+        return [*found[:states], np.array(rate(before.with_values(iter(values)), passed))]
 
-    _, (total,), _ = _followed(model, before, layered, rates, increment, Division(plan.parts))
-    return float(total)
+    kept = kept_in(model, before)
+    found = integrated(rates, before.values, increment, kept, [Sum()], Division(plan.parts))
+    return float(found.sums[0])
 
 
 def sloped(
@@ -126,9 +124,9 @@ def sloped(
     if not before.values:
         return known.rates
     nudged, stripes = in_stripes(contacts)
-    layered = any(law.bottoms for law in model.laws.wear.values())
-    # Slopes jump where points pass to the next layer: those over other parts mislead.
-    if len(known.plan.parts) > len(COARSE.parts) and not layered:
+    # Slopes jump where points pass breaks: those over other parts mislead.
+    breaks = any(each.breaks for each in kept_in(model, before))
+    if len(known.plan.parts) > len(COARSE.parts) and not breaks:
         same, plan = course(model, before, contacts, increment, moment, COARSE), COARSE
     else:
         same, plan = known, replace(known.plan, accuracy=np.inf)
@@ -149,25 +147,17 @@ def sloped(
 def _rates(
     model: Model,
     before: Memory,
-    layered: Sequence[str],
     contacts: Sequence[ContactSolution],
     increment: float,
     end: Moment,
     values: Sequence[Array],
     passed: float,
-    step: float,
 ) -> Values:
-    """Return the rates of what is remembered, where it lies, and the depths in the contact.
-
-    Those of the depths of bodies in layers, which follow what is remembered, are means over a step,
-    and so are those of models that know them.
-    """
+    """Return the rates of what is remembered, where it lies, and the depths in the contact."""
     moment = end.back((1 - passed) * increment)
-    if model.laws.tells_length:
-        moment = replace(moment, over=step * increment)
     contacts = loaded(model, contacts, end.back(0.5 * increment).time, end.time, passed)
-    now = memory_with(before, layered, values)
-    _, found = in_layers(model, now, contacts, step * increment, moment)
+    now = before.with_values(iter(values))
+    found = rates_at_each(model, contacts, now, moment)
     total: Values = [np.zeros_like(value) for value in values]
     for position, rates in enumerate(found):
         share = model.cycle[position].share
@@ -177,49 +167,9 @@ def _rates(
             for key in of_law
         )
         effects = (laid(model, key, rates.between[key], position) for key in before.between)
-        depths = (
-            model.cycle.maps[name].gather(rates.wear[name].depth_rate, position) for name in layered
-        )
-        pairs = zip(total, (*laws, *effects, *depths), strict=True)
+        pairs = zip(total, (*laws, *effects), strict=True)
         total = [value + share * rate for value, rate in pairs]
     return total + [rate.depth_rate for rates in found for rate in rates.wear.values()]
-
-
-def memory_with(before: Memory, layered: Sequence[str], values: Sequence[Array]) -> Memory:
-    """Return what is remembered with other values, the depths of bodies in layers at the end."""
-    each = iter(values)
-    now = before.with_values(each)
-    return replace(now, worn={**now.worn, **dict(zip(layered, each, strict=True))})
-
-
-def layered_bodies(model: Model) -> list[str]:
-    """Return the bodies in layers, whose depths go along with what is remembered."""
-    return [name for name, law in model.laws.wear.items() if law.bottoms]
-
-
-def _followed(
-    model: Model,
-    before: Memory,
-    layered: Sequence[str],
-    rates: Rates,
-    increment: float,
-    plan: Division | None,
-) -> tuple[Values, Values, Division]:
-    """Integrate, as `integrated`, rates of what is remembered and of the depths in layers."""
-    return integrated(
-        rates,
-        [*before.values, *(before.worn[name] for name in layered)],
-        increment,
-        limits_of(model, before),
-        plan,
-        knows_means=model.laws.advances,
-        layered=[
-            model.laws.tells_length
-            and model.laws.knows_mean(name)
-            and model.laws.wear[name].steady_above
-            for name in layered
-        ],
-    )
 
 
 def loaded(
@@ -256,28 +206,27 @@ def with_loads(
     return found
 
 
-def limits_of(model: Model, memory: Memory) -> list[Limits]:
-    """Return the limits of `Memory.values`, and those of the depths of bodies in layers."""
+def kept_in(model: Model, memory: Memory) -> list[Kept]:
+    """Return what the integrator must know of `Memory.values`."""
     of_laws = [
-        (field, f"{model.laws.wear[name]}")
+        (field, f"{model.laws.wear[name]}", name)
         for name, of_law in memory.laws.items()
         for key in of_law
         for field in model.laws.wear[name].state_fields
         if field.name == key
     ]
     between = [
-        (model.laws.between[key][1], f"{model.laws.between[key][0]}") for key in memory.between
+        (model.laws.between[key][1], f"{model.laws.between[key][0]}", f"{key} between")
+        for key in memory.between
     ]
-    remembered = [
-        Limits(
+    return [
+        Kept(
+            field.name,
+            who,
             -np.inf if field.at_least is None else field.at_least,
             np.inf if field.at_most is None else field.at_most,
-            f"{field.name!r} of {who}",
+            field.breaks,
+            place,
         )
-        for field, who in (*of_laws, *between)
+        for field, who, place in (*of_laws, *between)
     ]
-    depths = [
-        Limits(-np.inf, np.inf, f"the depth of {name!r}", relaxes=False)
-        for name in layered_bodies(model)
-    ]
-    return [*remembered, *depths]

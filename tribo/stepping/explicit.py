@@ -101,8 +101,8 @@ class Explicit(Scheme):
 
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
         """Return the state after one forward Euler step; see `Scheme.step`."""
-        moment, memory = moment_after(state, increment, time), remembered(state)
-        if memory.values or any(law.bottoms for law in model.laws.wear.values()):
+        moment, memory = moment_after(state, increment, time), remembered(model, state)
+        if memory.values:
             slid = course(model, memory, state.contacts, increment, moment)
         else:
             slid = Course(rated(model, state, moment).rates, memory)
@@ -152,7 +152,7 @@ def rated(model: Model, state: State, moment: Moment) -> State:
     """Return `state` with the rates of its contact, asked for unless it has them."""
     if state.rates:
         return state
-    return replace(state, rates=wear_rates(model, state.contacts, remembered(state), moment))
+    return replace(state, rates=wear_rates(model, state.contacts, remembered(model, state), moment))
 
 
 def largest_stable_increment(model: Model, state: State, moment: Moment) -> float | None:
@@ -190,7 +190,7 @@ def _steepened(model: Model, state: State, rates: CycleRates, moment: Moment) ->
     if not model.laws.effects or not following:
         return rates
     nudged, stripes = in_stripes(state.contacts)
-    others = wear_rates(model, nudged, remembered(state), moment)
+    others = wear_rates(model, nudged, remembered(model, state), moment)
     steeper = [dict(at) for at in rates]
     for at, other, stripe in zip(steeper, others, stripes, strict=True):
         for name in following:

@@ -15,9 +15,9 @@ from tribo.core.measures import reaches_border
 from tribo.core.state import BodyState, State
 from tribo.stepping.contacts import undeformed
 from tribo.stepping.events import Solved
-from tribo.stepping.layers import caps
 from tribo.stepping.memory import first_memory
 from tribo.stepping.plastic_groove import yielded
+from tribo.stepping.yielding import caps
 
 if TYPE_CHECKING:
     from tribo.stepping.model import Model
@@ -101,7 +101,7 @@ def _unworn(model: Model) -> dict[str, BodyState]:
     bodies = {}
     for name in model.case.bodies:
         wear = np.zeros((model.cycle.maps[name].rows, model.grid.cells[1]))
-        initial = model.laws.wear[name].initial_state if name in model.laws.wear else {}
+        initial = model.laws.wear[name].own_state if name in model.laws.wear else {}
         bodies[name] = BodyState(
             wear=wear,
             plastic=model.cycle.maps[name].lay(np.zeros(model.grid.cells), len(model.cycle) // 2),

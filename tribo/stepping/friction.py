@@ -14,6 +14,7 @@ from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.core.state import State
 from tribo.stepping.division import Division, integrated
 from tribo.stepping.evolution import accumulated
+from tribo.stepping.integrator import Sum
 from tribo.stepping.memory import Memory, remembered, under
 from tribo.stepping.rates import Moment, local_fields
 
@@ -33,7 +34,7 @@ def friction_force(model: Model, state: State) -> float:
     moment = Moment(state.time, state.distance, state.speed)
     load = model.contact.loads.over_cycle(model.contact.loads.before(state.time))
     return load * _mean(
-        model, [each.pressure for each in state.contacts], remembered(state), moment
+        model, [each.pressure for each in state.contacts], remembered(model, state), moment
     )
 
 
@@ -94,13 +95,12 @@ def _varying_work(
         now = Moment(before.time + passed * time, slid, after.speed)
         return _mean(model, between, memory, now) * ((1 - passed) * first + passed * last)
 
-    memory = remembered(before)
+    memory = remembered(model, before)
     if model.laws.friction_remembers:
         end = Moment(after.time, after.distance, after.speed)
         return accumulated(model, memory, contacts, increment, end, plan, force)
 
-    def rates(_: Sequence[Array], passed: float, __: float) -> list[Array]:
+    def rates(_: Sequence[Array], passed: float) -> list[Array]:
         return [np.array(force(memory, passed))]
 
-    _, (work,), _ = integrated(rates, [], increment, [])
-    return float(work)
+    return float(integrated(rates, [], increment, [], [Sum()]).sums[0])

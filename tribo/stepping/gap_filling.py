@@ -66,7 +66,7 @@ def _lost(model: Model, state: State, contacts: Sequence[ContactSolution], part:
     increment, time = part * model.end_distance, part * model.end_time
     speed = model.end_distance / model.end_time
     moment = Moment(state.time + time, state.distance + increment, speed)
-    slid = course(model, remembered(state), contacts, increment, moment)
+    slid = course(model, remembered(model, state), contacts, increment, moment)
     heights = filling(model, slid.memory)
     for name, depth in worn_depths(model, slid.rates, increment).items():
         for position, height in enumerate(heights):

@@ -224,7 +224,7 @@ class Implicit(Scheme):
         tolerance = self.cycle_tolerance if resolved else self.nonlinear_tolerance
         base = undeformed(model, state)
         dx = model.grid.spacing[0]
-        before = remembered(state)
+        before = remembered(model, state)
         slide = partial(course, model, before, increment=increment)
         # What is remembered is integrated along the step; other rates are those where it begins.
         begin = moment if before.values else moment.back(increment)
@@ -269,9 +269,9 @@ class Implicit(Scheme):
                 )
         rates, memory = guess.course.rates, guess.course.memory
         after = worn_by(model, solved, guess.course, guess.worn, increment, moment)
-        if not (memory.values or memory.shares):
+        if not memory.values:
             # Set first: settling a groove leaves the pressure that these rates belong to. What is
-            # remembered changes them along a step, and so do layers.
+            # remembered changes them along a step.
             after = replace(after, rates=rates)
         model.tell(Worn(contacts, state.time, increment, moment, before, slid.plan))
         # What the passes leave over is pressure that does not belong to the worn gap. Stiff bodies
@@ -315,8 +315,7 @@ class Implicit(Scheme):
             )
             depth_error = max(depth_error, 0.5 * late / scale)
             own = 0.5 * (worn + forward)
-            # What lags where points pass from layer to layer is mended too.
-            if np.any(own > 0) and not model.laws.wear[name].bottoms:
+            if np.any(own > 0):
                 share = min(1.0, float(np.max(own)) / (LATE * scale))
                 missed = 0.5 * abs(float(np.sum(worn)) - float(np.sum(forward)))
                 volume_error = max(volume_error, share * missed / float(np.sum(own)))
@@ -374,7 +373,7 @@ def _guess(
 def _first_increment(model: Model, state: State, remaining: float) -> float:
     """Return a first increment that wears a small part of the elastic approach, in m."""
     moment = Moment(state.time, state.distance, remaining / (model.end_time - state.time))
-    rates = wear_rates(model, state.contacts, remembered(state), moment)
+    rates = wear_rates(model, state.contacts, remembered(model, state), moment)
     fastest = _largest(rate.depth_rate for of_bodies in rates for rate in of_bodies.values())
     first = FIRST * state.reference_depth / fastest if fastest > 0 else 0.0
     # Two flats that repeat have no approach but rounding, and wear evenly.

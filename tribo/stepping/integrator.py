@@ -3,44 +3,144 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
 
 import numpy as np
+from numpy.typing import NDArray
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, Mask
 
 NUDGE = 3e-5
 """Part of a state by which it is moved to find how fast it relaxes, and how that changes."""
 SMALL = 1e-4
 """Rise below which the derivative of its mean is that of its series."""
-EXACT = 1e-10
-"""Relative difference of one step from two by which means over a step are known to be exact."""
+EXACT = 1e-12
+"""Relative difference of rates along a part that are the same but for rounding."""
 PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
 """Euler steps of the rows of the extrapolation, without and with the relaxation of the states."""
 
 Values = list[Array]
+Numbers = NDArray[np.intp]
 Field = Array | float
-Rates = Callable[[Sequence[Array], float, float], Values]
-"""Rates of states, and after them of sums, at states, at a share of a part, over a share of it."""
+Rates = Callable[[Sequence[Array], float], Values]
+"""Rates of states, and after them of sums, at states and at a share of a part."""
 
 
 @dataclass(frozen=True)
-class Limits:
-    """What one state may be, what messages call it, and whether it may relax within a step."""
+class Kept:
+    """What the integrator must know of a state.
 
-    least: float
-    most: float
+    Parameters
+    ----------
+    name, owner : str
+        What messages call it, and whose it is.
+    least, most : float
+        Its limits: its rate vanishes where it comes to one.
+    breaks : tuple of float
+        Values at which rates jump, rising; at one itself they are those above it.
+    place : str
+        States that lie at the same place pass breaks together.
+    """
+
     name: str
-    relaxes: bool = True
+    owner: str = ""
+    least: float = -math.inf
+    most: float = math.inf
+    breaks: tuple[float, ...] = ()
+    place: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.name!r} of {self.owner}"
+
+    @cached_property
+    def ends(self) -> Array | None:
+        """The limits, with the breaks between them; None where there are none."""
+        ends = np.array([self.least, *self.breaks, self.most])
+        return ends if np.any(np.isfinite(ends)) else None
 
     def hold(self, values: Array) -> Array:
         """Return values held to the limits."""
         if math.isinf(self.least) and math.isinf(self.most):
             return values
         return np.clip(values, self.least, self.most)
+
+    def aside(self, values: Array, nudge: Field) -> Array:
+        """Return values moved up by a nudge, or down where a limit or a break lies between."""
+        if self.ends is None:
+            return values + nudge
+        above = self.ends[np.searchsorted(self.breaks, values, side="right") + 1]
+        crosses = np.where(above == self.most, values + nudge > above, values + nudge >= above)
+        return np.where(crosses, values - nudge, values + nudge)
+
+    def next(self, values: Array, rate: Array, slope: Field) -> tuple[Array, Numbers, Array]:
+        """Return the break or limit that each value comes to next, its number, and when.
+
+        That is never where it comes to none. The rate follows the state by `slope`. Below a break
+        that it comes to from above, a value is the next number below it.
+        """
+        assert self.ends is not None
+        number = np.searchsorted(self.breaks, values, side="right") + (rate > 0)
+        end = self.ends[number]
+        inner = (number > 0) & (number <= len(self.breaks))
+        room = end - values
+        # At a limit a state stays; at a break it may turn down at once.
+        ahead = np.where(rate > 0, room >= 0, (rate < 0) & (room <= 0))
+        far = np.isfinite(end) & ahead & (inner | (room != 0))
+        time = np.divide(room, rate, out=np.full(values.shape, np.inf), where=far)
+        if np.any(slope):
+            with np.errstate(divide="ignore", invalid="ignore"):
+                rise = slope * time
+                later = np.where(rise > -1, np.log1p(rise) / slope, np.inf)
+            time = np.where(far & (np.asarray(slope) < 0), later, time)
+        below: Array = np.nextafter(end, -np.inf)
+        return np.where(inner & (rate < 0), below, end), number - 1, time
+
+
+@dataclass(frozen=True)
+class Sum:
+    """What is only integrated, by rates that hold as long as those of states at a place.
+
+    `see` takes what is known there to where the sum lies. Without a place they hold for all of a
+    step.
+    """
+
+    place: str | None = None
+    see: Callable[[Array], Array] | None = None
+
+    def span(self, spans: Mapping[str, Field], step: float) -> Field:
+        """Return for how long its rates hold."""
+        if self.place is None:
+            return step
+        span = spans.get(self.place, step)
+        return self.see(span) if self.see and isinstance(span, np.ndarray) else span
+
+
+@dataclass(frozen=True)
+class Piece:
+    """States, their rates, and for how long these hold at each place: for a step, or to a break.
+
+    `ended` has where a state, by its number, comes to a break or to a limit, and to which.
+    """
+
+    states: Values
+    rates: Values
+    step: float
+    spans: Mapping[str, Field]
+    ended: Mapping[int, tuple[Mask, Numbers]]
+
+    def stepped(self, kept: Sequence[Kept], slopes: Sequence[Field]) -> Values:
+        """Return the states at its end."""
+        return [
+            state + lasting(self.spans[of.place], slope) * rate
+            for state, rate, slope, of in zip(self.states, self.rates, slopes, kept, strict=False)
+        ]
+
+
+Row = Sequence[Sequence[Piece]]
+"""Euler steps of a part, each in pieces."""
 
 
 @dataclass(frozen=True)
@@ -49,49 +149,164 @@ class Part:
 
     Parameters
     ----------
-    length : float
-        In the unit that rates are per.
+    kept : sequence of Kept
+        The states.
     relaxing : sequence of ndarray or float
         How the rate of each state changes with itself, where that is downwards.
-    rows : sequence of sequence of Values
-        Rates at the beginning of each Euler step, by row of the extrapolation.
+    rows : sequence of Row
+        The Euler steps of each row of the extrapolation.
     ends : sequence of Values
         States and sums at the end of each row.
     rough : Values
         Less accurate ones.
     beyond : sequence of float
         By how much trials of each state were beyond its limits, summed over the cells.
+    last : Values or None
+        Rates at its end, where they are known to be those of all of it.
     turned : sequence of (int, Values, ndarray)
         Of each state that relaxes, its number, rates where it is moved, and by how much.
     """
 
-    length: float
+    kept: Sequence[Kept]
     relaxing: Sequence[Field]
-    rows: Sequence[Sequence[Values]]
+    rows: Sequence[Row]
     ends: Sequence[Values]
     rough: Values
     beyond: Sequence[float]
+    last: Values | None = None
     turned: Sequence[tuple[int, Values, Array]] = ()
 
-    @cached_property
-    def lasting(self) -> list[list[Field]]:
-        """What a step of each row counts for in each state."""
-        return [[lasting(self.length / len(row), of) for of in self.relaxing] for row in self.rows]
+    @property
+    def first(self) -> Values:
+        """The rates at its beginning."""
+        return self.rows[0][0][0].rates
 
-    @cached_property
-    def bending(self) -> list[list[Field]]:
-        """The derivatives of that in how fast the state relaxes."""
-        return [[bending(self.length / len(row), of) for of in self.relaxing] for row in self.rows]
+    @property
+    def pieces(self) -> list[Piece]:
+        """Those of all rows."""
+        return [*chain.from_iterable(chain.from_iterable(self.rows))]
 
     @property
     def stages(self) -> list[Values]:
         """The rates of all stages; rows may begin with the same ones."""
-        return [*chain(*self.rows), *(rates for _, rates, _ in self.turned)]
+        return [*(piece.rates for piece in self.pieces), *(rates for _, rates, _ in self.turned)]
 
     @property
     def end(self) -> Values:
         """States and sums at its end."""
         return _extrapolated(self.ends, [len(row) for row in self.rows])
+
+    def unseen(self, rates: Rates, last: Values) -> list[float]:
+        """Return how far off each state may be where it passes a break, summed over the cells.
+
+        Rates change on the way there and from there, of which a step knows nothing: they are asked
+        on this side of the break, and at the end of the step. `last` are those at the end of all.
+        """
+        off, row = [0.0] * len(self.kept), self.rows[-1]
+        for taken, pieces in enumerate(row):
+            piece, *others = pieces
+            if not piece.ended:
+                continue
+            states = piece.stepped(self.kept, self.relaxing)
+            for at, (here, _) in piece.ended.items():
+                near = np.nextafter(states[at], piece.states[at])
+                states[at] = np.where(here, near, states[at])
+            found = rates(states, taken / len(row))
+            for at, (here, _) in piece.ended.items():
+                change = np.abs(found[at] - piece.rates[at]) * piece.spans[self.kept[at].place]
+                off[at] += 0.5 * float(np.sum(change, where=here))
+            end = last if taken + 1 == len(row) else row[taken + 1][0].rates
+            for piece in others:
+                for at, of in enumerate(self.kept):
+                    change = np.abs(end[at] - piece.rates[at]) * piece.spans[of.place]
+                    off[at] += 0.5 * float(np.sum(change))
+        return off
+
+    def passed(self) -> dict[tuple[int, int], float]:
+        """Return by state and break the first share of it at which a point rises to the break."""
+        found: dict[tuple[int, int], float] = {}
+        row = self.rows[-1]
+        for at, pieces in enumerate(row):
+            gone: dict[str, Field] = {}
+            for piece in pieces:
+                for place, span in piece.spans.items():
+                    gone[place] = gone.get(place, 0.0) + span
+                for state, (here, number) in piece.ended.items():
+                    times = np.broadcast_to(gone[self.kept[state].place], here.shape)
+                    rises = here & (piece.rates[state] > 0)
+                    for each in np.unique(number[rises]):
+                        first = float(np.min(times[rises & (number == each)])) / piece.step
+                        share = (at + first) / len(row)
+                        found[state, int(each)] = min(share, found.get((state, int(each)), 1.0))
+        return found
+
+
+def stepped(
+    rates: Callable[[Sequence[Array]], Values],
+    start: Sequence[Array],
+    first: Values,
+    step: float,
+    slopes: Sequence[Field],
+    kept: Sequence[Kept],
+    sums: Sequence[Sum],
+) -> tuple[Values, Values, list[Piece]]:
+    """Return states after an Euler step, what sums come to over it, and its pieces.
+
+    Where a state comes to a break or a limit, the step ends for all states at its place, and a
+    shorter one goes on from there with rates asked anew. What lies elsewhere, for these rates, is
+    as it was at the beginning, as for those of the whole step.
+    """
+    states, found = list(start), first
+    totals = [np.zeros_like(rate) for rate in first[len(states) :]]
+    left: dict[str, Field] = {each.place: step for each in kept}
+    pieces = list[Piece]()
+    # Rates that lead back to a break from both sides would end no step.
+    most = 1 + sum(len(each.breaks) + 1 for each in kept if each.ends is not None)
+    while True:
+        spans, ended = dict(left), dict[int, tuple[Mask, Numbers]]()
+        coming = _coming(states, found, slopes, kept) if len(pieces) < most else []
+        for at, _, _, time in coming:
+            place = kept[at].place
+            if np.any((time <= left[place]) & (left[place] > 0)):
+                spans[place] = np.minimum(spans[place], time)
+        piece = Piece(states, found, step, spans, ended)
+        states = piece.stepped(kept, slopes)
+        claimed: dict[str, Mask] = {}
+        for at, end, number, time in coming:
+            place = kept[at].place
+            here = (time <= spans[place]) & (left[place] > 0) & ~claimed.get(place, np.False_)
+            if np.any(here):
+                claimed[place] = claimed.get(place, np.False_) | here
+                ended[at] = here, number
+                states[at] = np.where(here, end, states[at])
+        totals = [
+            total + each.span(spans, 0.0 if pieces else step) * rate
+            for total, each, rate in zip(totals, sums, found[len(states) :], strict=True)
+        ]
+        pieces.append(piece)
+        for place, span in spans.items():
+            rest = left[place] - span
+            left[place] = np.where(rest > EXACT * step, rest, 0.0) if np.ndim(rest) else 0.0
+        if not any(map(np.any, left.values())):
+            return states, totals, pieces
+        passing = {kept[at].place for each in pieces for at in each.ended}
+        found = rates(
+            [
+                now if of.place in passing else was
+                for now, was, of in zip(states, start, kept, strict=True)
+            ]
+        )
+
+
+def _coming(
+    states: Sequence[Array], rates: Values, slopes: Sequence[Field], kept: Sequence[Kept]
+) -> list[tuple[int, Array, Numbers, Array]]:
+    """Return of each state that has breaks or limits its number, and `Kept.next`."""
+    return [
+        (at, *each.next(states[at], rates[at], slopes[at]))
+        for at, each in enumerate(kept)
+        if each.ends is not None
+    ]
 
 
 def solved(
@@ -99,48 +314,52 @@ def solved(
     start: Sequence[Array],
     first: Values,
     length: float,
-    limits: Sequence[Limits],
+    kept: Sequence[Kept],
+    sums: Sequence[Sum],
     *,
     relaxes: bool,
-    of_steps: bool,
-    knows_means: bool,
 ) -> Part:
     """Return a part of an increment, solved from its first rates on.
 
-    Rates are asked at states that may lie beyond their limits. They are means `of_steps` or not;
-    where one knows that they are exact, one step that agrees with two is all.
+    Rates are asked at states that may lie beyond their limits. Where they stay as they are, one
+    step is all.
     """
     slopes: Sequence[Field] = [0.0] * len(start)
     if relaxes:
-        slopes = relaxation(rates, start, first, length, limits)
-    rows, ends = list[list[Values]](), list[Values]()
+        slopes = relaxation(rates, start, first, length, kept)
+    rows, ends = list[Row](), list[Values]()
     beyond = [0.0] * len(start)
     stages = RELAXING if relaxes else PLAIN
     for steps in stages:
-        step = length / steps
-        counts = [lasting(step, slope) for slope in slopes]
-        states, row = list(start), list[Values]()
-        sums = [np.zeros_like(rate) for rate in first[len(start) :]]
+        step, row = length / steps, list[list[Piece]]()
+        states = list(start)
+        totals = [np.zeros_like(rate) for rate in first[len(start) :]]
         for taken in range(steps):
+            share = taken / steps
             if taken:
-                trials = zip(beyond, states, limits, strict=True)
+                trials = zip(beyond, states, kept, strict=True)
                 beyond = [max(by, apart(of.hold(state), state)) for by, state, of in trials]
-            asked = taken or (of_steps and steps > 1)
-            found = rates(states, taken / steps, 1 / steps) if asked else first
-            row.append(found)
-            changes = zip(sums, found[len(start) :], strict=True)
-            sums = [total + step * rate for total, rate in changes]
-            states = [
-                state + count * rate
-                for state, rate, count in zip(states, found, counts, strict=False)
-            ]
+
+            def along(values: Sequence[Array], share: float = share) -> Values:
+                return rates(values, share)
+
+            found = along(states) if taken else first
+            states, more, pieces = stepped(along, states, found, step, slopes, kept, sums)
+            totals = [total + each for total, each in zip(totals, more, strict=True)]
+            row.append(pieces)
         rows.append(row)
-        ends.append([*states, *sums])
-        if knows_means and steps == 2:
-            pairs = zip(*ends, strict=True)
-            if all(part_of(apart(twice, once), np.abs(twice)) <= EXACT for once, twice in pairs):
-                return Part(length, slopes, rows[:1], ends[:1], ends[1], beyond)
-    return Part(length, slopes, rows, ends, _extrapolated(ends[1:], stages[1:]), beyond)
+        ends.append([*states, *totals])
+        if steps == 2 and not any(piece.ended for of in rows for each in of for piece in each):
+            found = row[1][0].rates
+            if _alike(first, found) and _alike(first, last := rates(states, 1.0)):
+                return Part(kept, slopes, rows[:1], ends[:1], ends[1], beyond, last)
+    return Part(kept, slopes, rows, ends, _extrapolated(ends[1:], stages[1:]), beyond)
+
+
+def _alike(one: Values, other: Values) -> bool:
+    """Whether rates are the same but for rounding."""
+    pairs = zip(one, other, strict=True)
+    return all(part_of(apart(a, b), np.abs(a)) <= EXACT for a, b in pairs)
 
 
 def retraced(
@@ -148,11 +367,9 @@ def retraced(
     start: Sequence[Array],
     first: Values,
     length: float,
-    limits: Sequence[Limits],
+    kept: Sequence[Kept],
+    sums: Sequence[Sum],
     parts: Sequence[tuple[float, bool]],
-    *,
-    of_steps: bool,
-    knows_means: bool,
 ) -> list[Part]:
     """Return the parts of an increment as it was divided, with what `transposed` needs of them.
 
@@ -163,87 +380,154 @@ def retraced(
     for share, relaxes in parts:
 
         def along(
-            values: Sequence[Array],
-            at: float,
-            step: float,
-            passed: float = passed,
-            share: float = share,
+            values: Sequence[Array], at: float, passed: float = passed, share: float = share
         ) -> Values:
-            return rates(values, passed + at * share, step * share)
+            return rates(values, passed + at * share)
 
         if passed:
-            first = along(states, 0.0, 1.0)
+            first = along(states, 0.0)
         span = share * length
-        part = solved(
-            along,
-            states,
-            first,
-            span,
-            limits,
-            relaxes=relaxes,
-            of_steps=of_steps,
-            knows_means=knows_means,
-        )
+        part = solved(along, states, first, span, kept, sums, relaxes=relaxes)
         turned = []
         for at, slope in enumerate(part.relaxing):
             if np.any(np.asarray(slope) < 0):
-                other = moved(states[at], first[at], span, limits[at])
-                asked = along([*states[:at], other, *states[at + 1 :]], 0.0, 1.0)
+                other = moved(states[at], first[at], span, kept[at])
+                asked = along([*states[:at], other, *states[at + 1 :]], 0.0)
                 turned.append((at, asked, other - states[at]))
         done.append(replace(part, turned=turned))
-        held = zip(part.end, limits, strict=False)
-        passed, states = passed + share, [limit.hold(state) for state, limit in held]
+        held = zip(part.end, kept, strict=False)
+        passed, states = passed + share, [of.hold(state) for state, of in held]
     return done
+
+
+@dataclass(frozen=True)
+class Transposed:
+    """Derivatives in the states before some parts, and by state in its breaks at each point."""
+
+    states: list[Field]
+    breaks: Mapping[int, Array]
 
 
 def transposed(
     parts: Sequence[Part],
     states: Sequence[Field],
-    sums: Sequence[Field],
+    sums: Sequence[tuple[Sum, Field]],
     behind: Callable[[Values, list[Field]], Sequence[Field]],
-) -> list[Field]:
-    """Return derivatives in the states before some parts, from those in states and sums after.
+) -> Transposed:
+    """Return derivatives before some parts, from those in states and sums after.
 
     Parameters
     ----------
     parts : sequence of Part
         From `retraced`.
-    states, sums : sequence of ndarray or float
-        Derivatives in each state and in each sum.
+    states : sequence of ndarray or float
+        Derivatives in each state.
+    sums : sequence of (Sum, ndarray or float)
+        Sums that lie where their place does, and derivatives in them.
     behind : callable
         Returns derivatives in the states that rates were asked at, from those in the rates. What
         else they follow, it adds up by itself. It is called once for each stage.
     """
     after = [*states]
+    breaks: dict[int, Array] = {}
     for part in reversed(parts):
         before: list[Field] = [0.0] * len(after)
         turns: list[Field] = [0.0] * len(after)
         starts = list[tuple[Values, list[Field]]]()
         lengths = [len(row) for row in part.rows]
-        for row, counts, bends in zip(part.rows, part.lasting, part.bending, strict=True):
-            step, share = part.length / len(row), weight(len(row), lengths)
+        for row in part.rows:
+            share = weight(len(row), lengths)
             seeds: list[Field] = [share * seed for seed in after]
-            deep: list[Field] = [step * share * seed for seed in sums]
-            for stage in reversed(row):
-                for at, bend in enumerate(bends):
-                    if np.ndim(bend):
-                        turns[at] = turns[at] + seeds[at] * stage[at] * bend
-                given = [*_products(seeds, counts), *deep]
-                if stage is row[0]:
-                    _join(starts, stage, given)
-                else:
-                    seeds = _added(seeds, behind(stage, given))
+            deep = [(each, share * seed) for each, seed in sums]
+            for pieces in reversed(row):
+                times: dict[str, Field] = {}
+                passing = {part.kept[at].place for each in pieces for at in each.ended}
+                elsewhere = [of.place not in passing for of in part.kept]
+                begun: list[Field] = [0.0] * len(after)
+                for piece in reversed(pieces):
+                    is_first = piece is pieces[0]
+                    seeds, given, more = _back(
+                        part, piece, seeds, deep, times, turns, breaks, is_first=is_first
+                    )
+                    times = more
+                    if piece.rates is row[0][0].rates:
+                        _join(starts, piece.rates, given)
+                        continue
+                    for at, more_of in enumerate(behind(piece.rates, given)):
+                        of = begun if elsewhere[at] and not is_first else seeds
+                        of[at] = of[at] + more_of
+                seeds = _added(seeds, begun)
             before = _added(before, seeds)
         for at, asked, by in part.turned:
             seed = (np.asarray(part.relaxing[at]) < 0) * turns[at] / by
-            for stage, sign in ((asked, 1.0), (part.rows[0][0], -1.0)):
+            for stage, sign in ((asked, 1.0), (part.first, -1.0)):
                 given = [0.0] * len(stage)
                 given[at] = sign * seed
                 _join(starts, stage, given)
         for stage, given in starts:
             before = _added(before, behind(stage, given))
         after = before
-    return after
+    return Transposed(after, breaks)
+
+
+def _back(
+    part: Part,
+    piece: Piece,
+    seeds: Sequence[Field],
+    sums: Sequence[tuple[Sum, Field]],
+    times: Mapping[str, Field],
+    turns: list[Field],
+    breaks: dict[int, Array],
+    *,
+    is_first: bool,
+) -> tuple[list[Field], list[Field], dict[str, Field]]:
+    """Return derivatives before a piece: in states, in its rates, and in what was left of a step.
+
+    From those in states and in what is left after it, `times`. The span of a piece that ends at a
+    break follows the state that comes to it, its rate, and the break.
+    """
+    rates, own = piece.rates, len(part.kept)
+    states = [*seeds]
+    for at, (here, _) in piece.ended.items():
+        # What comes to a break is there, whatever it was before.
+        states[at] = np.where(here, 0.0, seeds[at])
+    given: list[Field] = []
+    left: dict[str, Field] = {}
+    for seed, rate, slope, each in zip(states, rates, part.relaxing, part.kept, strict=False):
+        span = piece.spans[each.place]
+        given.append(seed * lasting(span, slope))
+        left[each.place] = left.get(each.place, 0.0) + seed * rate * _growth(span, slope)
+    for at, slope in enumerate(part.relaxing):
+        if np.ndim(slope):
+            span = piece.spans[part.kept[at].place]
+            turns[at] = turns[at] + states[at] * rates[at] * bending(span, slope)
+    for (total, seed), rate in zip(sums, rates[own:], strict=True):
+        given.append(seed * total.span(piece.spans, piece.step if is_first else 0.0))
+        if total.place is not None and total.place in left:
+            left[total.place] = left[total.place] + seed * rate
+    for at, (here, number) in piece.ended.items():
+        kept, slope, rate = part.kept[at], part.relaxing[at], rates[at]
+        span = piece.spans[kept.place]
+        by_span = left[kept.place] - times.get(kept.place, 0.0)
+        speed = rate * _growth(span, slope)
+        far = np.divide(
+            np.broadcast_to(by_span, rate.shape), speed, out=np.zeros(rate.shape), where=here
+        )
+        states[at] = states[at] - far
+        given[at] = given[at] - far * lasting(span, slope)
+        if np.ndim(slope):
+            turns[at] = turns[at] - far * rate * bending(span, slope)
+        if kept.breaks:
+            at_break = np.where(here, far + seeds[at], 0.0)
+            numbers = np.arange(len(kept.breaks)).reshape(-1, *[1] * number.ndim)
+            breaks[at] = breaks.get(at, 0.0) + np.where(number == numbers, at_break, 0.0)
+        left[kept.place] = np.where(here, times.get(kept.place, 0.0), left[kept.place])
+    return states, given, left
+
+
+def _growth(span: Field, slope: Field) -> Field:
+    """Return the derivative of `lasting` in the span."""
+    return np.exp(slope * np.asarray(span)) if np.any(slope) else 1.0
 
 
 def relaxed(rise: Field) -> Array:
@@ -252,12 +536,12 @@ def relaxed(rise: Field) -> Array:
     return np.divide(np.expm1(rise), rise, out=np.ones_like(rise), where=rise != 0)
 
 
-def lasting(step: float, slope: Field) -> Field:
+def lasting(step: Field, slope: Field) -> Field:
     """Return how much a step counts for where the rate follows its own state by this slope."""
     return step * relaxed(step * slope) if np.any(slope) else step
 
 
-def bending(step: float, slope: Field) -> Field:
+def bending(step: Field, slope: Field) -> Field:
     """Return the derivative of `lasting` in the slope."""
     if not np.any(slope):
         return 0.0
@@ -272,27 +556,24 @@ def relaxation(
     states: Sequence[Array],
     first: Sequence[Array],
     length: float,
-    limits: Sequence[Limits],
+    kept: Sequence[Kept],
 ) -> list[Field]:
     """Return how the rate of each state changes with itself, where that is downwards."""
     found: list[Field] = []
-    for index, (state, rate, limit) in enumerate(zip(states, first, limits, strict=False)):
-        other = moved(state, rate, length, limit)
-        if other is state or not limit.relaxes:
+    for index, (state, rate, of) in enumerate(zip(states, first, kept, strict=False)):
+        other = moved(state, rate, length, of)
+        if other is state:
             found.append(0.0)
             continue
-        nudged = rates([*states[:index], other, *states[index + 1 :]], 0.0, 1.0)[index]
+        nudged = rates([*states[:index], other, *states[index + 1 :]], 0.0)[index]
         found.append(np.minimum((nudged - rate) / (other - state), 0.0))
     return found
 
 
-def moved(state: Array, rate: Array, length: float, limit: Limits) -> Array:
-    """Return a state moved by a part of the most that it is or becomes, within its limits."""
+def moved(state: Array, rate: Array, length: float, kept: Kept) -> Array:
+    """Return a state moved by a part of the most that it is or becomes, past no break or limit."""
     largest = max(float(np.max(np.abs(state))), length * float(np.max(np.abs(rate))))
-    if largest == 0:
-        return state
-    higher = state + NUDGE * largest
-    return np.where(higher > limit.most, state - NUDGE * largest, higher)
+    return state if largest == 0 else kept.aside(state, NUDGE * largest)
 
 
 def weight(steps: int, rows: Sequence[int]) -> float:
@@ -337,7 +618,3 @@ def _join(seeded: list[tuple[Values, list[Field]]], stage: Values, seeds: Sequen
 
 def _added(one: Sequence[Field], other: Sequence[Field]) -> list[Field]:
     return [a + b for a, b in zip(one, other, strict=True)]
-
-
-def _products(one: Sequence[Field], other: Sequence[Field]) -> list[Field]:
-    return [a * b for a, b in zip(one, other, strict=True)]

@@ -6,9 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, Field
+from tribo.core.fields import FRICTION_COEFFICIENT, WORN_DEPTH, Field
 from tribo.guards.parts import GuardedEffect, GuardedLaw
-from tribo.stepping.cycle import Cycle
 
 
 @dataclass(frozen=True)
@@ -21,62 +20,18 @@ class Laws:
         The laws of the bodies that wear, by body.
     effects : tuple of GuardedEffect
         Those between the bodies.
-    cycle : Cycle
-        The positions at which they are asked.
     friction_coefficient : float or None
         That of the case, if it has one.
     """
 
     wear: Mapping[str, GuardedLaw]
     effects: tuple[GuardedEffect, ...]
-    cycle: Cycle
     friction_coefficient: float | None = None
 
     @cached_property
     def between(self) -> Mapping[str, tuple[GuardedEffect, Field]]:
         """The state fields of the effects, by name, each with its effect."""
         return {f.name: (effect, f) for effect in self.effects for f in effect.state_fields}
-
-    @cached_property
-    def advances(self) -> bool:
-        """Whether all that remember know the mean of their rates over an increment.
-
-        At points that stay (one that is swept sees many pressures, of which a closed form knows
-        one) and where nothing follows an effect, as a closed form does not see what that comes to
-        within the increment.
-        """
-        if not self._leaves_means:
-            return False
-        known = [self.knows_mean(name) for name, law in self.wear.items() if law.initial_state] + [
-            effect.advances and effect.carrier not in self.cycle.swept
-            for effect in self.effects
-            if effect.initial_state
-        ]
-        return bool(known) and all(known) and not any(body is None for body, _ in self.filling)
-
-    @cached_property
-    def tells_length(self) -> bool:
-        """Whether laws that know the mean of their rate are asked for that over a part.
-
-        Where not all know it that spares parts only if points of one that does pass layers.
-        """
-        if self.advances or self.between or not self._leaves_means:
-            return self.advances
-        return any(
-            bool(law.bottoms and law.initial_state) and self.knows_mean(name)
-            for name, law in self.wear.items()
-        )
-
-    def knows_mean(self, name: str) -> bool:
-        """Whether the law of a body knows the mean of its rate at points that stay, as all do."""
-        return self.wear[name].advances and name not in self.cycle.swept
-
-    @cached_property
-    def _leaves_means(self) -> bool:
-        """Whether closed forms are right at points that stay, as far as effects go."""
-        given = {f.name for each in self.effects for f in (*each.state_fields, *each.provides)}
-        followed = {LOAD_SHARE.name, FRICTION_COEFFICIENT.name, *self.required}
-        return len(self.cycle) == 1 and not given & followed
 
     @cached_property
     def filling(self) -> tuple[tuple[str | None, str], ...]:
@@ -99,7 +54,8 @@ class Laws:
             for effect, field in self.between.values()
             if (None if field.uniform else effect.carrier) == body
         )
-        return (*(law.state_fields if law else ()), *carried)
+        own = (f for f in (law.state_fields if law else ()) if f.name != WORN_DEPTH.name)
+        return (*own, *carried)
 
     @cached_property
     def friction_varies(self) -> bool:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from dataclasses import field as in_dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -12,6 +11,7 @@ import numpy as np
 
 from tribo.core.arrays import Array, readonly
 from tribo.core.errors import CaseError
+from tribo.core.fields import WORN_DEPTH
 from tribo.core.state import State
 
 if TYPE_CHECKING:
@@ -22,14 +22,11 @@ if TYPE_CHECKING:
 class Memory:
     """State fields where they lie: of each body's law, by body, and of the effects, by name.
 
-    `worn` has the depth that each body has lost, and `shares` for how much of an increment each
-    layer of a body is what wears (`tribo.stepping.layers`).
+    Those of a law that follows the depth worn have it too.
     """
 
     laws: Mapping[str, Mapping[str, Array]]
     between: Mapping[str, Array]
-    worn: Mapping[str, Array] = in_dataclass(default_factory=dict)
-    shares: Mapping[str, Mapping[str, Array]] = in_dataclass(default_factory=dict)
 
     @cached_property
     def values(self) -> list[Array]:
@@ -58,10 +55,18 @@ class OfLaws(dict[str, Array]):
         )
 
 
-def remembered(state: State) -> Memory:
+def remembered(model: Model, state: State) -> Memory:
     """Return what laws and effects remember at `state`."""
     laws = {name: body.law for name, body in state.bodies.items()}
-    return Memory(laws, state.between, {name: body.wear for name, body in state.bodies.items()})
+    for name, law in model.laws.wear.items():
+        if WORN_DEPTH.name in law.initial_state:
+            laws[name] = {**laws[name], WORN_DEPTH.name: state.bodies[name].wear}
+    return Memory(laws, state.between)
+
+
+def own(laws: Mapping[str, Array]) -> dict[str, Array]:
+    """Return what a law remembers beside the depth worn."""
+    return {key: values for key, values in laws.items() if key != WORN_DEPTH.name}
 
 
 def first_memory(model: Model) -> dict[str, Array]:
@@ -77,21 +82,15 @@ def first_memory(model: Model) -> dict[str, Array]:
 
 def under(model: Model, memory: Memory, position: int) -> Memory:
     """Return what is remembered where the window is, at a position of the cycle."""
-    laws, shares = (
-        {
-            name: {key: model.cycle.maps[name].see(values, position) for key, values in of.items()}
-            for name, of in each.items()
-        }
-        for each in (memory.laws, memory.shares)
-    )
-    worn = {
-        name: model.cycle.maps[name].see(depth, position) for name, depth in memory.worn.items()
+    laws = {
+        name: {key: model.cycle.maps[name].see(values, position) for key, values in of.items()}
+        for name, of in memory.laws.items()
     }
     between = dict(memory.between)
     for key, (effect, field) in model.laws.between.items():
         if effect.carrier is not None and not field.uniform:
             between[key] = model.cycle.maps[effect.carrier].see(between[key], position)
-    return Memory(laws, between, worn, shares)
+    return Memory(laws, between)
 
 
 def filling(model: Model, memory: Memory) -> Array:
@@ -102,25 +101,6 @@ def filling(model: Model, memory: Memory) -> Array:
         for body, key in model.laws.filling:
             height += here.between[key] if body is None else here.laws[body][key]
     return heights
-
-
-def state_of(model: Model, memory: Memory, name: str) -> dict[str, Array]:
-    """Return what the law of a body is told of its state where the window is, at a position.
-
-    Of a body in layers without shares of an increment that is the layer at the surface.
-    """
-    shares = memory.shares.get(name, {})
-    if not shares and model.laws.wear[name].bottoms:
-        shares = at_surface(model.laws.wear[name].bottoms, memory.worn[name])
-    return {**memory.laws.get(name, {}), **shares}
-
-
-def at_surface(bottoms: Sequence[float], worn: Array) -> dict[str, Array]:
-    """Return the shares of each layer where points stay in the layer that is at the surface."""
-    here = np.searchsorted(bottoms, worn, side="right")
-    layers = {layer: np.asarray(here == layer, dtype=float) for layer in range(1 + len(bottoms))}
-    rates = {f"rate {layer}": share for layer, share in layers.items()}
-    return rates | {f"slope {layer}": share for layer, share in layers.items()}
 
 
 def laid(model: Model, key: str, rate: Array, position: int) -> Array:

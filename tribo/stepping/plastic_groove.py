@@ -15,7 +15,7 @@ from tribo.core.loads import ByPosition
 from tribo.core.state import BodyState, State
 from tribo.stepping.contacts import solved_anew
 from tribo.stepping.events import Drawn, Yielded
-from tribo.stepping.layers import plastic_share
+from tribo.stepping.yielding import plastic_share
 
 if TYPE_CHECKING:
     from tribo.stepping.model import Model

@@ -25,7 +25,7 @@ from tribo.core.fields import (
 )
 from tribo.core.state import State
 from tribo.motion.cycle import Speeds
-from tribo.stepping.memory import Memory, fields_of, in_window, remembered, state_of, under
+from tribo.stepping.memory import Memory, fields_of, in_window, remembered, under
 
 if TYPE_CHECKING:
     from tribo.guards.parts import GuardedEffect
@@ -48,14 +48,12 @@ CycleRates = Sequence[Mapping[str, WearRate]]
 class Moment:
     """When rates are asked for (s, m), and the mean speed of the step (m/s), 0 at rest.
 
-    The speed is told where the motion does not state those of its cycle. Models that know it give
-    the mean of their rates `over` what follows, in m, or in s of a rest.
+    The speed is told where the motion does not state those of its cycle.
     """
 
     time: float
     distance: float
     speed: float
-    over: float = 0.0
 
     def back(self, distance: float) -> Moment:
         """Return the moment that lies by a distance (m) before, at its speed; at rest by a time."""
@@ -131,8 +129,7 @@ def _rates_at(
     rates, rest = _sliding_at(model, position, contact, memory, moment), model.cycle[position].rest
     if rest == 0 or not memory.between:
         return rates
-    still = replace(moment, speed=0.0, over=rest * moment.over)
-    changes = _resting(model, position, contact, memory, still)
+    changes = _resting(model, position, contact, memory, replace(moment, speed=0.0))
     between = {key: rate + rest * changes[key] for key, rate in rates.between.items()}
     return replace(rates, between=between)
 
@@ -214,10 +211,9 @@ def _rates_of(
                 fields={field: fields[field][name][part] for field in law.requires},
                 state={
                     field: np.broadcast_to(values, pressure.shape)[part]
-                    for field, values in state_of(model, memory, name).items()
+                    for field, values in memory.laws.get(name, {}).items()
                 },
-            ),
-            0.0 if name in model.cycle.swept else moment.over,
+            )
         )
         if solid is not None:
             rate = replace(rate, depth_slope=solid * rate.depth_slope)
@@ -249,7 +245,6 @@ def _changes(
     On a body that passes the rest of its track changes as points do that nothing presses.
     """
     changes: dict[str, Array] = {}
-    seconds = moment.over / (moment.speed or 1.0)
 
     def of_effect(
         effect: GuardedEffect, pressure: Array, depths: Mapping[str, Array]
@@ -258,7 +253,7 @@ def _changes(
         if pressure is not contact.pressure:
             around = local_fields(model, pressure, moment, position, memory)
         given = _conditions(model, pressure, moment, around, effect, memory)
-        return effect.state_rates(replace(given, wear_rates=depths), seconds)
+        return effect.state_rates(replace(given, wear_rates=depths))
 
     for effect in model.laws.effects:
         if not effect.initial_state:
@@ -320,7 +315,7 @@ def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
         speed = 1 / sum(share / v for v, share in here)
     middle = len(model.cycle) // 2
     moment = Moment(state.time, state.distance, speed)
-    memory = under(model, remembered(state), middle)
+    memory = under(model, remembered(model, state), middle)
     fields = local_fields(model, state.contact.pressure, moment, middle, memory)
     return {field.name: fields[field.name] for e in model.laws.effects for field in e.provides}
 

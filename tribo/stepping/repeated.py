@@ -35,7 +35,7 @@ def check_repeatable(model: Model, state: State) -> None:
 
 def _answers(model: Model, state: State, moment: Moment) -> Iterator[tuple[Any, Array]]:
     """Yield each array that the effects, and then the laws, answer at `state`, with who did."""
-    middle, memory = len(model.cycle) // 2, remembered(state)
+    middle, memory = len(model.cycle) // 2, remembered(model, state)
     here = under(model, memory, middle)
     fields = local_fields(model, state.contact.pressure, moment, middle, here)
     for effect in model.laws.effects:

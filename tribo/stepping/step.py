@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -11,19 +11,19 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import PluginError
-from tribo.core.findings import Finding
+from tribo.core.findings import Finding, layer_worn_through
 from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants
 from tribo.core.rounding import ROUND_OFF
-from tribo.core.state import State
+from tribo.core.state import BodyState, State
 from tribo.stepping.contacts import solved_anew
 from tribo.stepping.events import Worn
 from tribo.stepping.evolution import Course, course
 from tribo.stepping.invariants import ONE_LOAD, wear_balance
-from tribo.stepping.layers import caps, worn_through
-from tribo.stepping.memory import remembered
+from tribo.stepping.memory import own, remembered
 from tribo.stepping.plastic_groove import settled, yielded, yields
 from tribo.stepping.rates import CycleRates, Moment
+from tribo.stepping.yielding import caps
 
 if TYPE_CHECKING:
     from tribo.stepping.model import Model
@@ -75,7 +75,7 @@ def load_changes(model: Model, begin: float, end: float) -> bool:
 
 def rested(model: Model, state: State, time: float) -> State:
     """Return `state` at a later time (s), under the load of then."""
-    memory = remembered(state)
+    memory = remembered(model, state)
     if memory.between:
         rest, moment = time - state.time, Moment(time, state.distance, 0.0)
         after = course(model, memory, state.contacts, rest, moment)
@@ -149,17 +149,12 @@ def worn_by(
     bodies = dict(before.bodies)
     for name, depth in depths.items():
         body = bodies[name] = replace(
-            bodies[name], wear=bodies[name].wear + depth, law=slid.memory.laws[name]
+            bodies[name], wear=bodies[name].wear + depth, law=own(slid.memory.laws[name])
         )
         if name in between:
             missed = between[name] if body.missed is None else body.missed + between[name]
             bodies[name] = replace(body, missed=missed)
     mean = model.contact.loads.over_cycle(model.contact.loads.mean(before.time, moment.time))
-    passed: Iterable[Finding] = ()
-    if (begun := slid.begun) is not None:
-        passed = worn_through(
-            model, before, bodies, increment, lambda m: worn_depths(model, begun(m).rates, m)
-        )
     return replace(
         before,
         time=moment.time,
@@ -170,9 +165,28 @@ def worn_by(
         between=slid.memory.between,
         rates=(),
         steps=before.steps + 1,
-        findings=(*before.findings, *passed),
+        findings=(*before.findings, *_worn_through(model, before, bodies, increment, slid)),
         invariants=wear_balance(model, depths, slid.rates, increment, before),
     )
+
+
+def _worn_through(
+    model: Model,
+    before: State,
+    after: Mapping[str, BodyState],
+    increment: float,
+    slid: Course,
+) -> Iterator[Finding]:
+    """Yield a finding for each layer that a body's deepest point passes in a step, when it does."""
+    for name, law in model.laws.wear.items():
+        was, worn = float(np.max(before.bodies[name].wear)), float(np.max(after[name].wear))
+        for layer, bottom in enumerate(law.breaks):
+            reached = bottom * (1 - ROUND_OFF)
+            if was < reached <= worn:
+                first = slid.passed.get(name, {}).get(layer, 1.0) * increment
+                distance = before.distance + first
+                passed = layer_worn_through(name, layer + 1, bottom)
+                yield passed.at(model.motion.time_at(distance), distance)
 
 
 def accepted(

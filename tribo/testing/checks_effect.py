@@ -12,7 +12,6 @@ from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError
 from tribo.core.fields import ContactConditions, LocalConditions, WearRate
 from tribo.core.grid import Grid
-from tribo.guards.answers import rate_of
 from tribo.guards.parts import GuardedEffect
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
@@ -60,10 +59,6 @@ class EffectChecks(LocalChecks):
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
         rates: Mapping[str, Array] = component.state_rates(given)
         return rates
-
-    def _advance(self, component: Any, given: Any, span: float) -> Any:
-        means = component.advance(given, span) or {}
-        return {rate_of(name): np.asarray(values) for name, values in means.items()}
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
         fields = component.fields(replace(inputs, wear_rates={}))

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
-from itertools import product
 from typing import Any, ClassVar
 
 import numpy as np
@@ -13,18 +12,11 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.units import quantities
 from tribo.guards.answers import initial, rate_of
-from tribo.stepping.division import Division, integrated
-from tribo.stepping.integrator import Limits
 from tribo.testing import samples
 from tribo.testing.ageing import aged
 from tribo.testing.checks import Checks
 from tribo.testing.compare import apply_if, first_difference, locked, require
 from tribo.testing.rescaling import renewed, units_of
-
-_SPANS = (1e-2, 1.0, 30.0)
-"""Over which a model is asked to advance, in m or s."""
-_CLOSELY = Division(accuracy=1e-8)
-"""Of the state, of which what it changes by may be a small part."""
 
 
 class LocalChecks(Checks):
@@ -40,10 +32,6 @@ class LocalChecks(Checks):
     @abstractmethod
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
         """Return the rates of the state."""
-
-    @abstractmethod
-    def _advance(self, component: Any, given: Any, span: float) -> Any:
-        """Return the means over a span, called as rates are; nothing if it has none."""
 
     def _remembering(self, given: Any, far: Array) -> Any:
         """Return conditions with a state that each point has had as `far` as that."""
@@ -124,55 +112,6 @@ class LocalChecks(Checks):
                     f"{field.name!r} at its limit of {limit:g} {field.unit} changes by "
                     f"{sign * beyond:.3g} per {self._per}",
                 )
-
-    def advance_is_what_the_rates_come_to(self) -> None:
-        """An advance is that over one half and then the other, and what the rates come to."""
-        component = self._make()
-        samples = self._samples(component)
-        apply_if(self._advance(component, samples[0], 1.0), "it gives no advance")
-        for given, span in product(samples, _SPANS):
-            whole = dict(self._advance(component, given, span))
-            first = self._advance(component, given, 0.5 * span)
-            then = {name: 0.5 * span * first[rate_of(name)] + v for name, v in given.state.items()}
-            second = self._advance(component, locked(replace(given, state=then)), 0.5 * span)
-            through = self._integrated(component, given, span)
-            for name, mean in whole.items():
-                halves = 0.5 * (first[name] + second[name])
-                size = float(np.max(np.abs(mean))) + 1e-9 * float(np.max(np.abs(halves)))
-                for needed, tolerance, what in (
-                    (halves, 1e-8, "that over its two halves"),
-                    (through[name], 1e-3, "what its rates come to"),
-                ):
-                    off = float(np.max(np.abs(mean - needed)))
-                    require(
-                        off <= tolerance * size,
-                        f"the advance over {span:g} {self._per} differs from {what} in {name} by "
-                        f"{off:.3g}, with means up to {size:.3g}",
-                    )
-
-    def _integrated(self, component: Any, given: Any, span: float) -> dict[str, Array]:
-        """Return the means of all rates over a span, integrated."""
-        names = [rate_of(name) for name in given.state]
-
-        def rates(values: Sequence[Array], *_: float) -> list[Array]:
-            state = dict(zip(given.state, values, strict=True))
-            found = self._call(component, locked(replace(given, state=state)))
-            return [np.asarray(found[name]) for name in (*names, *rest)]
-
-        start = [*given.state.values()]
-        rest = [n for n in self._advance(component, given, span) if n not in names]
-        limits = [
-            Limits(
-                -np.inf if field.at_least is None else field.at_least,
-                np.inf if field.at_most is None else field.at_most,
-                field.name,
-            )
-            for field in component.state_fields
-        ]
-        ends, sums, _ = integrated(rates, start, span, limits, _CLOSELY)
-        changes = [end - begin for end, begin in zip(ends, start, strict=True)]
-        found = zip((*names, *rest), (*changes, *sums), strict=True)
-        return {name: change / span for name, change in found}
 
     def states_do_not_run_away(self) -> None:
         """A state without a limit does not grow the faster the more there is of it."""

@@ -59,10 +59,6 @@ class WearLawChecks(LocalChecks):
         rates: Mapping[str, Array] = component.rate(given).state_rates
         return rates
 
-    def _advance(self, component: Any, given: Any, span: float) -> Any:
-        mean = component.advance(given, span)
-        return {} if mean is None else _parts(replace(mean, depth_slope=None))
-
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
         rate = component.rate(inputs)
         return {**_parts(rate), **self._state_answers(component, rate.state_rates)}

@@ -6,7 +6,6 @@ from abc import abstractmethod
 from typing import ClassVar
 
 from tribo.component import Component
-from tribo.core.arrays import Array
 from tribo.core.fields import Field, LocalConditions, WearRate
 from tribo.core.material import Material
 
@@ -56,23 +55,3 @@ class WearLaw(Component):
             Arrays of the pressure's shape. Where the pressure is 0 the depth and the rates of
             the state are 0.
         """
-
-    def advance(self, local: LocalConditions, distance: Array | float) -> WearRate | None:
-        """Return the exact mean of `rate` over a distance, in which the law's own state goes on.
-
-        Pressure and fields stay as they are. A law with a closed form of it spares the run the
-        integration of its state; any other answers None, and its rates are integrated.
-
-        Parameters
-        ----------
-        local : LocalConditions
-            Conditions at each point, with the state before; not to be written to.
-        distance : float or ndarray
-            In m; of a body in layers that of each point, at the shape of the pressure.
-
-        Returns
-        -------
-        WearRate or None
-            Means per metre; no slope is needed.
-        """
-        return None

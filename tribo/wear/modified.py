@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Annotated, ClassVar, Self
 
 from pydantic import ConfigDict, model_validator
 
 from tribo.core.arrays import Array
-from tribo.core.fields import Field, LocalConditions, WearRate, check_declared
+from tribo.core.fields import WORN_DEPTH, Field, LocalConditions, WearRate, check_declared
 from tribo.core.material import Material
 from tribo.core.units import Quantity
 from tribo.wear.law import WearLaw
@@ -66,13 +65,12 @@ class ModifiedLaw(WearLaw):
 
 
 def times(factor: float | Array, rate: WearRate) -> WearRate:
-    """Return a rate with its depth and derivative times a factor; the state changes as it did."""
-    slope = rate.depth_slope
-    return replace(
-        rate,
-        depth_rate=factor * rate.depth_rate,
-        depth_slope=None if slope is None else factor * slope,
-    )
+    """Return a rate with its depth and derivative times a factor; else it changes as it did."""
+    slope, depth = rate.depth_slope, factor * rate.depth_rate
+    changes = rate.state_rates
+    if WORN_DEPTH.name in changes:
+        changes = {**changes, WORN_DEPTH.name: depth}
+    return WearRate(depth, None if slope is None else factor * slope, changes)
 
 
 class Scaled(ModifiedLaw):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Annotated, Self
 
 import numpy as np
@@ -64,16 +63,6 @@ class RunningIn(ModifiedLaw):
         state = {**rate.state_rates, WORK.name: local.pressure}
         faster = times(1 + (self.factor - 1) * fresh, rate)
         return WearRate(faster.depth_rate, faster.depth_slope, state)
-
-    def advance(self, local: LocalConditions, distance: Array | float) -> WearRate | None:
-        """Return the mean over a distance by the closed form, if the other law has no state."""
-        if self.law.state_fields:
-            return None
-        passed = local.pressure * (distance / self.over)
-        fresh = np.exp(-local.state[WORK.name] / self.over) * -np.expm1(-passed)
-        mean = np.divide(fresh, passed, out=np.ones_like(passed), where=passed > 0)
-        faster = times(1 + (self.factor - 1) * mean, self.law.rate(local))
-        return replace(faster, state_rates={WORK.name: local.pressure})
 
 
 class Smoothing(ModifiedLaw):
@@ -140,19 +129,6 @@ class Smoothing(ModifiedLaw):
         faster = times(1 + (self.factor - 1) * left, rate)
         state = {**rate.state_rates, ROUGHNESS.name: -above / self.depth * faster.depth_rate}
         return WearRate(faster.depth_rate, faster.depth_slope, state)
-
-    def advance(self, local: LocalConditions, distance: Array | float) -> WearRate | None:
-        """Return the mean over a distance by the closed form, if the other law has no state."""
-        if self.law.state_fields:
-            return None
-        left = self._left(local)
-        above, more = left * (self.roughness - self.settled), (self.factor - 1) * left
-        steady = self.law.rate(local).depth_rate * (distance / self.depth)
-        with np.errstate(divide="ignore"):
-            # A factor of 0 lets nothing wear that has its first roughness.
-            worn = np.maximum(steady + np.log1p(-more * np.expm1(-steady)), 0.0)
-        smoother = above * np.expm1(-worn) / distance
-        return WearRate(worn * (self.depth / distance), state_rates={ROUGHNESS.name: smoother})
 
     def _left(self, local: LocalConditions) -> Array:
         """Return the part of the roughness above Sq∞ that is left.

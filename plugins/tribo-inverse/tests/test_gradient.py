@@ -37,8 +37,8 @@ from tribo.core.errors import NumericalError
 from tribo.core.grid import Grid
 from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
+from tribo.stepping import integrator
 from tribo.stepping.explicit import Explicit
-from tribo.stepping.layers import over_increment
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.surface import Surface
 from tribo.surfaces.waves import Waves
@@ -48,11 +48,9 @@ from tribo.wear.running_in import RunningIn
 
 from tribo_inverse.adjoint import (
     backwards,
-    course,
     linear,
     local,
     parameters,
-    passing,
     remembering,
     slopes,
 )
@@ -99,22 +97,11 @@ OF_COATING = [f"bodies.disk.layers.0.{key}" for key in ("thickness", "young", "p
 OF_COATING += ["bodies.disk.material.young", "bodies.ball.material.poisson"]
 
 
-def unworn(method):
-    """What the shares of the layers make of the depth before, left out."""
+def unbroken(method):
+    """What follows of where a step ends at a break, left out."""
 
-    def mutant(*given):
-        worn, *others = method(*given)
-        return 0 * worn, *others
-
-    return mutant
-
-
-def steady(method):
-    """What the shares of the layers make of the rates in each, left out."""
-
-    def mutant(*given):
-        worn, rates, bottoms = method(*given)
-        return worn, [0 * rate for rate in rates], bottoms
+    def mutant(part, piece, *given, **how):
+        return method(part, replace(piece, ended={}), *given, **how)
 
     return mutant
 
@@ -363,27 +350,6 @@ def test_a_point_just_above_the_bottom_of_a_layer_passes_it(below):
     assert Kind(layer(depth * (1 + 5e-6)), Depth("ball"), paths, 1e-6).off() < CLOSE
 
 
-def test_shares_of_layers_have_the_derivatives_of_their_differences():
-    rates = [np.array([1.0, 2.0, 0.5, 0.0]), np.full(4, 3.0), np.full(4, 2.0)]
-    bottoms, worn, seeds = [1.0, 1.6], np.array([0.3, 0.9, 1.2, 0.5]), [0.4, -0.7, 1.1]
-
-    def total(bottoms, worn, rates):
-        shares = over_increment(bottoms, worn, rates, 1.2)
-        return sum(seed * shares[f"rate {layer}"] for layer, seed in enumerate(seeds))
-
-    by, *of_others = passing.Layered(bottoms, worn, rates, 1.2).back(seeds)
-    for own, found in zip((rates, bottoms), of_others, strict=True):
-        for at, each in enumerate(found):
-            ends = []
-            for nudge in (1e-6, -1e-6):
-                moved = [*own[:at], own[at] + nudge * (np.asarray(own[at]) > 0), *own[at + 1 :]]
-                parts = (bottoms, worn, moved) if own is rates else (moved, worn, rates)
-                ends.append(total(*parts))
-            assert each == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=1e-8)
-    change = total(bottoms, worn + 1e-6, rates) - total(bottoms, worn - 1e-6, rates)
-    assert by == pytest.approx(change / 2e-6, abs=1e-8)
-
-
 def unasked(method):
     """What an increment follows of numbers, without the rates along it."""
 
@@ -487,14 +453,11 @@ MUTANTS = [
     ("remembers", remembering._Along, "by_length", lambda _: 0.0),
     ("remembers", parameters, "moved", nothing),
     ("load over time", slopes.Sloping, "_by_pressure", unfelt("load")),
-    ("layers", course, "_layers", lambda of: lambda *given: (of(*given)[0], 1.0)),
-    ("layers", course, "by_bottoms", lambda _: lambda shares: ()),
-    ("layers, remembers", remembering, "lowered", lambda _: lambda *given: [0.0]),
-    ("layers, remembers", passing.Layered, "back", unworn),
-    ("layers, remembers", passing.Layered, "back", steady),
-    ("layers, remembers", slopes.Sloping, "_passing", nothing),
-    ("positions, layers, remembers", passing.Layered, "back", unworn),
-    ("positions, layers, remembers", passing.Layered, "back", steady),
+    ("layers", integrator, "_back", unbroken),
+    ("layers", remembering, "moved_breaks", lambda _: lambda *given: [0.0]),
+    ("layers, remembers", integrator, "_back", unbroken),
+    ("layers, remembers", remembering, "moved_breaks", lambda _: lambda *given: [0.0]),
+    ("positions, layers, remembers", integrator, "_back", unbroken),
 ]
 
 

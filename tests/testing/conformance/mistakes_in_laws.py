@@ -1,12 +1,11 @@
 """Wear laws with mistakes, written without sight of the kit's source."""
 
 import os
-from dataclasses import replace
 
 import numpy as np
 from testing.conformance.honest import Law
 from testing.conformance.mistaken import mistake
-from testing.conformance.models import GAS_CONSTANT, Closed, Oxide, RunningIn
+from testing.conformance.models import GAS_CONSTANT, Oxide, RunningIn
 
 from tribo import WearRate
 
@@ -274,34 +273,3 @@ def resisting(self, local):
 
 
 powered("The derivative is right at one speed only", resisting)
-
-# Means over a distance in closed form.
-
-
-def closed(words, change):
-    """Keep a law of whose advance over a distance something is wrong."""
-    mistake(
-        words, Closed, advance=lambda s, local, distance: change(Closed.advance, s, local, distance)
-    )
-
-
-def in_all(mean, distance):
-    return WearRate(
-        distance * mean.depth_rate,
-        state_rates={name: distance * rate for name, rate in mean.state_rates.items()},
-    )
-
-
-closed("It advances at its first rate", lambda good, s, c, over: s.rate(c))
-closed("Its advance is a sum, not a mean per metre", lambda good, s, c, o: in_all(good(s, c, o), o))
-closed(
-    "It advances from a fresh surface each time",
-    lambda good, s, c, over: good(s, replace(c, state={"slid": 0 * c.state["slid"]}), over),
-)
-closed(
-    "It advances at the rate of the middle",
-    lambda good, s, c, over: s.rate(
-        replace(c, state={"slid": c.state["slid"] + 0.5 * over * s.slid(c)})
-    ),
-)
-closed("It advances over half the distance", lambda good, s, c, over: good(s, c, 0.5 * over))

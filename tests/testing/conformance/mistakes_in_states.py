@@ -2,7 +2,7 @@
 
 import numpy as np
 from testing.conformance.mistaken import mistake
-from testing.conformance.models import Bath, Debris, Settling, Tribofilm
+from testing.conformance.models import Bath, Debris, Tribofilm
 
 # Debris that wear feeds and sliding ejects.
 
@@ -120,32 +120,6 @@ bath(
         )
     },
 )
-
-for words, parts in {
-    "The bath advances as if it had slid the time": {
-        "passed": lambda self, c, time: c.speed * Settling.passed(self, c, time)
-    },
-    "The bath advances at its first rate": {
-        "advance": lambda self, c, time: self.state_rates(c),
-    },
-    "The bath advances to where it tends to": {
-        "advance": lambda self, c, time: {
-            "bath_temperature": self.state_rates(c)["bath_temperature"]
-            / Settling.passed(self, c, time)
-        }
-    },
-    "The bath does not cool at rest where it advances": {
-        "advance": lambda self, c, time: (
-            Settling.advance(self, c, time)
-            if c.speed
-            else {"bath_temperature": 0 * c.state["bath_temperature"]}
-        )
-    },
-    "The bath advances by the distance, also at rest": {
-        "passed": lambda self, c, time: Settling.passed(self, c, c.speed * time) / c.speed
-    },
-}.items():
-    mistake(words, Settling, **parts)
 
 # A film that forms by sliding and fades in time.
 

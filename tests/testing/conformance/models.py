@@ -48,21 +48,6 @@ class RunningIn(WearLaw):
         return WearRate(k * local.pressure, k, {"slid": self.slid(local)})
 
 
-class Closed(RunningIn):
-    """The same, with the mean over a distance in closed form."""
-
-    type = "honest.closed"
-
-    def passed(self, local, distance):
-        return distance / self.length
-
-    def advance(self, local, distance):
-        passed = self.passed(local, distance)
-        share = np.exp(-local.state["slid"] / self.length) * -np.expm1(-passed) / passed
-        k = self.k_last + (self.k_first - self.k_last) * share
-        return WearRate(k * local.pressure, state_rates={"slid": self.slid(local)})
-
-
 TEMPERATURE = Field(
     "temperature", "K", "Temperature of the surface.", at_least=0.0, at_most=1500.0, typical=400.0
 )
@@ -218,19 +203,6 @@ class Bath(Effect):
         return {"bath_temperature": (self.power(contact) - self.lost(contact)) / self.capacity}
 
 
-class Settling(Bath):
-    """The same, with its mean over a time in closed form."""
-
-    type = "honest.settling"
-
-    def passed(self, contact, time):
-        return time * self.conductance / self.capacity
-
-    def advance(self, contact, time):
-        passed, rates = self.passed(contact, time), self.state_rates(contact)
-        return {"bath_temperature": rates["bath_temperature"] * -np.expm1(-passed) / passed}
-
-
 class Tribofilm(Effect):
     """dc/dt = v (1 - c)/length under pressure, less c/life; the film has a friction of its own."""
 
@@ -353,6 +325,6 @@ class Pad(ContactSolver):
 
 
 MODELS = (
-    *(RunningIn, Closed, Oxide, Heating, Debris, Bath, Settling, Tribofilm),
+    *(RunningIn, Oxide, Heating, Debris, Bath, Tribofilm),
     *(Ramp, Wavy, Pad),
 )

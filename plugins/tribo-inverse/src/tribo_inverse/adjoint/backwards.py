@@ -154,7 +154,7 @@ class Backwards:
         self.together = bool(model.laws.effects or model.laws.filling)
         self.states = Memory(
             {
-                name: {key: np.zeros(own[name]) for key in law.initial_state}
+                name: {key: np.zeros(own[name]) for key in law.own_state}
                 for name, law in model.laws.wear.items()
             },
             {key: np.zeros_like(first) for key, first in first_memory(model).items()},
@@ -308,7 +308,6 @@ class Backwards:
                 [_contact(each[box.slices]) for each in window],
                 replace(slid, before=replace(slid.before, laws=own)),
                 remembers,
-                model.laws.tells_length,
             )
 
         window_box = whole(model.grid.cells)
@@ -321,11 +320,7 @@ class Backwards:
             return [together]
         laws, pressed = self.states.laws, Box.of(record.region, model.grid.cells)
         return [
-            Alone(
-                stages(window_box if law.bottoms else pressed, name),
-                Memory({name: laws[name]}, {}),
-            )
-            for name, law in model.laws.wear.items()
+            Alone(stages(pressed, name), Memory({name: laws[name]}, {})) for name in model.laws.wear
         ]
 
     def _of_wear(self, increment: Together, box: Box, z: Array) -> Array:

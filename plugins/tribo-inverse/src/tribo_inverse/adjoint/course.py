@@ -23,7 +23,6 @@ from tribo.kernel_api import (
 )
 
 from tribo_inverse.adjoint.linear import Carrier
-from tribo_inverse.adjoint.passing import by_bottoms, lowered, with_bottoms
 from tribo_inverse.adjoint.response import Arrays, local
 from tribo_inverse.adjoint.tape import Slid
 
@@ -62,8 +61,8 @@ class Other:
 class Plain:
     """An increment of the one body of a model, of which each cell follows its own pressure alone.
 
-    It came to `known`. `slope`, `factor` and `worn` are the derivatives of a point's depth in the
-    pressure of each of its cells, in a factor on its rate, and in the depth before.
+    It came to `known`. `slope` and `factor` are the derivatives of a point's depth in the pressure
+    of each of its cells, and in a factor on its rate.
     """
 
     model: Model
@@ -73,7 +72,6 @@ class Plain:
     carrier: Carrier
     slope: Array
     factor: Array
-    worn: Array | float
 
     @property
     def name(self) -> str:
@@ -90,7 +88,7 @@ class Plain:
         own = wear[self.name]
         return Before(
             self.slope * self.carrier.seen(own, whole(self.slope.shape[1:])),
-            {self.name: own * self.worn},
+            {self.name: own},
             Memory({}, {}),
             {self.name: own * self.factor},
             partial(self._through, own),
@@ -107,20 +105,14 @@ class Plain:
     def _through(self, seed: Array, other: Other) -> float:
         if self.name not in other.wears:
             return 0.0
-        rates, slid, total = self.known.rates, other.slid, 0.0
-        if self.name in other.asks or self.known.memory.shares:
-            laws = with_bottoms(other.model, self.model, [self.name])
-            model = other.model.with_laws(laws)
+        rates, slid = self.known.rates, other.slid
+        if self.name in other.asks:
             before = replace(slid.before, laws={self.name: slid.before.laws[self.name]})
-            rates = course(
-                model, before, self.contacts, slid.increment, slid.moment, slid.plan
-            ).rates
-            lower = lowered(other.model, self.model, self.name)
-            follows = by_bottoms(self.known.memory.shares.get(self.name, {}))
-            total = sum(
-                float(np.sum(seed * by)) * far for by, far in zip(follows, lower, strict=False)
+            found = course(
+                other.model, before, self.contacts, slid.increment, slid.moment, slid.plan
             )
-        return total + float(np.sum(seed * (self._worn(other.model, rates, slid) - self._depth)))
+            rates = found.rates
+        return float(np.sum(seed * (self._worn(other.model, rates, slid) - self._depth)))
 
 
 def plain(
@@ -129,13 +121,11 @@ def plain(
     """Return an increment, which came to `known`, of a model with one body that wears."""
     (name,) = model.laws.wear
     laws = {name: known.memory.laws[name]}
-    memory, worn = _layers(replace(known.memory, laws=laws), name)
+    memory = replace(known.memory, laws=laws)
     depth, steep = (
         np.stack([getattr(rates[name], which) for rates in known.rates])
         for which in ("depth_rate", "depth_slope")
     )
-    if memory.shares:
-        (depth,) = stacked(model, contacts, memory, slid.moment)
     if np.any((steep == 0) & (depth > 0)):
         # What falls with the pressure is told to steps as 0.
         pressure = np.stack([contact.pressure for contact in contacts])
@@ -146,21 +136,7 @@ def plain(
     box = whole(model.grid.cells)
     part = slid.increment * carrier.part(box)
     factor, slope = carrier.gathered(over(shares) * part * depth, box), part * steep
-    return Plain(model, contacts, slid, known, carrier, slope, factor, worn)
-
-
-def _layers(memory: Memory, name: str) -> tuple[Memory, Array | float]:
-    """Return what a law in layers is told for slopes, and that of the depth in the one before."""
-    worn: Array | float = 1.0
-    if shares := memory.shares.get(name):
-        layers = range(len(shares) // 2)
-        spent, counts = ([shares[f"{kind} {j}"] for j in layers] for kind in ("rate", "slope"))
-        worn = np.ones_like(spent[0])
-        for share, count in zip(reversed(spent), reversed(counts), strict=True):
-            np.divide(count, share, out=worn, where=share > 0)
-        steep = {f"{kind} {j}": counts[j] for kind in ("rate", "slope") for j in layers}
-        memory = replace(memory, shares={name: steep})
-    return memory, worn
+    return Plain(model, contacts, slid, known, carrier, slope, factor)
 
 
 def stacked(

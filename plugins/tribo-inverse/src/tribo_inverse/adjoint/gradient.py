@@ -14,8 +14,9 @@ from tribo import Array, Case, CaseError, Simulation
 from tribo.kernel_api import Model
 
 from tribo_inverse.adjoint.backwards import covered, swept_back
+from tribo_inverse.adjoint.breaks import unreached
 from tribo_inverse.adjoint.ending import at_depth
-from tribo_inverse.adjoint.local import factor_shape, localised, unreached
+from tribo_inverse.adjoint.local import factor_shape, localised
 from tribo_inverse.adjoint.numbers import changed, find, listed
 from tribo_inverse.adjoint.objective import Objective, View, is_finite, looked
 from tribo_inverse.adjoint.parameters import Chain, chain

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from copy import copy
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from tribo import Array, CaseError, LocalConditions, Material, WearRate
-from tribo.kernel_api import DEPTH_ACCURACY, PLACE_X, PLACE_Y, GuardedLaw, Model, times
+from tribo.kernel_api import PLACE_X, PLACE_Y, GuardedLaw, Model, times
 
 SPEED = "speed"
 """What a law may be told of the motion."""
@@ -36,17 +35,17 @@ class LocalLaw(GuardedLaw):
             self.requires = tuple(dict.fromkeys((*law.requires, PLACE_X.name, PLACE_Y.name)))
         self._spacing = spacing
 
-    def rate(self, local: LocalConditions, over: Array | float = 0.0) -> WearRate:
+    def rate(self, local: LocalConditions) -> WearRate:
         """Return the law's rate and its derivative, times the factor of the place."""
         if self._is_even:
-            return times(self._factor[0, 0], self._law.rate(local, over))
+            return times(self._factor[0, 0], self._law.rate(local))
         cells = tuple(
             np.rint(local.fields[place.name] / spacing + 0.5 * (count - 1)).astype(int)
             for place, spacing, count in zip(
                 (PLACE_X, PLACE_Y), self._spacing, self._factor.shape, strict=True
             )
         )
-        return times(self._factor[cells], self._law.rate(local, over))
+        return times(self._factor[cells], self._law.rate(local))
 
 
 class WatchedLaw(GuardedLaw):
@@ -60,11 +59,11 @@ class WatchedLaw(GuardedLaw):
         self._law = law
         self.seen: set[str] = set()
 
-    def rate(self, local: LocalConditions, over: Array | float = 0.0) -> WearRate:
+    def rate(self, local: LocalConditions) -> WearRate:
         """Return the law's rate."""
         material: Any = _Watched(local.material, self.seen)
         told = _WatchedConditions(**{**vars(local), "material": material}, seen=self.seen)
-        return self._law.rate(told, over)
+        return self._law.rate(told)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,24 +117,3 @@ def factor_shape(model: Model, name: str) -> tuple[int, int]:
     if name not in model.laws.wear:
         raise CaseError(f"there is no body {name!r} that wears: {', '.join(model.laws.wear)}")
     return model.cycle.maps[name].rows, model.grid.cells[1]
-
-
-def unreached(model: Model, base: Model) -> Model:
-    """Return a model in which layers that the run of `base` does not wear through end deeper.
-
-    A depth that ends the run exactly at the bottom of a layer has the derivative of a run that ends
-    just above it. `base` is the case itself, and `model` may have another number.
-    """
-    stop, laws = base.case.stop, dict(model.laws.wear)
-    if stop.depth is None:
-        return model
-    for name in stop.whose(model.laws.wear):
-        bottoms = base.laws.wear[name].bottoms if name in laws else ()
-        if not bottoms or bottoms[-1] < stop.depth * (1 - DEPTH_ACCURACY):
-            continue
-        laws[name] = copy(laws[name])
-        laws[name].bottoms = tuple(
-            own if bottom < stop.depth * (1 - DEPTH_ACCURACY) else own + stop.depth
-            for own, bottom in zip(laws[name].bottoms, bottoms, strict=True)
-        )
-    return model.with_laws(laws)

@@ -11,9 +11,10 @@ from pydantic import ValidationError
 from tribo import Array, CaseError, Operator, TriboError
 from tribo.kernel_api import Mask, Memory, Model, Moment, OverTime, assemble
 
+from tribo_inverse.adjoint.breaks import unreached
 from tribo_inverse.adjoint.course import Other
 from tribo_inverse.adjoint.linear import Carrier, carriers_of
-from tribo_inverse.adjoint.local import SPEED, localised, unreached
+from tribo_inverse.adjoint.local import SPEED, localised
 from tribo_inverse.adjoint.numbers import ANY, changed
 from tribo_inverse.adjoint.objective import Seeds
 from tribo_inverse.adjoint.response import ASIDE, NUDGE
@@ -172,7 +173,7 @@ class Chain:
             if model.contact.system.cap is not None:
                 through += cap * model.contact.system.cap
             for name, law in model.laws.wear.items():
-                for key, first in law.initial_state.items():
+                for key, first in law.own_state.items():
                     through += first * float(np.sum(states.laws[name][key]))
             for key, (effect, _) in model.laws.between.items():
                 through += effect.initial_state[key] * float(np.sum(states.between[key]))

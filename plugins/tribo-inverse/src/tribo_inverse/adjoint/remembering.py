@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
 import numpy as np
-from tribo import Array
-from tribo.kernel_api import CELLS, Memory, Part, Values, over, retraced, transposed
+from tribo import WORN_DEPTH, Array
+from tribo.kernel_api import CELLS, Memory, Part, Piece, Values, over, own, retraced, transposed
 
+from tribo_inverse.adjoint.breaks import moved_breaks, with_breaks
 from tribo_inverse.adjoint.course import Before, Other
 from tribo_inverse.adjoint.linear import Carrier
-from tribo_inverse.adjoint.passing import lowered, with_bottoms
-from tribo_inverse.adjoint.rate_stage import RatePlace, RateStage
+from tribo_inverse.adjoint.rate_stage import RateStage
 from tribo_inverse.adjoint.response import ALONE, Arrays, Field
 from tribo_inverse.adjoint.slopes import Slopes, Sloping
 from tribo_inverse.adjoint.stages import together
@@ -26,10 +26,12 @@ _Seeded = tuple[Slopes, Sequence[Field]]
 class _Along:
     """Derivatives of an objective along an increment.
 
-    `rates` has those in the `means` of the rates at its stages.
+    `rates` has those in the `means` of the rates at its stages, and `breaks` those in the breaks of
+    states, by number, still for each point.
     """
 
     rates: Sequence[_Seeded]
+    breaks: Mapping[int, Array]
     stages: Sloping
 
     def plus(self, other: _Along, by: Array) -> _Along:
@@ -38,7 +40,8 @@ class _Along:
             (stage, _added(seeds, _times(by, more)))
             for (stage, seeds), (_, more) in zip(self.rates, other.rates, strict=True)
         ]
-        return _Along(rates, self.stages)
+        breaks = {at: self.breaks.get(at, 0.0) + by * more for at, more in other.breaks.items()}
+        return _Along(rates, {**self.breaks, **breaks}, self.stages)
 
     @cached_property
     def by_cell(self) -> Arrays:
@@ -60,18 +63,6 @@ class _Along:
     def found(self) -> Arrays:
         """The rates there, shape (stages, positions, nx, ny)."""
         return together([stage.rates for stage, _ in self.rates])
-
-    @cached_property
-    def by_bottoms(self) -> dict[str, list[float]]:
-        """The derivatives in the depths at which layers end, by body."""
-        found = {
-            name: [0.0] * len(self.stages.model.laws.wear[name].bottoms)
-            for name in self.stages.layered
-        }
-        for rates, seeds in self.rates:
-            for name, more in self.stages.by_bottoms(rates, seeds).items():
-                found[name] = [a + b for a, b in zip(found[name], more, strict=True)]
-        return found
 
     @property
     def by_length(self) -> float:
@@ -103,16 +94,18 @@ class Remembering:
     stages: Sloping
 
     def _before(
-        self, wear: Mapping[str, Array], states: Memory, found: _Back, along: Callable[[], _Along]
+        self, wear: Mapping[str, Array], found: _Back, along: Callable[[], _Along]
     ) -> Before:
-        each = iter(np.asarray(state) for state in found.states)
+        behind = self.stages.slid.before.with_values(map(np.asarray, found.states))
         pressure = found.pressure + _summed(found.load)
         pressure = pressure + _summed(found.square) * self.stages.pressure
         pressure = self.stages.embedded(pressure)
-        states = states.with_values(each)
         through = {
-            name: wear[name] + seed for name, seed in zip(self.stages.layered, each, strict=True)
+            name: wear[name] + of[WORN_DEPTH.name]
+            for name, of in behind.laws.items()
+            if WORN_DEPTH.name in of
         }
+        states = Memory({name: own(of) for name, of in behind.laws.items()}, behind.between)
         factors = dict(
             zip(self.stages.model.laws.wear, map(np.asarray, found.factors), strict=True)
         )
@@ -130,23 +123,20 @@ class Remembering:
             return 0.0
         others = replace(
             self.stages,
-            model=other.model.with_laws(with_bottoms(other.model, self.stages.model, [*laws])),
+            model=other.model.with_laws(with_breaks(other.model, self.stages.model, [*laws])),
             carriers=other.carriers,
             slid=replace(other.slid, before=self.stages.slid.before),
         )
         longer = others.slid.increment / self.stages.slid.increment
-        # Rates follow the length where they are means over it, or loads change along it.
-        asks = other.asks & laws.keys() or self.stages.follows_length
+        # Rates follow the length where loads change along it.
+        asks = other.asks & laws.keys() or self.stages.loads_change
         total = (longer - 1) * along.by_length
-        for name, deeper in along.by_bottoms.items():
-            total += float(np.dot(deeper, lowered(other.model, self.stages.model, name)))
+        for at, by in along.breaks.items():
+            deeper = moved_breaks(other.model, self.stages.model, self.stages.limits[at].place)
+            total += sum(float(np.sum(of)) * far for of, far in zip(by, deeper, strict=True))
         rates, moves = along.found, other.carriers is not self.stages.carriers
         if asks:
-            places = [
-                others.with_shares(s.states, s.place._replace(over=longer * s.place.over))
-                for s, _ in along.rates
-            ]
-            rates = others.rates(along.states, places)
+            rates = others.rates(along.states, [stage.passed for stage, _ in along.rates])
         if moves:
             return total + sum(
                 _dot(seeds, others.means([rate[i] for rate in rates]), stage.means)
@@ -161,29 +151,22 @@ class Remembering:
         asked = dict[int, tuple[Values, RateStage]]()
 
         def known(stage: RateStage) -> Values:
-            own = len(increment.own)
-            rates = [*stage.means[own:], *stage.means[:own]]
+            bodies = len(increment.own)
+            rates = [*stage.means[bodies:], *stage.means[:bodies]]
             asked[id(rates)] = rates, stage
             return rates
 
-        def rates(states: Sequence[Array], passed: float, step: float) -> Values:
-            return known(increment.at([states], [RatePlace(passed, step * length)])[0])
+        def rates(states: Sequence[Array], passed: float) -> Values:
+            return known(increment.at(states, passed))
 
         first, parts = known(increment.start), increment.slid.plan.parts
         if increment.along:
-            exact = increment.advances and increment.model.laws.advances
             done = retraced(
-                rates,
-                increment.begin,
-                first,
-                length,
-                increment.limits,
-                parts,
-                of_steps=increment.of_steps,
-                knows_means=exact and not increment.loads_change,
+                rates, increment.begin, first, length, increment.limits, increment.sums, parts
             )
         else:
-            done = [Part(length, [0.0] * len(increment.begin), [[first]], [], [], [])]
+            spans = dict.fromkeys(increment.model.laws.wear, length)
+            done = [Part([], [], [[[Piece([], first, length, spans, {})]]], [], [], [])]
         used = {id(rates): asked[id(rates)][1] for part in done for rates in part.stages}
         return done, dict(zip(used, increment.sloped([*used.values()]), strict=True))
 
@@ -200,9 +183,20 @@ class Remembering:
             total[:] = _added(total, found)
             return states
 
-        before = transposed(parts, after, depth, behind)
+        sums = [*zip(self.stages.sums, depth, strict=True)]
+        before = transposed(parts, after, sums, behind)
         pressure, load, square, *factors = total
-        return _Back(pressure, load, square, factors, before, _Along(along, self.stages))
+        found = _Along(along, before.breaks, self.stages)
+        return _Back(pressure, load, square, factors, before.states, found)
+
+    def _after(self, states: Memory) -> Sequence[Field]:
+        """Return derivatives in what is remembered after, from those in `states`.
+
+        What a depth comes to within the increment counts as wear alone.
+        """
+        laws = self.stages.slid.before.laws.items()
+        of_laws = [states.laws[name].get(key, 0.0) for name, of in laws for key in of]
+        return [*of_laws, *states.between.values()]
 
 
 @dataclass(frozen=True)
@@ -212,10 +206,8 @@ class Together(Remembering):
     def back(self, wear: Mapping[str, Array], states: Memory) -> Before:
         """Return derivatives before it from those in the depths and what is remembered after."""
         laws = self.stages.model.laws.wear
-        # What the depths in layers come to within the increment counts as their wear.
-        within = [0.0] * len(self.stages.layered)
-        found = self._back([wear[name] for name in laws], [*states.values, *within])
-        return self._before(wear, states, found, lambda: found.along)
+        found = self._back([wear[name] for name in laws], self._after(states))
+        return self._before(wear, found, lambda: found.along)
 
     @cached_property
     def is_pointwise(self) -> bool:
@@ -224,7 +216,7 @@ class Together(Remembering):
         Then `bodies` say all that the wear adds to the system of a step.
         """
         model = self.stages.model
-        if len(model.cycle) > 1 or self.stages.layered or model.laws.filling:
+        if len(model.cycle) > 1 or model.laws.filling:
             return False
         if any(kept.weights is not None for kept in self.stages.kept):
             return False
@@ -249,7 +241,7 @@ class Together(Remembering):
                 found.append((own, self.stages.embedded(np.broadcast_to(by, shape))))
             return found
         parts, slopes = self._retraced
-        start, window = slopes[id(parts[0].rows[0][0])], np.ones(self.stages.pressure.shape)
+        start, window = slopes[id(parts[0].first)], np.ones(self.stages.pressure.shape)
         return [
             (own, self.stages.slid.increment * own.part(self.stages.box) * by.own * window)
             for own, by in zip(self.stages.own, start.by_pressure, strict=False)
@@ -286,7 +278,7 @@ class Alone(Remembering):
             one.along,
         )
         along = cache(lambda: one.along.plus(other.along, by))
-        return self._before({name: by}, self.after, found, along)
+        return self._before({name: by}, found, along)
 
     @cached_property
     def _of_depth(self) -> _Back:
@@ -294,8 +286,7 @@ class Alone(Remembering):
 
     @cached_property
     def _of_states(self) -> _Back:
-        # What the depth in layers comes to within the increment counts as its wear.
-        return self._back([0.0], [*self.after.values, *(0.0 for _ in self.stages.layered)])
+        return self._back([0.0], self._after(self.after))
 
     @property
     def _shape(self) -> tuple[int, int]:

@@ -178,12 +178,8 @@ def _written(event: Event, model: Model, load: str, time: float) -> Record:
     slid = None
     if isinstance(event, Worn):
         load, times = "mean", (event.time, event.moment.time)
-        # Only in layers a law depends on how deep its body is worn.
-        worn = {
-            name: event.before.worn[name] for name, law in model.laws.wear.items() if law.bottoms
-        }
         laws = {name: event.before.laws[name] for name in model.laws.wear}
-        before = Memory(laws, event.before.between if model.laws.effects else {}, worn)
+        before = Memory(laws, event.before.between if model.laws.effects else {})
         plan = replace(event.plan, accuracy=np.inf)
         slid = Slid(event.time, event.increment, event.moment, before, plan, event.ahead)
     contacts = event.contacts

@@ -1,0 +1,79 @@
+"""Depths at which the rate of a law jumps, as layers end, where a number moves them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from tribo import WORN_DEPTH, Array, CaseError, LocalConditions, WearRate
+from tribo.kernel_api import DEPTH_ACCURACY, GuardedLaw, Model
+
+
+class SidedLaw(GuardedLaw):
+    """A law whose rate jumps at other depths: it is told one between the same two of its own."""
+
+    def __init__(self, law: GuardedLaw, breaks: Sequence[float]) -> None:
+        vars(self).update(vars(law))
+        self._law, self._own = law, np.array([-np.inf, *law.breaks, np.inf])
+        if hasattr(law, "bottoms"):
+            self.bottoms = tuple(breaks)
+        self.state_fields = tuple(
+            replace(each, breaks=tuple(breaks)) if each.name == WORN_DEPTH.name else each
+            for each in law.state_fields
+        )
+
+    def rate(self, local: LocalConditions) -> WearRate:
+        """Return the law's rate."""
+        depth = local.state[WORN_DEPTH.name]
+        at = np.searchsorted(self.breaks, depth, side="right")
+        told = np.clip(depth, self._own[at], np.nextafter(self._own[at + 1], -np.inf))
+        return self._law.rate(replace(local, state={**local.state, WORN_DEPTH.name: told}))
+
+
+def moved_breaks(model: Model, base: Model, name: str) -> Array:
+    """Return by how much deeper the rate of a body's law jumps in a model, in m."""
+    return np.subtract(model.laws.wear[name].breaks, base.laws.wear[name].breaks)
+
+
+def with_breaks(model: Model, base: Model, names: Sequence[str]) -> dict[str, GuardedLaw]:
+    """Return laws of a model, whose rates jump where those of the base do.
+
+    Raises
+    ------
+    CaseError
+        If a number moves the breaks of a law that follows the depth between them too.
+    """
+    laws = {name: model.laws.wear[name] for name in names}
+    for name, law in laws.items():
+        breaks = base.laws.wear[name].breaks
+        if law.breaks != breaks:
+            if law.breaks != getattr(law, "bottoms", None):
+                raise CaseError(
+                    f"moves the depths at which the rate of {law} jumps; a gradient goes through "
+                    "those of layers alone, of laws that do not follow the depth",
+                    f"bodies.{name}.wear",
+                )
+            laws[name] = SidedLaw(law, breaks)
+    return laws
+
+
+def unreached(model: Model, base: Model) -> Model:
+    """Return a model in which layers that the run of `base` does not wear through end deeper.
+
+    A depth that ends the run exactly at the bottom of a layer has the derivative of a run that ends
+    just above it. `base` is the case itself, and `model` may have another number.
+    """
+    stop, laws = base.case.stop, dict(model.laws.wear)
+    if stop.depth is None:
+        return model
+    for name in stop.whose(model.laws.wear):
+        breaks = base.laws.wear[name].breaks if name in laws else ()
+        if not breaks or breaks[-1] < stop.depth * (1 - DEPTH_ACCURACY):
+            continue
+        deeper = [
+            own if at < stop.depth * (1 - DEPTH_ACCURACY) else own + stop.depth
+            for own, at in zip(laws[name].breaks, breaks, strict=True)
+        ]
+        laws[name] = SidedLaw(laws[name], deeper)
+    return model.with_laws(laws)
