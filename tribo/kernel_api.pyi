@@ -133,7 +133,7 @@ from tribo.stepping.evolution import kept_in as kept_in
 from tribo.stepping.evolution import with_loads as with_loads
 from tribo.stepping.integrator import Kept as Kept
 from tribo.stepping.integrator import Part as Part
-from tribo.stepping.integrator import Piece as Piece
+from tribo.stepping.integrator import Stretch as Stretch
 from tribo.stepping.integrator import Sum as Sum
 from tribo.stepping.integrator import Values as Values
 from tribo.stepping.integrator import retraced as retraced

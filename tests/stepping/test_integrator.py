@@ -117,6 +117,68 @@ def test_a_state_that_goes_on_beyond_its_limit_is_told_at_once(length):
     assert len(asked) < 2000
 
 
+LAYERED = Kept("a", "a test", breaks=(0.3, 0.5, 2.0))
+
+
+def layers(values, _):
+    """Depths whose rates are 1, 4, 0.5 and 2 in the layers, and three times that in one cell."""
+    rates = np.array([1.0, 4.0, 0.5, 2.0])
+    rate = rates[np.searchsorted(LAYERED.breaks, values[0], side="right")] * [[1.0, 3.0]]
+    return [rate, rate]
+
+
+@pytest.mark.parametrize("length", [0.2, 0.34, 1.0, 40.0])
+def test_layers_are_passed_to_the_last_digit(length):
+    asked = []
+
+    def rates(values, passed):
+        asked.append(passed)
+        return layers(values, passed)
+
+    start = [np.zeros((1, 2))]
+    found = integrated(rates, start, length, [LAYERED], [Sum("")])
+    for cell, speed in enumerate((1.0, 3.0)):
+        at = np.array([0, 0.3, 0.3 + 0.2 / 4, 0.35 + 1.5 / 0.5, 1e9]) / speed
+        exact = np.interp(length, at, [0, 0.3, 0.5, 2.0, 2.0 + 2 * (1e9 - 3.35)])
+        assert found.values[0][0, cell] == pytest.approx(exact, rel=1e-12, abs=0)
+        assert found.sums[0][0, cell] == pytest.approx(exact, rel=1e-12, abs=0)
+    passes = dict(zip(range(3), np.array([0.3, 0.35, 3.35]) / 3 / length, strict=True))
+    assert found.passed == {
+        (0, each): pytest.approx(share, rel=1e-12, abs=0)
+        for each, share in passes.items()
+        if share < 1
+    }
+    assert len(asked) < 60
+
+
+@pytest.mark.parametrize("length", [0.5, 3.0, 40.0])
+def test_what_relaxes_under_a_layer_begins_when_that_is_passed(length):
+    """Its rate is 4, three times more at first; above the layer nothing but the depth goes on."""
+
+    def rates(values, _):
+        depth, worked = values
+        below = depth >= 0.3
+        rate = np.where(below, 4 * (1 + 3 * np.exp(-worked)), 1.0)
+        return [rate, 1.0 * below, rate]
+
+    found = integrated(rates, [0 * ONE, 0 * ONE], length, [LAYERED, ANY], [Sum("")])
+    left = length - 0.3
+    exact = 0.3 + 4 * left - 12 * np.expm1(-left)
+    assert found.values[0][0, 0] == pytest.approx(exact, rel=1e-3)
+    assert found.sums[0][0, 0] == pytest.approx(exact, rel=1e-3)
+    assert found.passed[0, 0] == pytest.approx(0.3 / length, rel=1e-9)
+
+
+def test_a_state_that_turns_at_a_break_passes_it_downwards():
+    thermostat = Kept("a", "a test", breaks=(1.0,))
+
+    def rates(values, _):
+        return [np.where(values[0] < 1, -0.5, -2.0)]
+
+    (found,) = integrated(rates, [3 * ONE], 4.0, [thermostat]).values
+    assert found[0, 0] == pytest.approx(1 - 0.5 * 3, rel=1e-12, abs=0)
+
+
 LENGTHS = [1e-3, 0.1, 1.0, 3.0, 30.0, 1e4]
 FREE = Kept("a", "a test", 0.0)
 
@@ -214,4 +276,69 @@ def test_the_transpose_is_the_derivative():
             needed = (higher - lower) / 2e-5
             assert found[state][0, point] == pytest.approx(needed, rel=1e-6, abs=1e-8)
     needed = (objective(begin, 1.5 + 1e-5) - objective(begin, 1.5 - 1e-5)) / 2e-5
+    assert sum(asked) == pytest.approx(needed, rel=1e-6)
+
+
+def test_the_transpose_is_the_derivative_where_breaks_are_passed():
+    begin = [np.array([[0.1, 0.45, 0.9]]), np.array([[0.0, 0.5, 2.0]])]
+    seeds = [
+        np.array([[1.0, -2.0, 0.5]]),
+        np.array([[0.3, 1.0, -1.0]]),
+        np.array([[2.0, 1.0, 1.0]]),
+    ]
+    k, states = np.array([1.0, 4.0, 0.5]), {}
+
+    def along(breaks, factor=1.0):
+        def rates(values, passed):
+            depth, worked = values
+            here = np.searchsorted(breaks, depth, side="right")
+            rate = factor * k[here] * (1 + np.exp(-worked))
+            found = [rate, 1 + 0.1 * depth, rate]
+            states[id(found)] = found, here, worked, factor
+            return found
+
+        return rates
+
+    def parts(start, breaks, factor=1.0):
+        kept = [Kept("a", "a test", breaks=breaks), ANY]
+        rates, length = along(breaks, factor), 0.7
+        plan = ((0.25, False), (0.75, False))
+        first = rates(start, 0.0)
+        return retraced(rates, start, first, length, kept, [Sum("")], plan)
+
+    def objective(start, breaks, factor=1.0):
+        done = parts(start, breaks, factor)
+        ends = [*done[-1].end[:2], sum(part.end[2] for part in done)]
+        return sum(float(np.sum(seed * end)) for seed, end in zip(seeds, ends, strict=True))
+
+    asked = []
+
+    def behind(found, given):
+        _, here, worked, factor = states[id(found)]
+        of_depth, of_worked, of_sum = given
+        of_rate = of_depth + of_sum
+        asked.append(float(np.sum(of_rate * found[0])))
+        return [0.1 * of_worked, -factor * k[here] * np.exp(-worked) * of_rate]
+
+    breaks = (0.5, 1.3)
+    found = transposed(parts(begin, breaks), seeds[:2], [(Sum(""), seeds[2])], behind)
+    for state in (0, 1):
+        for point in range(3):
+            by = np.zeros((1, 3))
+            by[0, point] = 1e-6
+            ends = [[*begin], [*begin]]
+            ends[0][state], ends[1][state] = begin[state] + by, begin[state] - by
+            higher, lower = (objective(end, breaks) for end in ends)
+            assert found.states[state][0, point] == pytest.approx(
+                (higher - lower) / 2e-6, rel=1e-6, abs=1e-7
+            )
+    for each in (0, 1):
+        ends = [[*breaks], [*breaks]]
+        ends[0][each] += 1e-6
+        ends[1][each] -= 1e-6
+        higher, lower = (objective(begin, tuple(end)) for end in ends)
+        needed = (higher - lower) / 2e-6
+        assert needed != 0
+        assert np.sum(found.breaks[0][each]) == pytest.approx(needed, rel=1e-6)
+    needed = (objective(begin, breaks, 1 + 1e-6) - objective(begin, breaks, 1 - 1e-6)) / 2e-6
     assert sum(asked) == pytest.approx(needed, rel=1e-6)

@@ -315,7 +315,8 @@ class Implicit(Scheme):
             )
             depth_error = max(depth_error, 0.5 * late / scale)
             own = 0.5 * (worn + forward)
-            if np.any(own > 0):
+            # What points that pass a break lag behind is mended too: their load goes elsewhere.
+            if np.any(own > 0) and not model.laws.wear[name].breaks:
                 share = min(1.0, float(np.max(own)) / (LATE * scale))
                 missed = 0.5 * abs(float(np.sum(worn)) - float(np.sum(forward)))
                 volume_error = max(volume_error, share * missed / float(np.sum(own)))

@@ -18,7 +18,7 @@ NUDGE = 3e-5
 SMALL = 1e-4
 """Rise below which the derivative of its mean is that of its series."""
 EXACT = 1e-12
-"""Relative difference of rates along a part that are the same but for rounding."""
+"""Relative difference, summed over the cells, of what is the same but for rounding."""
 PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
 """Euler steps of the rows of the extrapolation, without and with the relaxation of the states."""
 
@@ -75,16 +75,20 @@ class Kept:
         crosses = np.where(above == self.most, values + nudge > above, values + nudge >= above)
         return np.where(crosses, values - nudge, values + nudge)
 
+    def end(self, number: Numbers) -> Array:
+        """Return breaks by their numbers, and the limits by those before and after them."""
+        assert self.ends is not None
+        return self.ends[number + 1]
+
     def next(self, values: Array, rate: Array, slope: Field) -> tuple[Array, Numbers, Array]:
         """Return the break or limit that each value comes to next, its number, and when.
 
         That is never where it comes to none. The rate follows the state by `slope`. Below a break
         that it comes to from above, a value is the next number below it.
         """
-        assert self.ends is not None
-        number = np.searchsorted(self.breaks, values, side="right") + (rate > 0)
-        end = self.ends[number]
-        inner = (number > 0) & (number <= len(self.breaks))
+        number = np.searchsorted(self.breaks, values, side="right") - (rate <= 0)
+        end = self.end(number)
+        inner = (number >= 0) & (number < len(self.breaks))
         room = end - values
         # At a limit a state stays; at a break it may turn down at once.
         ahead = np.where(rate > 0, room >= 0, (rate < 0) & (room <= 0))
@@ -96,7 +100,7 @@ class Kept:
                 later = np.where(rise > -1, np.log1p(rise) / slope, np.inf)
             time = np.where(far & (np.asarray(slope) < 0), later, time)
         below: Array = np.nextafter(end, -np.inf)
-        return np.where(inner & (rate < 0), below, end), number - 1, time
+        return np.where(inner & (rate < 0), below, end), number, time
 
 
 @dataclass(frozen=True)
@@ -119,7 +123,7 @@ class Sum:
 
 
 @dataclass(frozen=True)
-class Piece:
+class Stretch:
     """States, their rates, and for how long these hold at each place: for a step, or to a break.
 
     `ended` has where a state, by its number, comes to a break or to a limit, and to which.
@@ -139,7 +143,7 @@ class Piece:
         ]
 
 
-Row = Sequence[Sequence[Piece]]
+Row = Sequence[Sequence[Stretch]]
 """Euler steps of a part, each in pieces."""
 
 
@@ -182,7 +186,7 @@ class Part:
         return self.rows[0][0][0].rates
 
     @property
-    def pieces(self) -> list[Piece]:
+    def pieces(self) -> list[Stretch]:
         """Those of all rows."""
         return [*chain.from_iterable(chain.from_iterable(self.rows))]
 
@@ -204,22 +208,25 @@ class Part:
         """
         off, row = [0.0] * len(self.kept), self.rows[-1]
         for taken, pieces in enumerate(row):
-            piece, *others = pieces
-            if not piece.ended:
+            if not pieces[0].ended:
                 continue
-            states = piece.stepped(self.kept, self.relaxing)
-            for at, (here, _) in piece.ended.items():
-                near = np.nextafter(states[at], piece.states[at])
-                states[at] = np.where(here, near, states[at])
-            found = rates(states, taken / len(row))
-            for at, (here, _) in piece.ended.items():
-                change = np.abs(found[at] - piece.rates[at]) * piece.spans[self.kept[at].place]
-                off[at] += 0.5 * float(np.sum(change, where=here))
             end = last if taken + 1 == len(row) else row[taken + 1][0].rates
-            for piece in others:
+            for piece in pieces:
+                change = [np.abs(a - b) for a, b in zip(end, piece.rates, strict=True)]
+                if piece is pieces[0]:
+                    change = [np.zeros_like(each) for each in change]
+                states = piece.stepped(self.kept, self.relaxing)
+                for at, (here, number) in piece.ended.items():
+                    near = np.nextafter(self.kept[at].end(number), piece.states[at])
+                    states[at] = np.where(here, near, states[at])
+                found = rates(states, taken / len(row)) if piece.ended else []
+                for at, (here, _) in piece.ended.items():
+                    for other, of in enumerate(self.kept):
+                        if of.place == self.kept[at].place:
+                            own = np.abs(found[other] - piece.rates[other])
+                            change[other] = np.where(here, own, change[other])
                 for at, of in enumerate(self.kept):
-                    change = np.abs(end[at] - piece.rates[at]) * piece.spans[of.place]
-                    off[at] += 0.5 * float(np.sum(change))
+                    off[at] += 0.5 * float(np.sum(change[at] * piece.spans[of.place]))
         return off
 
     def passed(self) -> dict[tuple[int, int], float]:
@@ -249,7 +256,7 @@ def stepped(
     slopes: Sequence[Field],
     kept: Sequence[Kept],
     sums: Sequence[Sum],
-) -> tuple[Values, Values, list[Piece]]:
+) -> tuple[Values, Values, list[Stretch]]:
     """Return states after an Euler step, what sums come to over it, and its pieces.
 
     Where a state comes to a break or a limit, the step ends for all states at its place, and a
@@ -259,7 +266,7 @@ def stepped(
     states, found = list(start), first
     totals = [np.zeros_like(rate) for rate in first[len(states) :]]
     left: dict[str, Field] = {each.place: step for each in kept}
-    pieces = list[Piece]()
+    pieces = list[Stretch]()
     # Rates that lead back to a break from both sides would end no step.
     most = 1 + sum(len(each.breaks) + 1 for each in kept if each.ends is not None)
     while True:
@@ -269,7 +276,7 @@ def stepped(
             place = kept[at].place
             if np.any((time <= left[place]) & (left[place] > 0)):
                 spans[place] = np.minimum(spans[place], time)
-        piece = Piece(states, found, step, spans, ended)
+        piece = Stretch(states, found, step, spans, ended)
         states = piece.stepped(kept, slopes)
         claimed: dict[str, Mask] = {}
         for at, end, number, time in coming:
@@ -321,8 +328,8 @@ def solved(
 ) -> Part:
     """Return a part of an increment, solved from its first rates on.
 
-    Rates are asked at states that may lie beyond their limits. Where they stay as they are, one
-    step is all.
+    Rates are asked at states that may lie beyond their limits. Where they stay as they are, but for
+    the breaks that are passed, one step or two are all.
     """
     slopes: Sequence[Field] = [0.0] * len(start)
     if relaxes:
@@ -331,7 +338,7 @@ def solved(
     beyond = [0.0] * len(start)
     stages = RELAXING if relaxes else PLAIN
     for steps in stages:
-        step, row = length / steps, list[list[Piece]]()
+        step, row = length / steps, list[list[Stretch]]()
         states = list(start)
         totals = [np.zeros_like(rate) for rate in first[len(start) :]]
         for taken in range(steps):
@@ -349,17 +356,23 @@ def solved(
             row.append(pieces)
         rows.append(row)
         ends.append([*states, *totals])
-        if steps == 2 and not any(piece.ended for of in rows for each in of for piece in each):
-            found = row[1][0].rates
-            if _alike(first, found) and _alike(first, last := rates(states, 1.0)):
-                return Part(kept, slopes, rows[:1], ends[:1], ends[1], beyond, last)
+        if steps == 2 and all(map(_same, *ends)):
+            pieces = [*chain.from_iterable(chain.from_iterable(rows))]
+            passing = {kept[at].place for piece in pieces for at in piece.ended}
+            places = [*(of.place for of in kept), *(of.place for of in sums)]
+            last = rates(states, 1.0)
+            if all(
+                of in passing or _same(one, other)
+                for of, one, other in zip(places, first, last, strict=True)
+            ):
+                rows, ends = (rows, ends) if passing else (rows[:1], ends[:1])
+                return Part(kept, slopes, rows, ends, ends[-1], beyond, last)
     return Part(kept, slopes, rows, ends, _extrapolated(ends[1:], stages[1:]), beyond)
 
 
-def _alike(one: Values, other: Values) -> bool:
-    """Whether rates are the same but for rounding."""
-    pairs = zip(one, other, strict=True)
-    return all(part_of(apart(a, b), np.abs(a)) <= EXACT for a, b in pairs)
+def _same(one: Array, other: Array) -> bool:
+    """Whether two arrays are the same but for rounding."""
+    return part_of(apart(one, other), np.abs(other)) <= EXACT
 
 
 def retraced(
@@ -472,7 +485,7 @@ def transposed(
 
 def _back(
     part: Part,
-    piece: Piece,
+    piece: Stretch,
     seeds: Sequence[Field],
     sums: Sequence[tuple[Sum, Field]],
     times: Mapping[str, Field],

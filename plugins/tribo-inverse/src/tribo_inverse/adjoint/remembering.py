@@ -8,7 +8,7 @@ from functools import cache, cached_property
 
 import numpy as np
 from tribo import WORN_DEPTH, Array
-from tribo.kernel_api import CELLS, Memory, Part, Piece, Values, over, own, retraced, transposed
+from tribo.kernel_api import CELLS, Memory, Part, Stretch, Values, over, own, retraced, transposed
 
 from tribo_inverse.adjoint.breaks import moved_breaks, with_breaks
 from tribo_inverse.adjoint.course import Before, Other
@@ -166,7 +166,7 @@ class Remembering:
             )
         else:
             spans = dict.fromkeys(increment.model.laws.wear, length)
-            done = [Part([], [], [[[Piece([], first, length, spans, {})]]], [], [], [])]
+            done = [Part([], [], [[[Stretch([], first, length, spans, {})]]], [], [], [])]
         used = {id(rates): asked[id(rates)][1] for part in done for rates in part.stages}
         return done, dict(zip(used, increment.sloped([*used.values()]), strict=True))
 

@@ -1,0 +1,84 @@
+"""How many calls a solve, a step and a resolved step make: their cost, on any machine."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import tribo
+from tribo import Case
+from tribo.simulation.assembly import assemble
+from tribo.simulation.march import begin
+from tribo.stepping.contacts import solve_cycle, undeformed
+
+ROOT = str(Path(tribo.__file__).parent)
+INLINED = {"<listcomp>", "<dictcomp>", "<setcomp>"}
+"""What is a call up to Python 3.11."""
+
+
+def calls(function: Callable[[], object]) -> int:
+    """Return how many calls of Python functions of tribo a call makes."""
+    count = 0
+
+    def told(frame, event, _):
+        nonlocal count
+        code = frame.f_code
+        own = code.co_filename.startswith(ROOT) and code.co_name not in INLINED
+        count += event == "call" and own
+
+    sys.setprofile(told)
+    try:
+        function()
+    finally:
+        sys.setprofile(None)
+    return count
+
+
+def model(**kinematics):
+    ball = {"surface": {"type": "sphere", "radius": "5 mm"}}
+    steel = {"material": {"young": "210 GPa", "poisson": 0.3}}
+    wears = {"wear": {"type": "archard", "k": 1e-16}}
+    motion = {"type": "reciprocating", "stroke": "1 mm", "frequency": "1 Hz", "duration": "100 s"}
+    return assemble(
+        Case.model_validate(
+            {
+                "grid": {"size": "0.6 mm", "cells": 32},
+                "load": {"normal": "10 N"},
+                "bodies": {
+                    "ball": {**ball, **steel, **wears},
+                    "disk": {"surface": "flat", **steel, **wears},
+                },
+                "contact": {"type": "dcfft", "plasticity": False},
+                "kinematics": {**motion, **kinematics},
+            }
+        )
+    )
+
+
+def step(of):
+    state = of.case.stepping.advance(of, begin(of), of.end_time)
+    return lambda: of.case.stepping.advance(of, state, of.end_time)
+
+
+def solve():
+    of = model()
+    state = begin(of)
+    gaps, loads = undeformed(of, state), of.contact.loads.before(0.0)
+    return lambda: solve_cycle(of, gaps, loads, state.contacts, state.bodies)
+
+
+@pytest.mark.parametrize(
+    ("made", "known"),
+    [
+        (solve, 79),
+        (lambda: step(model()), 421),
+        (lambda: step(model(positions=33)), 4788),
+    ],
+    ids=["solve", "step", "resolved step"],
+)
+def test_it_makes_no_more_calls_than_it_did(made, known):
+    """Fails by more than 5 %: look for what became dearer, or write down what became cheaper."""
+    assert calls(made()) == pytest.approx(known, rel=0.05, abs=0)
