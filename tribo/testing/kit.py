@@ -306,17 +306,22 @@ def outcome_of(checks: Checks, name: str) -> Outcome:
     if checks._lost:
         return _came(checks, name, "failed", checks._lost)
     try:
-        found: Outcome = child().call(_outcome_there, pickle.dumps(checks), name)
+        found: Outcome | None = child().call(_outcome_there, pickle.dumps(checks), name)
     except (Unknown, pickle.PicklingError, AttributeError, TypeError):
         return _outcome(checks, name)
     except Lost as error:
         checks._lost = f"{error}, as no call of a component may; nothing more is tried"
         return _came(checks, name, "failed", checks._lost)
-    return found
+    return found or _outcome(checks, name)
 
 
-def _outcome_there(checks: bytes, name: str) -> Outcome:
-    return _outcome(_unpacked(checks), name)
+def _outcome_there(checks: bytes, name: str) -> Outcome | None:
+    """Make one check; None of a class that is not found, as one of a script."""
+    try:
+        made = _unpacked(checks)
+    except (AttributeError, ImportError):
+        return None
+    return _outcome(made, name)
 
 
 @lru_cache(maxsize=1)

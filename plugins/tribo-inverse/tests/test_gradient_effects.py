@@ -14,7 +14,6 @@ from gradients import (
     few,
     forgotten,
     layered,
-    nothing,
     resolved,
     run,
     unfelt,
@@ -25,6 +24,7 @@ from paper_models import K, archard, motion, pair
 from tribo.core.errors import CaseError
 from tribo.core.fields import LOAD_SHARE, Field
 from tribo.effects.effect import Effect
+from tribo.stepping import integrator
 from tribo.stepping.explicit import Explicit
 from tribo.wear.archard import Archard
 from tribo.wear.modified import times
@@ -375,13 +375,11 @@ def as_it_is(method):
     return lambda self, slid, *given: () if rests(slid) else method(self, slid, *given)
 
 
-def of_depths(method):
-    """What effects make of the shares of the layers, left out."""
+def unbroken(method):
+    """What follows of where a step ends at a break, left out."""
 
-    def mutant(self, *given):
-        of = method(self, *given)
-        depths = len(self.own)
-        return [*of[:depths], response.Response(0 * of[depths].own), *of[depths + 1 :]]
+    def mutant(part, piece, *given, **how):
+        return method(part, replace(piece, ended={}), *given, **how)
 
     return mutant
 
@@ -426,8 +424,7 @@ MUTANTS = [
     ("heat", slopes.Sloping, "_by_pressure", unfelt("square")),
     ("heat", linear.Uniform, "gathered", zero),
     ("heat", remembering.Together, "is_pointwise", lambda _: property(lambda self: True)),
-    ("layers", slopes.Sloping, "_by_share", of_depths),
-    ("layers, pressure beside", slopes.Sloping, "_passing", nothing),
+    ("layers, pressure beside", integrator, "_back", unbroken),
 ]
 
 

@@ -60,6 +60,18 @@ def test_an_exception_is_told_once_with_the_line_it_arose_in():
     assert f"{len(report.failures)} failed" in str(report).splitlines()[0]
 
 
+class Elsewhere(Hill):
+    type = "test.elsewhere"
+
+
+def test_a_class_that_only_this_process_has_is_checked_in_it(monkeypatch):
+    # As one of a script: another process has a __main__ of its own.
+    monkeypatch.setattr(Elsewhere, "__module__", "__main__")
+    monkeypatch.setattr(sys.modules["__main__"], "Elsewhere", Elsewhere, raising=False)
+    report = check(Elsewhere, [{}])
+    assert {each.check for each in report.failures} <= {"configuration_can_be_pickled"}
+
+
 class Unknown(Hill):
     @property
     def curvature(self):
