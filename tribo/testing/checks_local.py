@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import pairwise, product
 from typing import Any, ClassVar
 
 import numpy as np
@@ -17,6 +18,9 @@ from tribo.testing.ageing import aged
 from tribo.testing.checks import Checks
 from tribo.testing.compare import apply_if, first_difference, locked, require
 from tribo.testing.rescaling import renewed, units_of
+
+_RUNGS = 33
+"""Values of a state between which a jump of the rates is looked for."""
 
 
 class LocalChecks(Checks):
@@ -113,6 +117,41 @@ class LocalChecks(Checks):
                     f"{sign * beyond:.3g} per {self._per}",
                 )
 
+    def rates_jump_at_breaks_alone(self) -> None:
+        """Where an answer jumps as a state changes, the field declares a break."""
+        component = self._make()
+        apply_if(component.state_fields, "it keeps no state")
+        for given, field in product(self._samples(component)[:2], component.state_fields):
+
+            def answers(value: float, given: Any = given, name: str = field.name) -> list[Array]:
+                found = self._call(component, _at(given, name, value))
+                return [np.asarray(found[key]) for key in sorted(found) if _is_rate(found[key])]
+
+            values = given.state[field.name]
+            ladder = np.linspace(float(np.min(values)), float(np.max(values)), _RUNGS)
+            at = [answers(value) for value in ladder] if ladder[0] < ladder[-1] else []
+            for number, rungs in enumerate(zip(*at, strict=True)):
+                size = max(float(np.max(np.abs(each))) for each in rungs)
+                steps = [float(np.max(np.abs(b - a))) for a, b in pairwise(rungs)]
+                first = int(np.argmax(steps))
+                low, high = float(ladder[first]), float(ladder[first + 1])
+                below, above = rungs[first], rungs[first + 1]
+                for _ in range(40):
+                    middle = 0.5 * (low + high)
+                    half = answers(middle)[number]
+                    if np.max(np.abs(half - below)) > np.max(np.abs(above - half)):
+                        high, above = middle, half
+                    else:
+                        low, below = middle, half
+                left = float(np.max(np.abs(above - below)))
+                near = 1e-6 * (ladder[-1] - ladder[0])
+                known = any(low - near <= each <= high + near for each in field.breaks)
+                require(
+                    known or left <= 1e-6 * size,
+                    f"as {field.name!r} passes {high:.6g} {field.unit} an answer jumps by "
+                    f"{left:.3g}, of up to {size:.3g}; declare that with its field, as breaks",
+                )
+
     def states_do_not_run_away(self) -> None:
         """A state without a limit does not grow the faster the more there is of it."""
         component = self._make()
@@ -182,6 +221,10 @@ def _is_given(config: Any, name: str) -> bool:
     field, value = type(config).model_fields[name], getattr(config, name)
     marked = any(quantities(field))
     return marked and isinstance(value, float) and value not in (0, field.default)
+
+
+def _is_rate(values: Any) -> bool:
+    return not isinstance(values, Mapping) and np.ndim(values) > 0
 
 
 def _more(field: Any) -> Any:

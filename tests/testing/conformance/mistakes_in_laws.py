@@ -1,13 +1,14 @@
 """Wear laws with mistakes, written without sight of the kit's source."""
 
 import os
+from dataclasses import replace
 
 import numpy as np
 from testing.conformance.honest import Law
 from testing.conformance.mistaken import mistake
-from testing.conformance.models import GAS_CONSTANT, Oxide, RunningIn
+from testing.conformance.models import GAS_CONSTANT, Coating, Oxide, RunningIn
 
-from tribo import WearRate
+from tribo import WORN_DEPTH, WearRate
 
 
 def touching(local):
@@ -273,3 +274,16 @@ def resisting(self, local):
 
 
 powered("The derivative is right at one speed only", resisting)
+
+# A law in two layers.
+
+mistake(
+    "A coating says of no depth that its rate jumps there",
+    Coating,
+    state_fields=property(lambda self: (WORN_DEPTH,)),
+)
+mistake(
+    "A coating declares a depth ten times as large",
+    Coating,
+    state_fields=property(lambda self: (replace(WORN_DEPTH, breaks=(10 * self.thickness,)),)),
+)

@@ -1,5 +1,6 @@
 """Sound models, some as the documentation has them, for mistakes to be made in."""
 
+from dataclasses import replace
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy as np
 from tribo import (
     FRICTION_COEFFICIENT,
     LOAD_SHARE,
+    WORN_DEPTH,
     ContactSolver,
     Effect,
     Field,
@@ -46,6 +48,26 @@ class RunningIn(WearLaw):
     def rate(self, local):
         k = self.k(local)
         return WearRate(k * local.pressure, k, {"slid": self.slid(local)})
+
+
+class Coating(WearLaw):
+    """dh/ds = k p, with one k down to a depth and another below."""
+
+    type = "honest.coating"
+    k: Annotated[float, Quantity("1/Pa", at_least=0)] = 1e-16
+    """Rate above."""
+    below: Annotated[float, Quantity("1/Pa", at_least=0)] = 1e-15
+    """Rate below."""
+    thickness: Annotated[float, Quantity("m", above=0)] = 1e-6
+    """Where it ends."""
+
+    @property
+    def state_fields(self):
+        return (replace(WORN_DEPTH, breaks=(self.thickness,)),)
+
+    def rate(self, local):
+        k = np.where(local.state["worn_depth"] < self.thickness, self.k, self.below)
+        return WearRate(k * local.pressure, k, {"worn_depth": k * local.pressure})
 
 
 TEMPERATURE = Field(
@@ -325,6 +347,6 @@ class Pad(ContactSolver):
 
 
 MODELS = (
-    *(RunningIn, Oxide, Heating, Debris, Bath, Tribofilm),
+    *(RunningIn, Coating, Oxide, Heating, Debris, Bath, Tribofilm),
     *(Ramp, Wavy, Pad),
 )
