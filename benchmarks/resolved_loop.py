@@ -31,8 +31,8 @@ from tribo.core.state import State
 from tribo.simulation.march import begin, march
 from tribo.stepping.contacts import undeformed
 from tribo.stepping.explicit import Explicit, largest_stable_increment
+from tribo.stepping.interval import interval_from
 from tribo.stepping.model import Model
-from tribo.stepping.step import moment_after
 
 EQUAL = "equal coefficients"
 OWN, AVERAGED = "tribo, resolved", "tribo, averaged"
@@ -193,7 +193,9 @@ def _at_saves(model: Model, begun: State, saves: Sequence[float]) -> list[State]
 
 
 def _limit(model: Model, state: State) -> float:
-    limit = largest_stable_increment(model, state, moment_after(state, 1e-3, state.time + 1e-2))
+    limit = largest_stable_increment(
+        model, state, interval_from(state, 1e-3, state.time + 1e-2).end
+    )
     assert limit is not None
     return limit
 

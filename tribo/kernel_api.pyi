@@ -138,12 +138,13 @@ from tribo.stepping.integrator import Sum as Sum
 from tribo.stepping.integrator import Values as Values
 from tribo.stepping.integrator import retraced as retraced
 from tribo.stepping.integrator import transposed as transposed
+from tribo.stepping.interval import Interval as Interval
+from tribo.stepping.interval import Moment as Moment
 from tribo.stepping.memory import Memory as Memory
 from tribo.stepping.memory import first_memory as first_memory
 from tribo.stepping.memory import own as own
 from tribo.stepping.model import Model as Model
 from tribo.stepping.rates import CycleRates as CycleRates
-from tribo.stepping.rates import Moment as Moment
 from tribo.stepping.rates import by_reach as by_reach
 from tribo.stepping.rates import local_fields as local_fields
 from tribo.stepping.rates import rates_at_each as rates_at_each

@@ -13,7 +13,7 @@ from tribo.core.grid import Grid
 from tribo.stepping.explicit import Explicit, largest_stable_increment
 from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.rates import Moment
+from tribo.stepping.interval import Moment
 from tribo.surfaces.surface import Surface
 
 WAVELENGTH = 1e-4

@@ -8,7 +8,7 @@ from tribo.core.errors import CaseError
 from tribo.simulation.run import Simulation
 from tribo.stepping.explicit import Explicit, largest_stable_increment
 from tribo.stepping.first_contact import first_contact
-from tribo.stepping.rates import Moment
+from tribo.stepping.interval import Moment
 
 
 def test_steps_that_cannot_do_are_refused_before_anything_is_written(tmp_path):

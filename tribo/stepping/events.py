@@ -11,23 +11,20 @@ from tribo.core.contact import ContactSolution
 
 if TYPE_CHECKING:
     from tribo.stepping.division import Division
+    from tribo.stepping.interval import Interval
     from tribo.stepping.memory import Memory
-    from tribo.stepping.rates import Moment
 
 
 @dataclass(frozen=True)
 class Worn:
-    """The bodies were worn by a step up to a moment, under `contacts`.
+    """The bodies were worn over an interval, under `contacts`.
 
-    It began at a time, with a memory, and was divided as in `plan`. `ahead` tells whether the
-    contacts were those before it, solved without its wear. At rest the increment is a time, and
-    only what lies between the bodies goes on.
+    It began with a memory, and was divided as in `plan`. `ahead` tells whether the contacts were
+    those before it, solved without its wear. At rest only what lies between the bodies goes on.
     """
 
     contacts: Sequence[ContactSolution]
-    time: float
-    increment: float
-    moment: Moment
+    interval: Interval
     before: Memory
     plan: Division
     ahead: bool = False

@@ -15,8 +15,9 @@ from tribo.core.fields import WORN_DEPTH, WearRate
 from tribo.stepping.contacts import in_stripes
 from tribo.stepping.division import Division, integrated
 from tribo.stepping.integrator import Kept, Sum, Values
+from tribo.stepping.interval import Interval
 from tribo.stepping.memory import Memory, laid
-from tribo.stepping.rates import CycleRates, Moment, rates_at_each, wear_rates
+from tribo.stepping.rates import CycleRates, rates_at_each, wear_rates
 
 if TYPE_CHECKING:
     from tribo.stepping.model import Model
@@ -28,7 +29,7 @@ COARSE = Division(((0.25, True), (0.75, True)), np.inf)
 
 @dataclass(frozen=True)
 class Course:
-    """An increment under contacts that stay as they are.
+    """An interval under contacts that stay as they are.
 
     Parameters
     ----------
@@ -37,10 +38,9 @@ class Course:
     memory : Memory
         What is remembered at its end.
     plan : Division
-        How the increment is divided for that to be accurate.
+        How it is divided for that to be accurate.
     passed : Mapping[str, Mapping[int, float]]
-        By body and layer, both that it has and the first share of the increment at which a point
-        is worn through it.
+        By body and layer the first share of it at which a point is worn through that.
     """
 
     rates: CycleRates
@@ -53,28 +53,29 @@ def course(
     model: Model,
     before: Memory,
     contacts: Sequence[ContactSolution],
-    increment: float,
-    moment: Moment,
+    interval: Interval,
     plan: Division | None = None,
+    *,
+    asked: float = 1.0,
 ) -> Course:
-    """Return what an increment (m; s of a rest) comes to, from what is remembered before it.
+    """Return what an interval comes to, from what is remembered before it.
 
-    `moment` is its end. It is divided as in `plan`, or finer. Without anything to remember, rates
-    are those of `moment` throughout.
+    It is divided as in `plan`, or finer. Without anything to remember, rates are throughout those
+    of where a part `asked` has passed.
     """
     if not before.values:
-        return Course(wear_rates(model, contacts, before, moment), before)
-    rates = partial(_rates, model, before, contacts, increment, moment)
+        return Course(wear_rates(model, contacts, before, interval.at(asked)), before)
+    rates = partial(_rates, model, before, contacts, interval)
     sums = [
         Sum(name, partial(model.cycle.maps[name].see, position=position))
         for position in range(len(contacts))
         for name in model.laws.wear
     ]
     kept = kept_in(model, before)
-    found = integrated(rates, before.values, increment, kept, sums, plan)
+    found = integrated(rates, before.values, interval.length, kept, sums, plan)
     each = iter(found.sums)
     mean = [
-        {name: WearRate(np.maximum(next(each), 0.0) / increment) for name in model.laws.wear}
+        {name: WearRate(np.maximum(next(each), 0.0) / interval.length) for name in model.laws.wear}
         for _ in contacts
     ]
     passed: dict[str, dict[int, float]] = {}
@@ -88,24 +89,23 @@ def accumulated(
     model: Model,
     before: Memory,
     contacts: Sequence[ContactSolution],
-    increment: float,
-    moment: Moment,
+    interval: Interval,
     plan: Division,
     rate: Callable[[Memory, float], float],
 ) -> float:
     """Return what a rate per metre comes to over a course, as it follows what is remembered.
 
-    The increment (m), and the `moment` at its end, are those of `course`, and `plan` is how it was
-    divided. The rate is asked with what is remembered and how much of the increment has passed.
+    `plan` is how that was divided. The rate is asked with what is remembered and how much of the
+    interval has passed.
     """
     states = len(before.values)
 
     def rates(values: Sequence[Array], passed: float) -> Values:
-        found = _rates(model, before, contacts, increment, moment, values, passed)
+        found = _rates(model, before, contacts, interval, values, passed)
         return [*found[:states], np.array(rate(before.with_values(iter(values)), passed))]
 
     kept = kept_in(model, before)
-    found = integrated(rates, before.values, increment, kept, [Sum()], Division(plan.parts))
+    found = integrated(rates, before.values, interval.length, kept, [Sum()], Division(plan.parts))
     return float(found.sums[0])
 
 
@@ -113,8 +113,7 @@ def sloped(
     model: Model,
     before: Memory,
     contacts: Sequence[ContactSolution],
-    increment: float,
-    moment: Moment,
+    interval: Interval,
     known: Course,
 ) -> CycleRates:
     """Return the mean rates of a course with their slopes in pressure, through all that follows it.
@@ -127,11 +126,11 @@ def sloped(
     # Slopes jump where points pass breaks: those over other parts mislead.
     breaks = any(each.breaks for each in kept_in(model, before))
     if len(known.plan.parts) > len(COARSE.parts) and not breaks:
-        same, plan = course(model, before, contacts, increment, moment, COARSE), COARSE
+        same, plan = course(model, before, contacts, interval, COARSE), COARSE
     else:
         same, plan = known, replace(known.plan, accuracy=np.inf)
-    other = course(model, before, nudged, increment, moment, plan)
-    laws = wear_rates(model, contacts, known.memory, moment)
+    other = course(model, before, nudged, interval, plan)
+    laws = wear_rates(model, contacts, known.memory, interval.end)
     sloped = [dict(rates) for rates in known.rates]
     for at, rates, higher, law, stripe in zip(
         same.rates, sloped, other.rates, laws, stripes, strict=True
@@ -148,16 +147,14 @@ def _rates(
     model: Model,
     before: Memory,
     contacts: Sequence[ContactSolution],
-    increment: float,
-    end: Moment,
+    interval: Interval,
     values: Sequence[Array],
     passed: float,
 ) -> Values:
     """Return the rates of what is remembered, where it lies, and the depths in the contact."""
-    moment = end.back((1 - passed) * increment)
-    contacts = loaded(model, contacts, end.back(0.5 * increment).time, end.time, passed)
+    contacts = loaded(model, contacts, interval, passed)
     now = before.with_values(iter(values))
-    found = rates_at_each(model, contacts, now, moment)
+    found = rates_at_each(model, contacts, now, interval.at(passed))
     total: Values = [np.zeros_like(value) for value in values]
     for position, rates in enumerate(found):
         share = model.cycle[position].share
@@ -173,31 +170,21 @@ def _rates(
 
 
 def loaded(
-    model: Model,
-    contacts: Sequence[ContactSolution],
-    middle: float,
-    end: float,
-    passed: float,
+    model: Model, contacts: Sequence[ContactSolution], interval: Interval, passed: float
 ) -> Sequence[ContactSolution]:
-    """Return contacts with pressures in proportion to the load where a part has passed.
-
-    Of an increment or a rest that has its `middle` and its `end` at these times, in s.
-    """
+    """Return contacts with pressures in proportion to the load where a part has passed."""
     # A load that jumps as it begins is told apart in its middle.
-    if model.contact.loads.before(middle) == model.contact.loads.before(end):
+    middle = interval.at(0.5).time
+    if model.contact.loads.before(middle) == model.contact.loads.before(interval.end_time):
         return contacts
-    return with_loads(model, contacts, middle, end, passed)
+    return with_loads(model, contacts, interval, passed)
 
 
 def with_loads(
-    model: Model,
-    contacts: Sequence[ContactSolution],
-    middle: float,
-    end: float,
-    passed: float,
+    model: Model, contacts: Sequence[ContactSolution], interval: Interval, passed: float
 ) -> list[ContactSolution]:
     """Return contacts with pressures that carry the load where a part has passed, as `loaded`."""
-    halfway, last = model.contact.loads.before(middle), model.contact.loads.before(end)
+    halfway, last = map(model.contact.loads.before, (interval.at(0.5).time, interval.end_time))
     cell, found = model.grid.cell_area, []
     for contact, half, whole in zip(contacts, halfway, last, strict=True):
         load = whole + 2 * (1 - passed) * (half - whole)

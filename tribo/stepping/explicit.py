@@ -19,14 +19,14 @@ from tribo.stepping.contacts import counted, in_stripes, solve_cycle, undeformed
 from tribo.stepping.events import Solved, Worn
 from tribo.stepping.evolution import Course, course
 from tribo.stepping.friction import with_friction_work
+from tribo.stepping.interval import Moment, interval_from
 from tribo.stepping.linear_wear import wear_compliance
 from tribo.stepping.memory import remembered
-from tribo.stepping.rates import CycleRates, Moment, wear_rates
+from tribo.stepping.rates import CycleRates, wear_rates
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     accepted,
     distance_until,
-    moment_after,
     rested,
     start_sliding,
     worn_by,
@@ -73,7 +73,7 @@ class Explicit(Scheme):
         increment = distance_until(model, state, self.time_step)
         if increment is None:
             return None
-        return self._instability(model, state, moment_after(state, increment, self.time_step))
+        return self._instability(model, state, interval_from(state, increment, self.time_step).end)
 
     def advance(self, model: Model, state: State, until: float) -> State:
         """Return the state a time step on, or at `until` (s) if that is sooner.
@@ -91,7 +91,7 @@ class Explicit(Scheme):
             return rested(model, state, time)
         state = start_sliding(model, state)
         increment = target - state.distance
-        moment = moment_after(state, increment, time)
+        moment = interval_from(state, increment, time).end
         state = rated(model, state, moment)
         if not (self.allow_unstable and state.has_finding("stability")):
             finding = self._instability(model, state, moment)
@@ -101,14 +101,14 @@ class Explicit(Scheme):
 
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
         """Return the state after one forward Euler step; see `Scheme.step`."""
-        moment, memory = moment_after(state, increment, time), remembered(model, state)
+        interval, memory = interval_from(state, increment, time), remembered(model, state)
         if memory.values:
-            slid = course(model, memory, state.contacts, increment, moment)
+            slid = course(model, memory, state.contacts, interval)
         else:
-            slid = Course(rated(model, state, moment).rates, memory)
+            slid = Course(rated(model, state, interval.end).rates, memory)
         depths = worn_depths(model, slid.rates, increment)
-        model.tell(Worn(state.contacts, state.time, increment, moment, memory, slid.plan, True))
-        after = worn_by(model, state, slid, depths, increment, moment)
+        model.tell(Worn(state.contacts, interval, memory, slid.plan, ahead=True))
+        after = worn_by(model, state, slid, depths, interval)
         loads = model.contact.loads.before(time)
         contacts = solve_cycle(
             model, undeformed(model, after), loads, _extrapolated(state), after.bodies

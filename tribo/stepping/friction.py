@@ -15,8 +15,9 @@ from tribo.core.state import State
 from tribo.stepping.division import Division, integrated
 from tribo.stepping.evolution import accumulated
 from tribo.stepping.integrator import Sum
+from tribo.stepping.interval import Moment, interval_from
 from tribo.stepping.memory import Memory, remembered, under
-from tribo.stepping.rates import Moment, local_fields
+from tribo.stepping.rates import local_fields
 
 if TYPE_CHECKING:
     from tribo.stepping.model import Model
@@ -77,7 +78,7 @@ def _varying_work(
     model: Model, before: State, after: State, contacts: Sequence[ContactSolution], plan: Division
 ) -> float:
     """Return the integral of what effects give, times the load, over a step, in J."""
-    time, increment = after.time - before.time, after.distance - before.distance
+    interval = interval_from(before, after.distance - before.distance, after.time)
     first, last = (
         model.contact.loads.over_cycle(loads)
         for loads in (
@@ -91,16 +92,14 @@ def _varying_work(
             readonly((1 - passed) * one.pressure + passed * other.pressure)
             for one, other in zip(before.contacts, after.contacts, strict=True)
         ]
-        slid = before.distance + passed * increment
-        now = Moment(before.time + passed * time, slid, after.speed)
+        now = replace(interval.at(passed), speed=after.speed)
         return _mean(model, between, memory, now) * ((1 - passed) * first + passed * last)
 
     memory = remembered(model, before)
     if model.laws.friction_remembers:
-        end = Moment(after.time, after.distance, after.speed)
-        return accumulated(model, memory, contacts, increment, end, plan, force)
+        return accumulated(model, memory, contacts, interval, plan, force)
 
     def rates(_: Sequence[Array], passed: float) -> list[Array]:
         return [np.array(force(memory, passed))]
 
-    return float(integrated(rates, [], increment, [], [Sum()]).sums[0])
+    return float(integrated(rates, [], interval.slides, [], [Sum()]).sums[0])

@@ -13,8 +13,8 @@ from tribo.core.errors import CaseError, NumericalError
 from tribo.core.state import State
 from tribo.stepping.contacts import in_stripes
 from tribo.stepping.evolution import course
+from tribo.stepping.interval import interval_from
 from tribo.stepping.memory import filling, remembered
-from tribo.stepping.rates import Moment
 from tribo.stepping.step import worn_depths
 
 if TYPE_CHECKING:
@@ -64,9 +64,8 @@ def check_filling(model: Model, state: State) -> None:
 def _lost(model: Model, state: State, contacts: Sequence[ContactSolution], part: float) -> Array:
     """Return by how much the gap fills more than it opens over a part of the path, in m."""
     increment, time = part * model.end_distance, part * model.end_time
-    speed = model.end_distance / model.end_time
-    moment = Moment(state.time + time, state.distance + increment, speed)
-    slid = course(model, remembered(model, state), contacts, increment, moment)
+    interval = interval_from(state, increment, state.time + time)
+    slid = course(model, remembered(model, state), contacts, interval)
     heights = filling(model, slid.memory)
     for name, depth in worn_depths(model, slid.rates, increment).items():
         for position, height in enumerate(heights):

@@ -22,9 +22,10 @@ from tribo.stepping.division import Division
 from tribo.stepping.events import Worn
 from tribo.stepping.evolution import Course, course, sloped
 from tribo.stepping.friction import with_friction_work
+from tribo.stepping.interval import Moment, interval_from
 from tribo.stepping.linear_wear import linear_wear
 from tribo.stepping.memory import filling, remembered
-from tribo.stepping.rates import Moment, wear_rates
+from tribo.stepping.rates import wear_rates
 from tribo.stepping.repeated import check_repeatable
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
@@ -32,7 +33,6 @@ from tribo.stepping.step import (
     accepted,
     distance_until,
     load_changes,
-    moment_after,
     rested,
     start_sliding,
     time_at,
@@ -219,18 +219,17 @@ class Implicit(Scheme):
         StepRejected
             If the passes or a solve do not converge.
         """
-        moment = moment_after(state, increment, time)
+        interval = interval_from(state, increment, time)
         resolved = len(model.cycle) > 1
         tolerance = self.cycle_tolerance if resolved else self.nonlinear_tolerance
         base = undeformed(model, state)
         dx = model.grid.spacing[0]
         before = remembered(model, state)
-        slide = partial(course, model, before, increment=increment)
-        # What is remembered is integrated along the step; other rates are those where it begins.
-        begin = moment if before.values else moment.back(increment)
+        slide = partial(course, model, before, interval=interval)
         slid = Course(state.rates, before)
         if not state.rates:
-            slid = slide(contacts=state.contacts, moment=begin)
+            # What is remembered is integrated along it; other rates are those where it begins.
+            slid = slide(contacts=state.contacts, asked=0.0)
         height = filling(model, before)
         guess = _guess(model, height, state.contacts, slid, increment)
         loads = model.contact.loads.mean(state.time, time)
@@ -240,7 +239,7 @@ class Implicit(Scheme):
         solved, passes = state, 0
         mismatches: list[float] = []
         while True:
-            rates = sloped(model, before, guess.contacts, increment, moment, guess.course)
+            rates = sloped(model, before, guess.contacts, interval, guess.course)
             wear = linear_wear(model, rates, guess.contacts, increment)
             # Of what changes the gap, the part that is not linear in the pressures.
             beyond = guess.depths - guess.filled - wear.depths(guess.contacts, dx)
@@ -253,7 +252,7 @@ class Implicit(Scheme):
                 raise StepRejected(str(error)) from error
             implied = beyond + wear.depths(contacts, dx)
             solved, passes = counted(solved, contacts), passes + 1
-            slid = slide(contacts=contacts, moment=moment, plan=guess.course.plan)
+            slid = slide(contacts=contacts, plan=guess.course.plan)
             guess = _guess(model, height, contacts, slid, increment)
             off = np.abs(guess.depths - guess.filled - implied)
             mismatch = _loaded_mean(model, contacts, off) if resolved else _largest(off)
@@ -268,12 +267,12 @@ class Implicit(Scheme):
                     "raise stepping.max_passes or lower stepping.pressure_tolerance"
                 )
         rates, memory = guess.course.rates, guess.course.memory
-        after = worn_by(model, solved, guess.course, guess.worn, increment, moment)
+        after = worn_by(model, solved, guess.course, guess.worn, interval)
         if not memory.values:
             # Set first: settling a groove leaves the pressure that these rates belong to. What is
             # remembered changes them along a step.
             after = replace(after, rates=rates)
-        model.tell(Worn(contacts, state.time, increment, moment, before, slid.plan))
+        model.tell(Worn(contacts, interval, before, slid.plan))
         # What the passes leave over is pressure that does not belong to the worn gap. Stiff bodies
         # would keep so much of it that no later step, however short, could change it little.
         little, linear = LEFT_OVER * self.pressure_tolerance, self.nonlinear_tolerance * deepest

@@ -325,11 +325,12 @@ def solved(
     sums: Sequence[Sum],
     *,
     relaxes: bool,
+    shortens: bool = True,
 ) -> Part:
     """Return a part of an increment, solved from its first rates on.
 
     Rates are asked at states that may lie beyond their limits. Where they stay as they are, but for
-    the breaks that are passed, one step or two are all.
+    the breaks that are passed, one step or two are all, if it `shortens`.
     """
     slopes: Sequence[Field] = [0.0] * len(start)
     if relaxes:
@@ -356,7 +357,7 @@ def solved(
             row.append(pieces)
         rows.append(row)
         ends.append([*states, *totals])
-        if steps == 2 and all(map(_same, *ends)):
+        if shortens and steps == 2 and all(map(_same, *ends)):
             pieces = [*chain.from_iterable(chain.from_iterable(rows))]
             passing = {kept[at].place for piece in pieces for at in piece.ended}
             places = [*(of.place for of in kept), *(of.place for of in sums)]
@@ -400,7 +401,8 @@ def retraced(
         if passed:
             first = along(states, 0.0)
         span = share * length
-        part = solved(along, states, first, span, kept, sums, relaxes=relaxes)
+        # Rates that stay as they are need not do so with another number.
+        part = solved(along, states, first, span, kept, sums, relaxes=relaxes, shortens=False)
         turned = []
         for at, slope in enumerate(part.relaxing):
             if np.any(np.asarray(slope) < 0):

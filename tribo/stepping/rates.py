@@ -25,6 +25,7 @@ from tribo.core.fields import (
 )
 from tribo.core.state import State
 from tribo.motion.cycle import Speeds
+from tribo.stepping.interval import Moment
 from tribo.stepping.memory import Memory, fields_of, in_window, remembered, under
 
 if TYPE_CHECKING:
@@ -42,28 +43,6 @@ FINE = 0.1
 
 CycleRates = Sequence[Mapping[str, WearRate]]
 """Rates in the contact frame, by position of a cycle and body."""
-
-
-@dataclass(frozen=True)
-class Moment:
-    """When rates are asked for (s, m), and the mean speed of the step (m/s), 0 at rest.
-
-    The speed is told where the motion does not state those of its cycle.
-    """
-
-    time: float
-    distance: float
-    speed: float
-
-    def back(self, distance: float) -> Moment:
-        """Return the moment that lies by a distance (m) before, at its speed; at rest by a time."""
-        if distance == 0:
-            return self
-        if self.speed == 0:
-            return replace(self, time=self.time - distance)
-        return replace(
-            self, time=self.time - distance / self.speed, distance=self.distance - distance
-        )
 
 
 @dataclass(frozen=True)

@@ -19,10 +19,11 @@ from tribo.core.state import BodyState, State
 from tribo.stepping.contacts import solved_anew
 from tribo.stepping.events import Worn
 from tribo.stepping.evolution import Course, course
+from tribo.stepping.interval import Interval, interval_from
 from tribo.stepping.invariants import ONE_LOAD, wear_balance
 from tribo.stepping.memory import own, remembered
 from tribo.stepping.plastic_groove import settled, yielded, yields
-from tribo.stepping.rates import CycleRates, Moment
+from tribo.stepping.rates import CycleRates
 from tribo.stepping.yielding import caps
 
 if TYPE_CHECKING:
@@ -30,11 +31,6 @@ if TYPE_CHECKING:
 
 SMALLEST = 1e-12
 """Of the distance until the next stop: a shorter step would drown in rounding."""
-
-
-def moment_after(state: State, increment: float, time: float) -> Moment:
-    """Return the end of a step from `state`."""
-    return Moment(time, state.distance + increment, increment / (time - state.time))
 
 
 def distance_until(model: Model, state: State, time: float) -> float | None:
@@ -77,9 +73,9 @@ def rested(model: Model, state: State, time: float) -> State:
     """Return `state` at a later time (s), under the load of then."""
     memory = remembered(model, state)
     if memory.between:
-        rest, moment = time - state.time, Moment(time, state.distance, 0.0)
-        after = course(model, memory, state.contacts, rest, moment)
-        model.tell(Worn(state.contacts, state.time, rest, moment, memory, after.plan, ahead=True))
+        rest = interval_from(state, 0.0, time)
+        after = course(model, memory, state.contacts, rest)
+        model.tell(Worn(state.contacts, rest, memory, after.plan, ahead=True))
         state = replace(state, between=after.memory.between)
     loads = model.contact.loads.before(time)
     anew = loads != model.contact.loads.before(state.time) or any(
@@ -137,15 +133,14 @@ def worn_by(
     before: State,
     slid: Course,
     depths: Mapping[str, Array],
-    increment: float,
-    moment: Moment,
+    interval: Interval,
 ) -> State:
-    """Return the state after an increment (m) up to `moment`, its contacts yet to be solved.
+    """Return the state after an interval, its contacts yet to be solved.
 
     `depths` has what each body loses on it, on its own surface, in m.
     """
     shares = model.cycle.missed_shares
-    between = {} if shares is None else worn_depths(model, slid.rates, increment, shares)
+    between = {} if shares is None else worn_depths(model, slid.rates, interval.slides, shares)
     bodies = dict(before.bodies)
     for name, depth in depths.items():
         body = bodies[name] = replace(
@@ -154,19 +149,20 @@ def worn_by(
         if name in between:
             missed = between[name] if body.missed is None else body.missed + between[name]
             bodies[name] = replace(body, missed=missed)
-    mean = model.contact.loads.over_cycle(model.contact.loads.mean(before.time, moment.time))
+    mean = model.contact.loads.over_cycle(model.contact.loads.mean(before.time, interval.end_time))
+    end = interval.end
     return replace(
         before,
-        time=moment.time,
-        distance=moment.distance,
-        load_distance=before.load_distance + mean * (moment.distance - before.distance),
-        speed=moment.speed,
+        time=end.time,
+        distance=end.distance,
+        load_distance=before.load_distance + mean * (end.distance - before.distance),
+        speed=end.speed,
         bodies=bodies,
         between=slid.memory.between,
         rates=(),
         steps=before.steps + 1,
-        findings=(*before.findings, *_worn_through(model, before, bodies, increment, slid)),
-        invariants=wear_balance(model, depths, slid.rates, increment, before),
+        findings=(*before.findings, *_worn_through(model, before, bodies, interval, slid)),
+        invariants=wear_balance(model, depths, slid.rates, interval.slides, before),
     )
 
 
@@ -174,7 +170,7 @@ def _worn_through(
     model: Model,
     before: State,
     after: Mapping[str, BodyState],
-    increment: float,
+    interval: Interval,
     slid: Course,
 ) -> Iterator[Finding]:
     """Yield a finding for each layer that a body's deepest point passes in a step, when it does."""
@@ -183,8 +179,7 @@ def _worn_through(
         for layer, bottom in enumerate(law.breaks):
             reached = bottom * (1 - ROUND_OFF)
             if was < reached <= worn:
-                first = slid.passed.get(name, {}).get(layer, 1.0) * increment
-                distance = before.distance + first
+                distance = interval.at(slid.passed.get(name, {}).get(layer, 1.0)).distance
                 passed = layer_worn_through(name, layer + 1, bottom)
                 yield passed.at(model.motion.time_at(distance), distance)
 

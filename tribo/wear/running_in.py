@@ -16,8 +16,6 @@ WORK = Field(
     "pressure_distance", "Pa m", "Pressure times distance that a point has slid under.", at_least=0
 )
 ROUGHNESS = Field("roughness", "m", "Sq that is left of the roughness finer than a cell.")
-BELOW = 1e-6
-"""Part of what roughness there was above Sq∞ that a step may seem to leave below it."""
 
 
 class RunningIn(ModifiedLaw):
@@ -133,8 +131,7 @@ class Smoothing(ModifiedLaw):
     def _left(self, local: LocalConditions) -> Array:
         """Return the part of the roughness above Sq∞ that is left.
 
-        A step that is only tried may have smoothed more than there was. Rates stay smooth at Sq∞
-        itself, which surfaces come to but for rounding.
+        A step that is only tried may have smoothed more than there was; it wears at 1/f at least.
         """
         left = (local.state[ROUGHNESS.name] - self.settled) / (self.roughness - self.settled)
-        return np.maximum(left, -BELOW)
+        return np.maximum(left, -1 / max(self.factor, 1.0))

@@ -385,7 +385,7 @@ def unbroken(method):
 
 
 def rests(slid):
-    return slid is not None and slid.moment.speed == 0
+    return slid is not None and slid.interval.rests
 
 
 def alone(method):

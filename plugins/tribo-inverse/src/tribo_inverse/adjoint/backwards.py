@@ -293,7 +293,7 @@ class Backwards:
         model, remembers = self.model, bool(slid.before.values)
         if not (remembers or self.together):
             contacts = [_contact(each) for each in window]
-            known = course(model, slid.before, contacts, slid.increment, slid.moment, slid.plan)
+            known = course(model, slid.before, contacts, slid.interval, slid.plan)
             return [
                 plain(_of(model, name), self.carriers[name], contacts, slid, known)
                 for name in model.laws.wear

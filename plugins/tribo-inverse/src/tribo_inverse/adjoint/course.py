@@ -100,7 +100,7 @@ class Plain:
 
     def _worn(self, model: Model, rates: CycleRates, slid: Slid) -> Array:
         own = [{self.name: of[self.name]} for of in rates]
-        return worn_depths(model, own, slid.increment)[self.name]
+        return worn_depths(model, own, slid.interval.slides)[self.name]
 
     def _through(self, seed: Array, other: Other) -> float:
         if self.name not in other.wears:
@@ -108,9 +108,7 @@ class Plain:
         rates, slid = self.known.rates, other.slid
         if self.name in other.asks:
             before = replace(slid.before, laws={self.name: slid.before.laws[self.name]})
-            found = course(
-                other.model, before, self.contacts, slid.increment, slid.moment, slid.plan
-            )
+            found = course(other.model, before, self.contacts, slid.interval, slid.plan)
             rates = found.rates
         return float(np.sum(seed * (self._worn(other.model, rates, slid) - self._depth)))
 
@@ -129,12 +127,12 @@ def plain(
     if np.any((steep == 0) & (depth > 0)):
         # What falls with the pressure is told to steps as 0.
         pressure = np.stack([contact.pressure for contact in contacts])
-        rates = partial(stacked, model, memory=memory, moment=slid.moment)
+        rates = partial(stacked, model, memory=memory, moment=slid.interval.end)
         (response,) = local(lambda p: rates(pressed(contacts, p)), rates(contacts), pressure)
         steep = np.asarray(response.own)
     shares = np.array([position.share for position in model.cycle])
     box = whole(model.grid.cells)
-    part = slid.increment * carrier.part(box)
+    part = slid.interval.slides * carrier.part(box)
     factor, slope = carrier.gathered(over(shares) * part * depth, box), part * steep
     return Plain(model, contacts, slid, known, carrier, slope, factor)
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 from tribo import Array, CaseError, Operator, TriboError
-from tribo.kernel_api import Mask, Memory, Model, Moment, OverTime, assemble
+from tribo.kernel_api import Interval, Mask, Memory, Model, OverTime, assemble
 
 from tribo_inverse.adjoint.breaks import unreached
 from tribo_inverse.adjoint.course import Other
@@ -142,16 +142,14 @@ class Chain:
             if each.stops is self.stops:
                 # Of a difference to one side, the case itself.
                 continue
-            begun, ended = (self._then(each, time) for time in (slid.time, slid.moment.time))
-            end = slid.moment.distance
-            began, distance = (
+            own = slid.interval
+            begun, ended = (self._then(each, time) for time in (own.time, own.end_time))
+            began, end = (
                 float(np.interp(place, self.stops.distances, each.stops.distances))
-                for place in (end - slid.increment, end)
+                for place in (own.distance, own.end.distance)
             )
-            rests = slid.moment.speed == 0
-            increment = ended - begun if rests else distance - began
-            moment = Moment(ended, distance, 0.0 if rests else increment / (ended - begun))
-            then = replace(slid, time=begun, increment=increment, moment=moment)
+            slides = 0.0 if own.rests else end - began
+            then = replace(slid, interval=Interval(begun, began, ended, slides))
             yield each.weight, Other(each.model, each.carriers or carriers, then, wears, asks)
 
     def by_rest(

@@ -127,7 +127,7 @@ class Remembering:
             carriers=other.carriers,
             slid=replace(other.slid, before=self.stages.slid.before),
         )
-        longer = others.slid.increment / self.stages.slid.increment
+        longer = others.slid.interval.length / self.stages.slid.interval.length
         # Rates follow the length where loads change along it.
         asks = other.asks & laws.keys() or self.stages.loads_change
         total = (longer - 1) * along.by_length
@@ -147,7 +147,7 @@ class Remembering:
     @cached_property
     def _retraced(self) -> tuple[Sequence[Part], Mapping[int, Slopes]]:
         """The parts of the increment, and by the identity of rates in them their derivatives."""
-        increment, length = self.stages, self.stages.slid.increment
+        increment, length = self.stages, self.stages.slid.interval.length
         asked = dict[int, tuple[Values, RateStage]]()
 
         def known(stage: RateStage) -> Values:
@@ -243,7 +243,7 @@ class Together(Remembering):
         parts, slopes = self._retraced
         start, window = slopes[id(parts[0].first)], np.ones(self.stages.pressure.shape)
         return [
-            (own, self.stages.slid.increment * own.part(self.stages.box) * by.own * window)
+            (own, self.stages.slid.interval.length * own.part(self.stages.box) * by.own * window)
             for own, by in zip(self.stages.own, start.by_pressure, strict=False)
         ]
 

@@ -14,7 +14,6 @@ from tribo.kernel_api import (
     Kept,
     Memory,
     Model,
-    Moment,
     Sum,
     by_reach,
     kept_in,
@@ -130,7 +129,7 @@ class Stages:
         """Return how long the part (m) of the increment is of which so much has passed."""
         shares = [share for share, _ in self.slid.plan.parts]
         at = np.searchsorted(np.cumsum(shares), passed, side="right")
-        return self.slid.increment * shares[min(int(at), len(shares) - 1)]
+        return self.slid.interval.length * shares[min(int(at), len(shares) - 1)]
 
     @cached_property
     def counts(self) -> Sequence[tuple[Carrier, Array]]:
@@ -208,23 +207,17 @@ class Stages:
             each[0] if len(each) == 1 else np.concatenate(each) for each in zip(*found, strict=True)
         ]
 
-    def _moment(self, passed: float) -> Moment:
-        if not self.along:
-            return self.slid.moment
-        return self.slid.moment.back((1 - passed) * self.slid.increment)
-
     def _loaded(
         self, contacts: Sequence[ContactSolution], passed: float
     ) -> Sequence[ContactSolution]:
-        end, half = self.slid.moment, 0.5 * self.slid.increment
-        return with_loads(self.model, contacts, end.back(half).time, end.time, passed)
+        return with_loads(self.model, contacts, self.slid.interval, passed)
 
     def _in_window(
         self, model: Model, states: Arrays, passed: Sequence[float], told: Array
     ) -> Arrays:
         """Return the rates at one stage, of laws and of effects, which see the whole window."""
         memory = self.slid.before.with_values(state[0] for state in states)
-        moment = self._moment(passed[0])
+        moment = self.slid.interval.at(passed[0])
         shown = told[0] if self.box.is_window else self.embedded(told[0])
         rates = stacked(model, pressed(self.contacts, shown), memory, moment)
         return [each[(None, slice(None), *self.box.slices)] for each in rates]
@@ -266,7 +259,7 @@ class Stages:
         state: Mapping[str, Array],
     ) -> Arrays:
         """Return the rates of a law at a position: its depth's and its states'."""
-        law, place, mean = model.laws.wear[name], model.cycle[position], self.slid.moment.speed
+        law, place, mean = model.laws.wear[name], model.cycle[position], self.slid.interval.speed
         keys = list(self.slid.before.laws.get(name, {}))
         if mean == 0:
             return [np.zeros(pressure.shape)] * (1 + len(keys))
@@ -279,7 +272,7 @@ class Stages:
         given: Mapping[str, Mapping[str, Array]] = {}
         if law.requires:
             window = np.broadcast_to(0.0, self.box.window)
-            given = local_fields(model, window, self.slid.moment, position, Memory({}, {}))
+            given = local_fields(model, window, self.slid.interval.end, position, Memory({}, {}))
         told = LocalConditions(
             pressure=tall(pressure),
             speed=mean,

@@ -15,9 +15,9 @@ from tribo.kernel_api import (
     Division,
     Drawn,
     Event,
+    Interval,
     Memory,
     Model,
-    Moment,
     Region,
     Worn,
     Yielded,
@@ -33,15 +33,13 @@ IN_MEMORY = 1 << 24
 
 @dataclass(frozen=True)
 class Slid:
-    """How a step slid: from a time (s) on, and by an increment (m; s of a rest), to a moment.
+    """What a step slid, or how long it rested.
 
     `before` is what laws and effects remembered, and `plan` how the step was divided for that, and
     is to be again; `ahead` tells whether it wore under contacts that were solved before it.
     """
 
-    time: float
-    increment: float
-    moment: Moment
+    interval: Interval
     before: Memory
     plan: Division
     ahead: bool
@@ -177,11 +175,11 @@ def _written(event: Event, model: Model, load: str, time: float) -> Record:
     times: tuple[float, ...] = (time,)
     slid = None
     if isinstance(event, Worn):
-        load, times = "mean", (event.time, event.moment.time)
+        load, times = "mean", (event.interval.time, event.interval.end_time)
         laws = {name: event.before.laws[name] for name in model.laws.wear}
         before = Memory(laws, event.before.between if model.laws.effects else {})
         plan = replace(event.plan, accuracy=np.inf)
-        slid = Slid(event.time, event.increment, event.moment, before, plan, event.ahead)
+        slid = Slid(event.interval, before, plan, event.ahead)
     contacts = event.contacts
     region = reduce(union, (bounds(contact.pressure > 0) for contact in contacts))
     yields = any(np.any(contact.overlap > 0) for contact in contacts)

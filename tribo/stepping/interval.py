@@ -1,0 +1,74 @@
+"""Times and distances of a run: the moments at which rates are asked for, and what lies between."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tribo.core.state import State
+
+
+@dataclass(frozen=True)
+class Moment:
+    """When rates are asked for (s, m), and the mean speed of the step (m/s), 0 at rest.
+
+    The speed is told where the motion does not state those of its cycle.
+    """
+
+    time: float
+    distance: float
+    speed: float
+
+
+@dataclass(frozen=True)
+class Interval:
+    """What lies between two moments: a path that is slid, or a rest.
+
+    Parameters
+    ----------
+    time, distance : float
+        Where it begins, in s and m.
+    end_time : float
+        When it ends, in s.
+    slides : float
+        How far it slides, in m; 0 at rest.
+    """
+
+    time: float
+    distance: float
+    end_time: float
+    slides: float
+
+    @property
+    def rests(self) -> bool:
+        """Whether nothing slides."""
+        return self.slides == 0
+
+    @property
+    def lasts(self) -> float:
+        """How long it lasts, in s."""
+        return self.end_time - self.time
+
+    @property
+    def speed(self) -> float:
+        """Its mean speed, in m/s."""
+        return self.slides / self.lasts
+
+    @property
+    def length(self) -> float:
+        """Its length in the unit that rates are per: m, or s at rest."""
+        return self.lasts if self.rests else self.slides
+
+    @property
+    def end(self) -> Moment:
+        """The moment at its end."""
+        return self.at(1.0)
+
+    def at(self, passed: float) -> Moment:
+        """Return the moment at which a part of it has passed."""
+        time = (1 - passed) * self.time + passed * self.end_time
+        return Moment(time, self.distance + passed * self.slides, self.speed)
+
+
+def interval_from(state: State, slides: float, time: float) -> Interval:
+    """Return what a step from `state` slides (m) until a time (s)."""
+    return Interval(state.time, state.distance, time, slides)
