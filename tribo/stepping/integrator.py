@@ -75,6 +75,19 @@ class Kept:
         crosses = np.where(above == self.most, values + nudge > above, values + nudge >= above)
         return np.where(crosses, values - nudge, values + nudge)
 
+    def changes(self, values: Array, others: Array) -> bool:
+        """Whether a break or a limit lies between values and others."""
+        if self.ends is None:
+            return False
+        if np.any((others <= self.least) & (others < values)):
+            return True
+        if np.any((others >= self.most) & (others > values)):
+            return True
+        if not self.breaks:
+            return False
+        one, other = (np.searchsorted(self.breaks, each, side="right") for each in (values, others))
+        return not np.array_equal(one, other)
+
     def end(self, number: Numbers) -> Array:
         """Return breaks by their numbers, and the limits by those before and after them."""
         assert self.ends is not None
@@ -271,7 +284,7 @@ def stepped(
     most = 1 + sum(len(each.breaks) + 1 for each in kept if each.ends is not None)
     while True:
         spans, ended = dict(left), dict[int, tuple[Mask, Numbers]]()
-        coming = _coming(states, found, slopes, kept) if len(pieces) < most else []
+        coming = _coming(states, found, slopes, kept, left) if len(pieces) < most else []
         for at, _, _, time in coming:
             place = kept[at].place
             if np.any((time <= left[place]) & (left[place] > 0)):
@@ -306,13 +319,17 @@ def stepped(
 
 
 def _coming(
-    states: Sequence[Array], rates: Values, slopes: Sequence[Field], kept: Sequence[Kept]
+    states: Sequence[Array],
+    rates: Values,
+    slopes: Sequence[Field],
+    kept: Sequence[Kept],
+    left: Mapping[str, Field],
 ) -> list[tuple[int, Array, Numbers, Array]]:
-    """Return of each state that has breaks or limits its number, and `Kept.next`."""
+    """Return of each state that may come to a break or a limit its number, and `Kept.next`."""
     return [
         (at, *each.next(states[at], rates[at], slopes[at]))
         for at, each in enumerate(kept)
-        if each.ends is not None
+        if each.changes(states[at], states[at] + left[each.place] * rates[at])
     ]
 
 
