@@ -174,6 +174,6 @@ def test_under_a_ball_it_leaves_without_coming_and_going_where_it_just_touches()
             for name, surface in surfaces.items()
         },
     }
-    model = assemble(validate_case(case | {"kinematics": {**case["kinematics"], "distance": 4}}))
+    model = assemble(validate_case(case | {"kinematics": {**case["kinematics"], "distance": 2.6}}))
     for taken, _ in enumerate(march(model, begin(model))):
-        assert taken < 400
+        assert taken < 200
