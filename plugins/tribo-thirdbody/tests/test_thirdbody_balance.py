@@ -138,7 +138,7 @@ def test_a_check_and_a_study_of_errors_say_what_a_run_gives():
 
 
 def ball(effects):
-    """A ball on a disk over 3 m, both wearing: how many contacts are solved."""
+    """A ball on a disk over 1 m, both wearing: how many contacts are solved."""
     case = pin()
     case["grid"], case["load"] = {"size": "0.4 mm", "cells": 24}, {"normal": 5}
     case["bodies"] = {name: {**body} for name, body in case["bodies"].items()}
@@ -146,17 +146,17 @@ def ball(effects):
     for body in case["bodies"].values():
         body["wear"] = {"type": "archard", "k": 3.11e-16}
     case |= {"contact": "dcfft", "effects": effects}
-    case["kinematics"]["distance"] = 3
+    case["kinematics"]["distance"] = 1
     with Simulation(case).run() as result:
         return result.totals()["contact_solves"]
 
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::tribo.TriboWarning")
-def test_it_takes_a_few_times_the_solves_of_archards_law():
+def test_it_takes_no_more_than_twice_the_solves_of_archards_law():
     bare, debris = ball([]), {"type": "thirdbody.debris", "cover": "50 nm"}
-    for length, times in (("0.5 m", 3), ("50 mm", 4)):
-        assert ball([{**debris, "ejection_length": length}]) <= times * bare
+    for length in ("0.5 m", "50 mm"):
+        assert ball([{**debris, "ejection_length": length}]) <= 2 * bare
 
 
 @pytest.mark.slow
