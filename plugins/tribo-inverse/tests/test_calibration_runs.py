@@ -210,11 +210,6 @@ def test_a_profile_that_leaves_no_residual_has_no_pattern(at, depth):
     assert not of_kind(found, "pattern")
 
 
-def test_each_value_is_set_against_its_own_uncertainty():
-    entry = {"body": "ball", "quantity": "mass", "uncertainty": "1 %"}
-    read_measurements({"measured": [entry | {"value": ["1 g", "1e-5 mg"]}]})
-
-
 def test_a_resolution_leaves_open_its_part_of_the_loss():
     """Without fit the k of what was measured is fitted; that, at the end, is not predicted."""
     step = 1e-9
