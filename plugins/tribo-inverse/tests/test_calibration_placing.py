@@ -104,34 +104,32 @@ def test_missing_pixels_change_neither_the_coefficient_nor_the_misfit(fitted):
     whole, band = fitted(noise=3e-9), np.zeros((PIXELS, PIXELS), dtype=bool)
     band[:, 50:57] = True
     spots = np.random.default_rng(1).random(band.shape) < 0.2
-    for missing in (band, spots):
-        found = fitted(noise=3e-9, missing=missing)
-        assert covers(found)
-        assert found.chi_square < 1.5 * whole.chi_square
+    found = fitted(noise=3e-9, missing=band | spots)
+    assert covers(found)
+    assert found.chi_square < 1.5 * whole.chi_square
 
 
-@pytest.mark.parametrize("level", [1e-6, -1e-7])
-def test_a_map_that_is_not_levelled_is_reported(fitted, level):
+def test_a_map_that_is_not_levelled_is_reported(fitted):
+    level = -1e-7
     (off,) = of_kind(fitted(level=level), "level")
     assert off.value == pytest.approx(level, rel=0.03, abs=0)
     assert (off.place, off.limit < abs(level)) == ("measured.0", True)
 
 
 @pytest.mark.parametrize("factor", [1, 5])
-@pytest.mark.parametrize("cells", [16, 32])
-def test_uncertainties_that_are_too_large_are_told(worn, tmp_path, cells, factor):
+def test_uncertainties_that_are_too_large_are_told(worn, tmp_path, factor):
     """But not what the grid adds to them."""
     noise = 4 * NOISE * np.random.default_rng(0).standard_normal(worn.shape)
     np.save(tmp_path / "map.npy", worn + noise)
     entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
-    entry |= {"pitch": PITCH, "uncertainty": factor * NOISE * cells / 32}
-    coarse = apply_settings(CASE, {"grid.cells": cells})
+    entry |= {"pitch": PITCH, "uncertainty": 0.5 * factor * NOISE}
+    coarse = apply_settings(CASE, {"grid.cells": 16})
     found = calibrate(coarse, {"measured": [entry], "fit": [{"path": K}]})
     assert found.p_value > 0.999
     assert bool(of_kind(found, "overstated")) == (factor > 1)
 
 
-@pytest.mark.parametrize("cells", [16, 20, 32])
+@pytest.mark.parametrize("cells", [16, 20])
 def test_a_profile_is_met_on_a_coarse_grid(worn, cells):
     """To the noise, though its points and the cells lie apart."""
     at = np.arange(-0.36e-3, 0.37e-3, 30e-6)
@@ -146,10 +144,9 @@ def test_a_profile_is_met_on_a_coarse_grid(worn, cells):
     assert found.settings[K] == pytest.approx(TRUE, rel=0.005, abs=0)
 
 
-@pytest.mark.parametrize("cells", [16, 24])
-def test_an_exact_map_is_met_on_coarse_grids(cells, tmp_path):
+def test_an_exact_map_is_met_on_a_coarse_grid(tmp_path):
     """Of another test, on a half-space, made on 96 cells across the window."""
-    case = on_springs("pin_on_disk", {"grid": {"size": "1.4 mm", "cells": cells}})
+    case = on_springs("pin_on_disk", {"grid": {"size": "1.4 mm", "cells": 16}})
     case = apply_settings(case, {"contact.type": "dcfft", "load.normal": 15, PIN_K: 1e-15})
     case = apply_settings(case, {"kinematics.distance": 700, "bodies.disk.wear.k": 1e-14})
     with Simulation(validate_case(apply_settings(case, {"grid.cells": 96}))).run() as result:
@@ -164,14 +161,6 @@ def test_an_exact_map_is_met_on_coarse_grids(cells, tmp_path):
         assert each.lower < true < each.upper
         assert each.value == pytest.approx(true, rel=0.003, abs=0)
     assert found.p_value > 0.01
-
-
-def test_a_start_far_off_is_no_matter(worn, tmp_path):
-    np.save(tmp_path / "map.npy", worn)
-    entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
-    entry |= {"pitch": PITCH, "uncertainty": NOISE}
-    far = {"measured": [entry], "fit": [{"path": K, "start": 0.1 * TRUE}]}
-    assert covers(calibrate(CASE, far))
 
 
 def test_uniform_wear_tells_no_place():

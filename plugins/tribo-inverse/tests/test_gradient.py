@@ -263,7 +263,7 @@ KINDS = {
     "positions, yields, elastic layer": Kind(
         run(
             grid=ODD,
-            kinematics=resolved(),
+            kinematics=resolved(duration=10),
             bodies=coated(("1.1 GPa", "1 GPa")),
             stepping=few(cycle_tolerance=1e-12),
         ),
@@ -283,16 +283,10 @@ KINDS = {
         [*BASE, *SHAPE],
         1e-5,
     ),
-    "positions, yields": Kind(
-        run(grid=ODD, kinematics=resolved(), bodies=SOFT, stepping=few(cycle_tolerance=1e-12)),
-        Depth("disk", 5e-5),
-        [*BASE, HARD],
-        1e-6,
-    ),
     "positions, remembers": Kind(
         run(
             kinematics=motion(
-                stroke="0.125 mm", positions=5, frequency=100, duration=1, waveform="sinusoidal"
+                stroke="0.125 mm", positions=5, frequency=100, duration=0.4, waveform="sinusoidal"
             ),
             bodies=pair(FRESH, SMOOTH),
             stepping=LONG,
@@ -367,7 +361,7 @@ KINDS["ends at a depth"] = Kind(
 KINDS["ends at a depth, load over time"] = Kind(
     run(
         grid=MIDDLE,
-        stop=Stop(depth="0.6 um"),
+        stop=Stop(depth="0.3 um"),
         load=RAMP,
         bodies=pair(FRESH, power(1.5)),
         stepping=LONG,
@@ -391,7 +385,7 @@ KINDS["ends at a depth of one body"] = Kind(
 KINDS["ends at a depth, positions, yields"] = Kind(
     run(
         grid=MIDDLE,
-        stop=Stop(depth="0.1 um"),
+        stop=Stop(depth="0.05 um"),
         kinematics=resolved(),
         bodies=SOFT,
         stepping=few(cycle_tolerance=1e-12),

@@ -198,7 +198,7 @@ SLOW = few(nonlinear_tolerance=1e-11, cycle_tolerance=1e-11)
 OF_GRAINS = [f"effects.0.{name}" for name in ("begins", "cover", "stays")]
 KINDS = {
     "grains": Kind(
-        run(effects=[Grains()], kinematics=motion(duration=4), stepping=SLOW),
+        run(effects=[Grains()], kinematics=motion(duration=1.5), stepping=SLOW),
         Depth("disk"),
         [*BASE, *SHAPE, *OF_GRAINS],
         1e-5,
@@ -207,7 +207,7 @@ KINDS = {
         run(
             bodies=pair(FRESH, archard()),
             effects=[Dust()],
-            kinematics=motion(duration=4),
+            kinematics=motion(duration=1.5),
             stepping=SLOW,
         ),
         Depth("disk"),
@@ -216,7 +216,7 @@ KINDS = {
     ),
     "grains, positions": Kind(
         run(
-            kinematics=resolved(duration=0.25, waveform="sinusoidal"),
+            kinematics=resolved(duration=0.1, waveform="sinusoidal"),
             bodies=pair(FRESH, archard()),
             effects=[Grains(on="disk")],
             stepping=SLOW,
@@ -301,7 +301,7 @@ KINDS["spreads"] = Kind(
     run(
         bodies=pair(FRESH, archard()),
         effects=[Creeps()],
-        kinematics=motion(duration=4),
+        kinematics=motion(duration=1),
         stepping=SLOW,
     ),
     Depth("disk"),
@@ -445,8 +445,9 @@ def test_each_term_counts(monkeypatch, kind, owner, method, change):
 )
 def test_what_is_not_covered_is_refused(effects):
     bodies = pair(Softens(k=K), archard())
+    case = run(bodies=bodies, stepping=LONG, effects=effects, kinematics=motion(duration=1))
     with pytest.raises(CaseError) as refused:
-        gradient(run(bodies=bodies, stepping=LONG, effects=effects), Volume("ball"), [])
+        gradient(case, Volume("ball"), [])
     assert refused.value.path == "effects"
 
 

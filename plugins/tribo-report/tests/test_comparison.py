@@ -36,7 +36,8 @@ def test_it_says_how_far_the_second_is_off_the_first(ran):
 
 
 @pytest.mark.slow
-def test_the_files_of_a_folder_go_by_what_varies(tmp_path):
+def test_the_files_of_a_folder_go_by_what_varies(tmp_path, monkeypatch):
+    monkeypatch.setattr("tribo_report.comparison.stills", lambda pictures: [])
     for load in ("50_N", "100_N"):
         written(tmp_path / f"load.normal={load}.h5", times=(0.0, 500.0))
     path = tribo_report.write_report(tmp_path, tmp_path / "report.html")

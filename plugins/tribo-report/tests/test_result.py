@@ -48,6 +48,12 @@ def page(ran):
     return (folder / "my-report.html").read_text(encoding="utf-8")
 
 
+@pytest.fixture
+def unprinted(monkeypatch):
+    """Leaves out the pictures for paper, which take the most time."""
+    monkeypatch.setattr("tribo_report.result.stills", lambda pictures: [])
+
+
 def test_it_is_one_small_file_that_loads_nothing(page):
     assert len(page.encode()) < 4_000_000
     checked = Checked(page)
@@ -121,11 +127,12 @@ def test_a_body_without_wear_is_in_no_study(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("unprinted")
 def test_it_says_which_numbers_rule_the_depth_or_why_not(tmp_path):
     settings = [
         "grid.cells=48",
         "grid.size='1.1 mm'",
-        "kinematics.duration='20 s'",
+        "kinematics.duration='5 s'",
         "output.save_times=[]",
     ]
     (tmp_path / "case.toml").write_text(template("ball_on_disk"), encoding="utf-8")
@@ -169,8 +176,9 @@ def test_a_body_that_does_not_wear_has_no_map():
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("unprinted")
 def test_what_effects_provide_and_models_keep_has_maps_and_curves():
-    with made(film=1e-11) as result:
+    with made(times=(0.0, 3600.0), film=1e-11) as result:
         data, page = charts(result), result_page(result)
     assert "film, nm" in page
     assert [each["name"] for each in data["maps"][-2:]] == ["Film", "Load share"]
@@ -233,6 +241,7 @@ def test_a_value_in_stages_is_told_with_their_times():
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("unprinted")
 def test_a_duty_cycle_is_told_and_drawn_with_its_pause_and_its_friction(tmp_path):
     settings = ["grid.cells=32", "grid.size='0.7 mm'", "output.save_times=[]"]
     settings += ["kinematics.duration=1800", "kinematics.positions='average'"]

@@ -24,7 +24,7 @@ class Stop(Observer):
     type = "test.stop"
 
     def on_step(self, snapshot):
-        if snapshot.state.steps == 12:
+        if snapshot.state.steps == 5:
             raise KeyboardInterrupt
 
 
@@ -57,7 +57,7 @@ def plain_loop(height, size, layers, increments):
 
 @pytest.mark.slow
 def test_it_wears_as_a_plain_loop_of_small_steps_does():
-    data = case(4e-9, cells=16, particles=2, layers=2)
+    data = case(4e-9, cells=8, particles=2, layers=1)
     with Simulation(data).run() as result:
         patch = result.body("patch")
         worn, height = patch.wear_depth[-1], patch.height
@@ -65,28 +65,28 @@ def test_it_wears_as_a_plain_loop_of_small_steps_does():
         np.testing.assert_allclose(patch.state["worn"], patch.wear_depth, rtol=INTEGRATED)
         assert result.saves()[-1]["contact_area_m2"] == pytest.approx(32e-6**2, rel=1e-9, abs=0)
     size = 2 * DIAMETER
-    loop = plain_loop(height, size, 2, 1000)
-    # The second is 0.8 %, and 3 % with the default depth_tolerance: of first order in the steps.
+    loop = plain_loop(height, size, 1, 500)
+    # The second is 0.9 %, and 3 % with the default depth_tolerance: of first order in the steps.
     assert worn.mean() == pytest.approx(loop.mean(), rel=1e-3, abs=0)
-    assert np.std(worn - loop) < 0.01 * loop.std()
+    assert np.std(worn - loop) < 0.012 * loop.std()
 
 
 @pytest.mark.slow
 def test_a_patch_settles_at_a_roughness_of_its_own():
-    settled = []
-    for beginning in (160e-9, 20e-9):
-        with Simulation(quick(beginning, cells=16, layers=3)).run() as result:
+    settled, sizes = [], {"cells": 8, "particles": 2, "layers": 2}
+    for beginning in (40e-9, 2e-9):
+        with Simulation(quick(beginning, **sizes)).run() as result:
             patch = result.body("patch")
-            sa = [parameters(patch.surface(save)).Sa_m for save in range(4, len(result.times))]
+            sa = [parameters(patch.surface(save)).Sa_m for save in range(2, len(result.times))]
             depth = patch.wear_depth[-1]
         settled.append(np.mean(sa))
-        # Archard's wear on the mean: 16 particles in 3 layers, ±0.5/√48.
-        assert depth.mean() == pytest.approx(3 * THICKNESS, rel=0.15, abs=0)
+        # Archard's wear on the mean: 4 particles in 2 layers, ±0.5/√8.
+        assert depth.mean() == pytest.approx(2 * THICKNESS, rel=0.3, abs=0)
         assert parameters(depth).Sq_m < THICKNESS
     assert settled[0] == pytest.approx(settled[1], rel=0.25, abs=0)
     assert min(settled) > 5e-9
     # The same patch under Archard's law alone is polished away.
-    archard = EXAMPLE["roughnesses"](quick(160e-9, EXAMPLE["ARCHARD"], cells=16, layers=3))
+    archard = EXAMPLE["roughnesses"](quick(40e-9, EXAMPLE["ARCHARD"], **sizes))
     assert archard[-1] < 0.05 * min(settled)
 
 
@@ -95,16 +95,20 @@ def test_two_bodies_that_slide_over_each_other_each_know_their_own_depth(monkeyp
     monkeypatch.syspath_prepend(ROOT / "examples")
     rough_on_rough = runpy.run_path(str(ROOT / "examples/rough_on_rough.py"))["rough_on_rough"]
     data = rough_on_rough(20e-9, True, cells=8, particles=2, positions=3, layers=1)
+    data["kinematics"]["duration"] *= 0.3
+    data["output"] = {}
     with Simulation(data).run() as result:
         for body in map(result.body, result.body_names):
             np.testing.assert_allclose(body.state["worn"], body.wear_depth[:], rtol=INTEGRATED)
-            # Four particles in one layer: ±0.5/√4.
-            assert body.wear_depth[-1].mean() == pytest.approx(THICKNESS, rel=0.5, abs=0)
+            # Four particles in a third of a layer: ±0.5/√1.3.
+            assert body.wear_depth[-1].mean() == pytest.approx(0.3 * THICKNESS, rel=0.5, abs=0)
 
 
 @pytest.mark.slow
 def test_a_run_resumed_has_the_same_bits(tmp_path):
-    data = quick(20e-9, cells=16, particles=2, layers=1)
+    data = quick(20e-9, cells=8, particles=2, layers=1)
+    data["kinematics"]["duration"] *= 0.3
+    data["output"] = {}
     with Simulation(data).run(tmp_path / "whole.h5") as whole:
         needed = whole.body("patch").wear_depth
     path = tmp_path / "stopped.h5"

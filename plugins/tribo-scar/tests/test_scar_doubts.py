@@ -40,7 +40,7 @@ def test_a_radius_or_a_shape_that_the_unworn_surface_has_not_is_told():
     assert len(found.inferred) == len(ideal.inferred) > 0
 
 
-@pytest.mark.parametrize(("missing", "told"), [(25, False), (36, False), (38, True), (44, True)])
+@pytest.mark.parametrize(("missing", "told"), [(36, False), (38, True)])
 def test_a_volume_that_lies_in_a_gap_is_told(missing, told):
     """The track begins 38 pixels from the middle of its circle."""
     far = np.hypot(*Grid(160 * PITCH, 160).mesh) / PITCH
@@ -127,10 +127,10 @@ def test_a_pit_in_a_corner_is_no_form():
 
 def test_a_steep_ball_has_its_radius():
     """A paraboloid through 0.6 of a radius bends a tenth more than its middle."""
-    grid = Grid(160 * 15e-6, 160)
+    grid = Grid(96 * 25e-6, 96)
     ball, noise = Sphere(radius=3e-3).height(grid), np.random.default_rng(0)
     maps = [
-        Heights(each + noise.normal(0, 3e-8, ball.shape), (15e-6, 15e-6))
+        Heights(each + noise.normal(0, 3e-8, ball.shape), (25e-6, 25e-6))
         for each in (ball, np.minimum(ball, -1e-4))
     ]
     with warnings.catch_warnings():
@@ -139,18 +139,18 @@ def test_a_steep_ball_has_its_radius():
     with pytest.warns(TriboWarning, match=r"has a radius of 2.9.* mm, and the ball one of 3.3 mm"):
         measured_scar(*maps, radius=3.3e-3)
     with pytest.warns(TriboWarning, match="surfaces differ by more than a curvature: check the"):
-        measured_scar(Sphere(radius=3.1e-3), maps[1], form=2)
+        measured_scar(Sphere(radius=3.05e-3), maps[1], form=2)
 
 
-@pytest.mark.parametrize("factor", [0.85, 1.15])
-def test_a_wrong_radius_is_told_under_the_relief_of_a_ball(factor):
+def test_a_wrong_radius_is_told_under_the_relief_of_a_ball():
     """Though the curvature that is left is less than the relief."""
-    _, after, _ = pair(on=RADIUS, shift=(0, 0), turn=0, n=192)
+    _, after, _ = pair(on=RADIUS, shift=(0, 0), turn=0, n=160)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         measured_scar(Sphere(radius=RADIUS), after)
-    with pytest.warns(TriboWarning, match="differ by more than a tilt: check the shape given"):
-        measured_scar(Sphere(radius=factor * RADIUS), after)
+    for factor in (0.85, 1.15):
+        with pytest.warns(TriboWarning, match="differ by more than a tilt: check the shape given"):
+            measured_scar(Sphere(radius=factor * RADIUS), after)
 
 
 @pytest.mark.parametrize("wide", [16, 24])

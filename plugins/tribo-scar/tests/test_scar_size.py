@@ -33,15 +33,15 @@ def test_the_depth_is_known_as_well_as_it_says(standard):
 @pytest.mark.slow
 @pytest.mark.parametrize("shape", ["curved", "flat"])
 def test_the_largest_depth_holds_where_noise_hides_the_shape_of_the_bottom(shape):
-    """16 scars of 3.5 times the noise: all but one of them on average, 4 or more once in 140."""
-    random, x, y = np.random.default_rng(5), *Grid(96 * PITCH, 96).mesh
+    """8 scars of 3.5 times the noise: nearly all of them on average, 3 or more once in 170."""
+    random, x, y = np.random.default_rng(5), *Grid(64 * PITCH, 64).mesh
     far, missed = (x**2 + y**2) / WIDE**2, 0
-    for _ in range(16):
+    for _ in range(8):
         lost = 50e-9 * (np.maximum(1 - far, 0) if shape == "curved" else far < 1)
         after = Heights(14e-9 * random.normal(size=far.shape) - lost, (PITCH, PITCH))
         found = measured_scar(Flat(), after)
         missed += abs(found.depth - 50e-9) > 1.96 * found.depth_uncertainty
-    assert missed < 4
+    assert missed < 3
 
 
 def test_the_deepest_may_lie_in_a_hole():
@@ -68,9 +68,9 @@ def test_what_is_missing_within_a_ring_is_not_of_its_bottom():
 
 
 @pytest.mark.parametrize("noise", [0, 10e-9])
-@pytest.mark.parametrize("pitch", [4e-6, 7e-6, 10e-6])
+@pytest.mark.parametrize("pitch", [4e-6, 10e-6])
 def test_the_largest_depth_of_a_curved_bottom_is_that_of_no_mean(pitch, noise):
-    """A ball worn 1 µm flat, of which means over some pixels are 13, 39 and 80 nm less."""
+    """A ball worn 1 µm flat, of which means over some pixels are 13 and 80 nm less."""
     random = np.random.default_rng(4)
     grid = Grid(96 * pitch, 96)
     x, y = grid.mesh

@@ -38,7 +38,7 @@ def test_the_volume_of_a_hole_in_the_scar_is_interpolated_and_its_uncertainty_sa
 @pytest.mark.filterwarnings("ignore:pixels are missing where the scar is deepest")
 @pytest.mark.parametrize(
     ("missing", "holes", "before_too", "least"),
-    [(0.05, 0, False, 0.25), (0.0, 3, False, 0.4), (0.2, 0, True, 0.2)],
+    [(0.0, 3, False, 0.4), (0.2, 0, True, 0.2)],
 )
 def test_missing_pixels_add_as_much_to_the_uncertainty_of_a_volume_as_they_do(
     missing, holes, before_too, least
@@ -46,7 +46,7 @@ def test_missing_pixels_add_as_much_to_the_uncertainty_of_a_volume_as_they_do(
     """Scattered ones hardly any, as their neighbours tell the slope."""
     off, (unchanged, after, _) = [], pair(noise=2e-9, missing=0.0)
     whole = measured_scar(unchanged, after)
-    for seed in range(8):
+    for seed in range(6):
         before = unchanged
         random = np.random.default_rng(seed)
         gone = random.random(after.heights.shape) < missing
@@ -100,7 +100,7 @@ def test_what_is_piled_up_at_the_edge_of_a_scar_is_not_taken_off_its_volume(stan
     assert found.piled_up == pytest.approx(np.sum(ridge) * PITCH**2, rel=0.25, abs=0)
 
 
-@pytest.mark.parametrize(("wide", "height"), [(2, 50e-9), (3, 100e-9), (4, 50e-9)])
+@pytest.mark.parametrize(("wide", "height"), [(2, 50e-9), (3, 100e-9)])
 def test_a_thin_low_ridge_along_the_edge_is_not_taken_off_the_volume(wide, height):
     before, after, lost = pair(sq=30e-9, shift=(0, 0), turn=0, missing=0.0)
     inside = (np.hypot(*after.grid.mesh) - WIDE) / (wide * PITCH)
@@ -131,10 +131,9 @@ def test_neither_the_relief_of_a_worn_surface_nor_outliers_are_ridges_at_its_edg
     assert np.mean(piled) < 0.001
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_wide_low_ridges_along_a_track_are_piled_up_and_no_noise(seed):
+def test_wide_low_ridges_along_a_track_are_piled_up_and_no_noise():
     """They are as wide as a third of what is unworn, 5 times as high as the noise of a pixel."""
-    y, random = (np.arange(96) - 47.5) / 15, np.random.default_rng(seed)
+    y, random = (np.arange(96) - 47.5) / 15, np.random.default_rng(0)
     relief = ndimage.gaussian_filter(random.normal(size=(96, 96)), 2, mode="wrap") * 0.7e-6
     ridge = 150e-9 * np.exp(-(((np.abs(y) - 1.15) / 0.2) ** 2)) * (np.abs(y) > 1)
     lost = 0.5e-6 * np.maximum(1 - y**2, 0)
@@ -155,12 +154,10 @@ def test_a_scar_on_a_flat_has_no_volumes_of_a_ball(standard):
     assert found.across == pytest.approx(2 * WIDE, rel=0.03)
 
 
-@pytest.mark.parametrize(
-    ("high", "wide", "missing"), [(3e-7, 8, 0), (3e-7, 3, 0), (8e-7, 13, 0), (3e-7, 8, 0.1)]
-)
+@pytest.mark.parametrize(("high", "wide", "missing"), [(3e-7, 3, 0.1), (8e-7, 13, 0)])
 def test_a_ridge_that_rises_at_the_edge_takes_nothing_off_the_volume(high, wide, missing):
     """Of a ball worn flat; smoothing would move the border into the scar by half a pixel."""
-    off, n, deep = [], 200, 6e-7
+    off, n, deep = [], 144, 6e-7
     far = np.hypot(*Grid(n * PITCH, n).mesh) / PITCH
     lost = np.maximum(deep * (1 - (far / 40) ** 2), 0)
     ridge = high * np.sin(np.pi * np.clip((far - 40) / wide, 0, 1))

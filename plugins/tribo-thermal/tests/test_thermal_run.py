@@ -141,7 +141,7 @@ def test_ten_to_one_needs_the_difference_that_it_says(ten_to_one):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("sharing", "friction", "energy"),
-    [("shared", 0.3, 100), ("ball all", 0.2, 100), ("held hot", 0.1, 25)],
+    [("shared", 0.3, 100), ("held hot", 0.1, 25)],
 )
 def test_ten_to_one_says_what_the_readme_shows(ten_to_one, sharing, friction, energy):
     rows = (HERE.parent / "README.md").read_text().splitlines()

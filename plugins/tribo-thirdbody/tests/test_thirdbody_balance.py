@@ -74,7 +74,7 @@ def test_it_is_in_balance(on, caught):
 @pytest.mark.parametrize(
     ("length", "caught", "on"),
     # The last is carried away before what is uneven can grow.
-    [(1e9, 1.0, "disk"), (0.5, 1.0, "disk"), (0.5, 0.4, None), (5e-3, 1.0, None)],
+    [(1e9, 1.0, "disk"), (0.5, 0.4, None), (5e-3, 1.0, None)],
 )
 def test_flat_bodies_meet_on_debris_that_fills(length, caught, on):
     case = pin(length=length, caught=caught, on=on, fills=True)
@@ -138,7 +138,7 @@ def test_a_check_and_a_study_of_errors_say_what_a_run_gives():
 
 
 def ball(effects):
-    """A ball on a disk over 6 m, both wearing: how many contacts are solved."""
+    """A ball on a disk over 1 m, both wearing: how many contacts are solved."""
     case = pin()
     case["grid"], case["load"] = {"size": "0.4 mm", "cells": 24}, {"normal": 5}
     case["bodies"] = {name: {**body} for name, body in case["bodies"].items()}
@@ -146,17 +146,17 @@ def ball(effects):
     for body in case["bodies"].values():
         body["wear"] = {"type": "archard", "k": 3.11e-16}
     case |= {"contact": "dcfft", "effects": effects}
-    case["kinematics"]["distance"] = 6
+    case["kinematics"]["distance"] = 1
     with Simulation(case).run() as result:
         return result.totals()["contact_solves"]
 
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::tribo.TriboWarning")
-@pytest.mark.parametrize(("length", "times"), [("0.5 m", 3), ("50 mm", 4)])
-def test_it_takes_a_few_times_the_solves_of_archards_law(length, times):
-    debris = {"type": "thirdbody.debris", "ejection_length": length, "cover": "50 nm"}
-    assert ball([debris]) <= times * ball([])
+def test_it_takes_no_more_than_twice_the_solves_of_archards_law():
+    bare, debris = ball([]), {"type": "thirdbody.debris", "cover": "50 nm"}
+    for length in ("0.5 m", "50 mm"):
+        assert ball([{**debris, "ejection_length": length}]) <= 2 * bare
 
 
 @pytest.mark.slow
@@ -174,6 +174,6 @@ def test_under_a_ball_it_leaves_without_coming_and_going_where_it_just_touches()
             for name, surface in surfaces.items()
         },
     }
-    model = assemble(validate_case(case | {"kinematics": {**case["kinematics"], "distance": 4}}))
+    model = assemble(validate_case(case | {"kinematics": {**case["kinematics"], "distance": 2.6}}))
     for taken, _ in enumerate(march(model, begin(model))):
-        assert taken < 400
+        assert taken < 200
