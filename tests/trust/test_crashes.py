@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 import sweeps
 from command_line import tribo
+from made_results import quick_reports
 from paper_models import half_space, motion, pair, small
 from strangers.debris import Debris
 from strangers.running_in import RunningIn
-from tribo_report import result as report
 from trust.crashes import contents_of, of_each_kind, recorded
 from trust.trial import contents, same
 
@@ -20,7 +20,6 @@ from tribo import CaseError, Grid, Result, Simulation, sweep
 from tribo.config.write import to_toml
 from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
-from tribo.plotting import figures
 from tribo.stepping.explicit import Explicit
 
 # Of few cells, and of a checkpoint that was not whole.
@@ -250,15 +249,7 @@ COMMANDS = {
 def test_a_command_leaves_whole_files_at_a_crash_before_each_operation(
     made, tmp_path, monkeypatch, command
 ):
-    def refused(*given):
-        raise CaseError("it takes seconds")
-
-    def two_pictures(result, every=figures.result_pictures):
-        return dict(list(every(result).items())[:2])
-
-    monkeypatch.setattr("tribo_report.result.findings_of", refused)
-    for module in (figures, report):
-        monkeypatch.setattr(module, "result_pictures", two_pictures)
+    quick_reports(monkeypatch)
     folder = tmp_path / "work"
     shutil.copytree(made, folder)
     with recorded(folder) as work:
