@@ -260,20 +260,6 @@ def test_what_an_effect_remembers_goes_on_at_its_place_only_and_the_finding_says
 
 
 @pytest.mark.slow
-def test_hard_bodies_keep_what_has_yielded(tmp_path):
-    bodies = pair(archard(), archard(), hardness=(None, 1.2e9))
-    parts = {"bodies": bodies, "contact": half_space()}
-    with Simulation(worn_case(duration=0.2, **parts)).run(tmp_path / "first.h5") as first:
-        before = first.field("plastic_depth", -1, "disk")
-    with Simulation(worn_case(duration=0.2, begin=tmp_path / "first.h5", **parts)).run() as result:
-        plastic = [result.field("plastic_depth", save, "disk") for save in (0, -1)]
-    assert before.max() > 1e-8
-    # Nothing yields twice under one load.
-    for each in plastic:
-        np.testing.assert_allclose(each, before, atol=1e-4 * before.max())
-
-
-@pytest.mark.slow
 def test_a_stopped_run_goes_on_to_the_same_bits_without_the_result_it_began_with(tmp_path):
     first = tmp_path / "first.h5"
     Simulation(worn_case(load=20.0, duration=1)).run(first).close()
