@@ -76,7 +76,7 @@ def test_a_killed_run_is_shown_as_far_as_it_came_and_goes_on_to_the_same_bits(ki
 
 @pytest.mark.parametrize(
     ("name", "at"),
-    [("checkpoint", 0), ("checkpoint", 2000), ("checkpoint", -1), ("000002.part", 1000)],
+    [("checkpoint", 2000), ("000002.part", 1000)],
 )
 def test_where_the_newest_checkpoint_is_damaged_the_one_before_is_used(
     killed, undisturbed, name, at
