@@ -77,15 +77,6 @@ def test_a_run_goes_on_without_a_reader_of_its_progress(folder, unread):
 
 @needs_full
 @pytest.mark.slow
-def test_a_run_goes_on_where_its_progress_cannot_be_written(folder, full):
-    streams = {"stdout": subprocess.PIPE, "stderr": full}
-    done = tribo(folder, "run", "my.toml", "-o", "untold.h5", *QUICK, **streams)
-    assert done.returncode == 0
-    assert b"Saved untold.h5" in done.stdout
-
-
-@needs_full
-@pytest.mark.slow
 def test_an_error_that_cannot_be_told_has_its_exit_code(folder, full):
     assert tribo(folder, "run", "none.toml", stderr=full).returncode == 2
 

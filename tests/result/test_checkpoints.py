@@ -307,14 +307,6 @@ def test_what_is_put_into_the_folder_of_a_run_stays(tmp_path):
     assert [path.name for path in (tmp_path / "run.h5.run").iterdir()] == ["notes.txt"]
 
 
-def test_what_a_killed_process_was_writing_goes_as_the_run_goes_on(killed):
-    left = RunFolder(killed).path / f"tribo-{0:016x}.new"
-    left.touch()
-    with pytest.raises(Interrupted):
-        simulation().resume(killed, observers=[StopAfter(steps=15)])
-    assert not left.exists()
-
-
 @pytest.mark.slow
 def test_a_stopped_run_that_is_set_aside_is_resumed_to_the_same_bits(killed, undisturbed):
     aside = RunFolder(killed).set_aside()

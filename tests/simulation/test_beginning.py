@@ -88,20 +88,6 @@ def test_it_goes_on_as_one_run_of_two_loads_would(run_in):
 
 
 @pytest.mark.slow
-def test_explicit_steps_of_one_length_go_on_to_what_the_solver_tells_apart(tmp_path):
-    parts = {"stepping": Explicit(time_step=0.5), "load": 100.0}
-    Simulation(worn_case(**parts)).run(tmp_path / "first.h5").close()
-    with (
-        Simulation(worn_case(begin=tmp_path / "first.h5", **parts)).run() as second,
-        Simulation(worn_case(duration=20, **parts)).run() as whole,
-    ):
-        for name, expected in depths(whole).items():
-            np.testing.assert_allclose(
-                depths(second)[name], expected, atol=1e-9 * expected.max(), rtol=0
-            )
-
-
-@pytest.mark.slow
 def test_a_resolved_cycle_goes_on_along_its_whole_track(tmp_path):
     stroke = 12 * GRID.spacing[0]
 

@@ -1,4 +1,4 @@
-"""The same case gives the same bits: with any number of threads, from the shell, from Python, in
+"""The same case gives the same bits: with any number of threads, from the shell, in a sweep, in
 a fresh process and in one that goes on."""
 
 import os
@@ -20,13 +20,6 @@ SETTINGS = {
     "load.normal": "900",  # beyond the hardness: plastic flow takes part
 }
 SHELL = "from tribo.cli.main import main; main()"
-PYTHON = """
-import sys, warnings
-from tribo import Simulation
-from tribo.config.load import load_case
-warnings.simplefilter("ignore")
-Simulation(load_case(sys.argv[1], overrides=sys.argv[2].split("|"))).run(sys.argv[3]).close()
-"""
 STOPPED = """
 import sys, warnings
 from tribo import Simulation
@@ -100,12 +93,6 @@ def _words():
 def test_enough_is_compared(first):
     assert {"pressure", "wear_depth", "history_chattering", "case"} <= set(first)
     assert len(first) > 40
-
-
-def test_from_python_with_two_threads(case, first, tmp_path):
-    path = tmp_path / "python.h5"
-    process(PYTHON, case, _words(), path, threads=2)
-    assert bits(path) == first
 
 
 def test_resumed_with_another_number_of_threads(case, first, tmp_path):
