@@ -12,7 +12,7 @@ from tribo.lab import ball, track
 from tribo.motion.exposure import Track
 from tribo.motion.stroke import Stroke
 from tribo.simulation import assembly
-from tribo.stepping import layers, plastic_groove, step
+from tribo.stepping import plastic_groove, rates, step
 from tribo.verification.suite import REFERENCES
 from tribo.wear.archard import Archard
 from tribo.wear.power import Power
@@ -123,7 +123,7 @@ MUTANTS = {
         PIN,
     ),
     "one coefficient for both": (
-        (layers, "rates_at_each"),
+        (rates, "rates_at_each"),
         one_rate_for_both,
         "three times the coefficient",
     ),
