@@ -104,7 +104,7 @@ def swept(folder, *options):
 
 def assert_ends_as(whole, folder):
     swept = sweep(folder / "study.toml", executor=sweeps.Inline())
-    assert swept.failures() == []
+    assert swept.failures() == {}
     pandas.testing.assert_frame_equal(table(folder), whole)
 
 
