@@ -3,12 +3,14 @@
 import numpy as np
 
 from tribo.core.contact import ContactSolution, ContactSystem, Residuals
+from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.core.measures import BodyMeasures, Measures, centre, contact_area, half_widths
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
 from tribo.lab.running_in import contact_roughness
 from tribo.observers.recorder import Recorder
+from tribo.plotting import figures
 from tribo.result.provenance import provenance
 
 GRID = Grid((2e-3, 1.6e-3), (50, 40))
@@ -102,6 +104,20 @@ def written(path, **options):
     with made(**options) as result:
         result.save(path)
     return path
+
+
+def quick_reports(monkeypatch):
+    """Let two pictures stand for all of a result, and a report go without its findings."""
+
+    def refused(*given):
+        raise CaseError("it takes seconds")
+
+    def two(result, every=figures.result_pictures):
+        return dict(list(every(result).items())[:2])
+
+    monkeypatch.setattr("tribo_report.result.findings_of", refused)
+    for module in ("tribo.plotting.figures", "tribo_report.result"):
+        monkeypatch.setattr(f"{module}.result_pictures", two)
 
 
 def half_width(time):

@@ -29,7 +29,7 @@ case = "case.toml"
 grid = { cells = 32, size = "0.7 mm" }
 contact.type = "winkler"
 kinematics.duration = "20 s"
-stepping = { type = "explicit", time_step = "0.04 s" }
+stepping = { type = "explicit", time_step = "0.08 s" }
 output.save_times = [0.1, 0.5, 1, 2, 4, 6, 8, 10, 12, 14, 16, 18]
 """
 

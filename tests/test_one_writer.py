@@ -74,7 +74,8 @@ def found_writing(source: str) -> list[str]:
     """Return the calls of a source that change files."""
     tree = ast.parse(source)
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
-    return [ast.unparse(node) for node in calls if writes(node, in_memory(tree))]
+    buffers = in_memory(tree)
+    return [ast.unparse(node) for node in calls if writes(node, buffers)]
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda p: p.stem)

@@ -19,9 +19,9 @@ RESOLVED = re.compile(r"(?<=\d) +[\d.]+$|(?<=groove )\d+(?= % too deep: docs)")
 QUICK = (
     "kinematics.positions=25",
     "grid.cells=24",
-    "stepping.depth_tolerance=0.02",
-    "stepping.pressure_tolerance=0.5",
-    "stepping.settle=0.1",
+    "stepping.depth_tolerance=0.1",
+    "stepping.pressure_tolerance=1",
+    "stepping.settle=1",
 )
 ROUND_OFF = re.compile(r"\de[-+]\d+")
 

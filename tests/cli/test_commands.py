@@ -127,7 +127,7 @@ def test_a_template_is_printed_for_a_dash_and_an_unknown_one_is_told_before_the_
 @pytest.mark.parametrize("name", ["ball_on_disk", "pin_on_disk"])
 def test_a_template_is_predicted(tmp_path, name):
     assert tribo("new", name, "case.toml", cwd=tmp_path).returncode == 0
-    done = tribo("check", "case.toml", *setting("grid.cells=96"), cwd=tmp_path)
+    done = tribo("check", "case.toml", *setting("grid.cells=64"), cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     for words in (
         "Hertz half-widths",

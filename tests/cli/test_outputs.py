@@ -6,7 +6,7 @@ import sys
 
 import pytest
 from click.testing import CliRunner
-from made_results import written
+from made_results import quick_reports, written
 
 from tribo.cli.main import tribo
 from tribo.core.errors import CaseError
@@ -23,6 +23,7 @@ COMMANDS = {
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    quick_reports(monkeypatch)
     written(tmp_path / "my.h5")
     (tmp_path / "out").mkdir()
     return tmp_path

@@ -1,11 +1,12 @@
 """The result of a run that is not done: what each command makes of it."""
 
 import shutil
+from itertools import product
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from made_results import written
+from made_results import quick_reports, written
 from paper_models import StopAfter, case, motion
 
 from tribo import CaseError, Grid, Interrupted, Result, Simulation
@@ -51,6 +52,7 @@ class Copies(Observer):
 @pytest.fixture(scope="module")
 def states(tmp_path_factory):
     folder = tmp_path_factory.mktemp("states")
+    written(folder / "other.h5", times=(0.0, 5.0), grid=GRID)
     simulation = Simulation(case(grid=GRID, kinematics=motion(duration=60), save_times=(5, 20)))
     (folder / "work").mkdir()
     with pytest.MonkeyPatch.context() as patch:
@@ -69,9 +71,9 @@ def state(states, tmp_path, monkeypatch):
         number = {"unsaved": 1, "running, unsaved": 1, "one save": 2}.get(name, 3)
         source = states / ("work" if name.startswith("interrupted") else f"copy{number}")
         shutil.copytree(source, tmp_path, dirs_exist_ok=True)
+        shutil.copy(states / "other.h5", tmp_path)
         if name.endswith("alone"):
             shutil.rmtree("r.h5.run")
-        written(tmp_path / "other.h5", times=(0.0, 5.0), grid=GRID)
         (tmp_path / "case.toml").write_text(template("ball_on_disk"))
         if name.startswith("running"):
             folder.lock()
@@ -115,9 +117,14 @@ def test_a_run_that_left_its_folder_alone_is_started_again(state, command):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("command", READING.values(), ids=READING)
-@pytest.mark.parametrize("name", SAVED)
-def test_a_result_is_read_as_far_as_it_came(state, name, command):
+@pytest.mark.parametrize(
+    ("name", "command"),
+    # Every command reads by one way: a result and what its folder has, or a result alone.
+    [*product(("one save", "interrupted, alone"), READING.values())]
+    + [(name, READING["show"]) for name in ("running", "killed", "interrupted")],
+)
+def test_a_result_is_read_as_far_as_it_came(state, monkeypatch, name, command):
+    quick_reports(monkeypatch)
     state(name)
     done = CliRunner().invoke(tribo, command.split())
     assert done.exit_code == 0, done.exception

@@ -2,7 +2,10 @@
 
 import pytest
 
-SHORT = ("kinematics.duration='200 s'", "output.save_times=[0, 100, 200]")
+# The first contact, which the explicit steps leave at once, is of few cells.
+pytestmark = pytest.mark.filterwarnings("ignore:resolution")
+
+SHORT = ("grid.cells=32", "kinematics.duration='100 s'", "output.save_times=[0, 100]")
 
 
 @pytest.fixture(scope="module")
@@ -18,7 +21,7 @@ def implicit(paper):
 @pytest.mark.slow
 def test_the_papers_explicit_steps_agree_with_implicit_ones(paper, implicit):
     explicit = paper.run(*paper.COARSE, *paper.EXPLICIT, *SHORT)
-    assert explicit.totals()["steps"] == 800
+    assert explicit.totals()["steps"] == 400
     for body in ("ball", "disk"):
         assert 0 < paper.difference(implicit, explicit, body) < 0.005
 

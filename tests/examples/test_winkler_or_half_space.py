@@ -6,9 +6,9 @@ import pytest
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore:resolution")]
 
 
-@pytest.fixture(scope="module", params=range(4))
+@pytest.fixture(scope="module", params=["the paper's test", "ball wears a tenth"])
 def comparison(request, example):
-    with example.run(list(example.CASES.values())[request.param]) as comparison:
+    with example.run(example.CASES[request.param]) as comparison:
         yield comparison
 
 

@@ -76,7 +76,7 @@ def test_a_killed_run_is_shown_as_far_as_it_came_and_goes_on_to_the_same_bits(ki
 
 @pytest.mark.parametrize(
     ("name", "at"),
-    [("checkpoint", 0), ("checkpoint", 2000), ("checkpoint", -1), ("000002.part", 1000)],
+    [("checkpoint", 2000), ("000002.part", 1000)],
 )
 def test_where_the_newest_checkpoint_is_damaged_the_one_before_is_used(
     killed, undisturbed, name, at
@@ -305,14 +305,6 @@ def test_what_is_put_into_the_folder_of_a_run_stays(tmp_path):
 
     simulation().run(tmp_path / "run.h5", observers=[Puts()]).close()
     assert [path.name for path in (tmp_path / "run.h5.run").iterdir()] == ["notes.txt"]
-
-
-def test_what_a_killed_process_was_writing_goes_as_the_run_goes_on(killed):
-    left = RunFolder(killed).path / f"tribo-{0:016x}.new"
-    left.touch()
-    with pytest.raises(Interrupted):
-        simulation().resume(killed, observers=[StopAfter(steps=15)])
-    assert not left.exists()
 
 
 @pytest.mark.slow

@@ -56,8 +56,6 @@ def fresh(tmp_path_factory: pytest.TempPathFactory) -> Fresh:
     for kind, folder in folders.items():
         write_plugin(folder.name, kind, folder)
     pip = (sys.executable, "-m", "pip", "--disable-pip-version-check")
-    build = ("wheel", "--no-deps", "--no-build-isolation", "--no-index", "--wheel-dir", "wheels")
-    run(*pip, *build, *(f"./{folder.name}" for folder in folders.values()), folder=scratch)
     venv.create(scratch / "venv", with_pip=False)
     python = scratch / "venv" / "bin" / "python"
     # It sees what is installed here, tribo too, so that nothing is downloaded.
@@ -66,9 +64,9 @@ def fresh(tmp_path_factory: pytest.TempPathFactory) -> Fresh:
     )
     here = sysconfig.get_path("purelib")
     (Path(purelib.strip()) / "here.pth").write_text(f"import site; site.addsitedir({here!r})\n")
-    wheels = [str(wheel) for wheel in sorted((scratch / "wheels").iterdir())]
-    install = ("--python", str(python), "install", "--no-deps", "--no-index")
-    run(*pip, *install, *wheels, folder=scratch)
+    install = ("install", "--no-deps", "--no-build-isolation", "--no-index")
+    built = [f"./{folder.name}" for folder in folders.values()]
+    run(*pip, "--python", str(python), *install, *built, folder=scratch)
     return Fresh(python, folders, scratch)
 
 

@@ -88,20 +88,6 @@ def test_it_goes_on_as_one_run_of_two_loads_would(run_in):
 
 
 @pytest.mark.slow
-def test_explicit_steps_of_one_length_go_on_to_what_the_solver_tells_apart(tmp_path):
-    parts = {"stepping": Explicit(time_step=0.5), "load": 100.0}
-    Simulation(worn_case(**parts)).run(tmp_path / "first.h5").close()
-    with (
-        Simulation(worn_case(begin=tmp_path / "first.h5", **parts)).run() as second,
-        Simulation(worn_case(duration=20, **parts)).run() as whole,
-    ):
-        for name, expected in depths(whole).items():
-            np.testing.assert_allclose(
-                depths(second)[name], expected, atol=1e-9 * expected.max(), rtol=0
-            )
-
-
-@pytest.mark.slow
 def test_a_resolved_cycle_goes_on_along_its_whole_track(tmp_path):
     stroke = 12 * GRID.spacing[0]
 
@@ -257,20 +243,6 @@ def test_what_an_effect_remembers_goes_on_at_its_place_only_and_the_finding_says
             before, after = (f"warm of {each.on or 'the contact'}" for each in (was, now))
             words = f"begins afresh: {after}; left out of it is {before}"
             assert text.endswith("begin anew" if now == was else words)
-
-
-@pytest.mark.slow
-def test_hard_bodies_keep_what_has_yielded(tmp_path):
-    bodies = pair(archard(), archard(), hardness=(None, 1.2e9))
-    parts = {"bodies": bodies, "contact": half_space()}
-    with Simulation(worn_case(duration=0.2, **parts)).run(tmp_path / "first.h5") as first:
-        before = first.field("plastic_depth", -1, "disk")
-    with Simulation(worn_case(duration=0.2, begin=tmp_path / "first.h5", **parts)).run() as result:
-        plastic = [result.field("plastic_depth", save, "disk") for save in (0, -1)]
-    assert before.max() > 1e-8
-    # Nothing yields twice under one load.
-    for each in plastic:
-        np.testing.assert_allclose(each, before, atol=1e-4 * before.max())
 
 
 @pytest.mark.slow

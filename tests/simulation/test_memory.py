@@ -27,16 +27,14 @@ MEASURE = """
     warnings.simplefilter("ignore")
     # Imported when they are first used, and no part of what a case takes.
     import h5py, scipy.fft, scipy.ndimage, scipy.optimize
-    cells = 320
+    cells = 160
     for case in sys.argv[1:]:
         if not os.fork():
             break
         assert os.wait()[1] == 0
     else:
         sys.exit()
-    parts = dict(grid=Grid((1.3e-3, 1.3e-3), (cells, cells)), kinematics=motion(duration=5))
-    if case == "grown":
-        parts |= dict(grid=Grid((1.2e-3, 1.2e-3), (cells, cells)), kinematics=motion(duration=3600))
+    parts = dict(grid=Grid((1.3e-3, 1.3e-3), (cells, cells)), kinematics=motion(duration=0.5))
     if case == "periodic":
         parts |= dict(contact=Periodic(), load=5000.0)
     if case == "plastic":
@@ -46,7 +44,7 @@ MEASURE = """
         bodies = [named(n, flat(), steel(), archard()) for n in "ab"]
         parts |= dict(bodies=bodies, ends_at_window=True)
     if case == "resolved":
-        parts["kinematics"] = motion(stroke="1.1 mm", duration=2, positions=17)
+        parts["kinematics"] = motion(stroke="1.1 mm", duration=0.2, positions=17)
     def most():
         # Not ru_maxrss, which begins with that of the process this one was forked from.
         lines = open("/proc/self/status").read().splitlines()
@@ -63,7 +61,7 @@ MEASURE = """
 
 @pytest.mark.slow
 def test_the_estimate_is_above_the_peak_and_not_far(tmp_path):
-    cases = ["ball", "grown", "periodic", "plastic", "flat punch", "resolved"]
+    cases = ["ball", "periodic", "plastic", "flat punch", "resolved"]
     script = [sys.executable, "-c", textwrap.dedent(MEASURE), *cases]
     paths = {**os.environ, "PYTHONPATH": str(TESTS)}
     done = subprocess.run(

@@ -6,9 +6,10 @@ import signal
 from unittest.mock import Mock
 
 import numpy as np
+import paper_models
 import pytest
 from edited import bits
-from paper_models import archard, case, flat, motion, named, pair, small, states, steel
+from paper_models import archard, flat, motion, named, pair, small, states, steel
 
 from tribo import CaseError, Grid, Interrupted, NumericalError, Result, Simulation
 from tribo.case import Stop
@@ -22,6 +23,10 @@ from tribo.simulation.predict import predict
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 from tribo.surfaces.cylinder import Cylinder
+
+
+def case(**changes):
+    return paper_models.case(**{"grid": Grid((0.7e-3, 0.7e-3), (24, 24)), **changes})
 
 
 class Stopper(Observer):
@@ -152,7 +157,7 @@ def test_a_contact_that_reaches_the_edge_stops_the_run_with_what_was_saved(tmp_p
 def test_a_run_that_fails_asks_for_the_unit_of_a_wear_coefficient_that_is_absurd(k, failure):
     bodies = pair(archard(k=k))
     with pytest.raises(NumericalError, match=failure) as failed:
-        Simulation(case(bodies=bodies, grid=Grid((0.7e-3, 0.7e-3), (24, 24)))).run()
+        Simulation(case(bodies=bodies)).run()
     assert f"bodies.ball.wear.k is {k:g} 1/Pa, usual are" in str(failed.value)
     assert "'1e-6 mm^3/(N m)'" in str(failed.value)
 

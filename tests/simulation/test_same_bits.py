@@ -1,4 +1,4 @@
-"""The same case gives the same bits: with any number of threads, from the shell, from Python, in
+"""The same case gives the same bits: with any number of threads, from the shell, in a sweep, in
 a fresh process and in one that goes on."""
 
 import os
@@ -14,19 +14,12 @@ from tribo.templates import template
 pytestmark = pytest.mark.slow
 
 SETTINGS = {
-    "grid.cells": "96",
+    "grid.cells": "48",
     "kinematics.duration": "20",
     "output.save_times": "[5]",
     "load.normal": "900",  # beyond the hardness: plastic flow takes part
 }
 SHELL = "from tribo.cli.main import main; main()"
-PYTHON = """
-import sys, warnings
-from tribo import Simulation
-from tribo.config.load import load_case
-warnings.simplefilter("ignore")
-Simulation(load_case(sys.argv[1], overrides=sys.argv[2].split("|"))).run(sys.argv[3]).close()
-"""
 STOPPED = """
 import sys, warnings
 from tribo import Simulation
@@ -102,12 +95,6 @@ def test_enough_is_compared(first):
     assert len(first) > 40
 
 
-def test_from_python_with_two_threads(case, first, tmp_path):
-    path = tmp_path / "python.h5"
-    process(PYTHON, case, _words(), path, threads=2)
-    assert bits(path) == first
-
-
 def test_resumed_with_another_number_of_threads(case, first, tmp_path):
     path = tmp_path / "resumed.h5"
     process(STOPPED, case, _words(), path, threads=1)
@@ -119,8 +106,7 @@ def test_resumed_with_another_number_of_threads(case, first, tmp_path):
 def test_sweep(case, first, tmp_path):
     settings = "".join(f"{name} = {value}\n" for name, value in SETTINGS.items())
     study = tmp_path / "study.toml"
-    study.write_text(f'case = "{case}"\n[settings]\n{settings}[grid]\nload.normal = [900, 100]\n')
+    study.write_text(f'case = "{case}"\n[settings]\n{settings}[grid]\nload.normal = [900]\n')
     process(SHELL, "sweep", study, "-o", tmp_path / "sweep", "--jobs", 1, threads=2)
     found = [bits(path) for path in (tmp_path / "sweep").rglob("*.h5")]
-    assert len(found) == 2
-    assert first in found
+    assert found == [first]

@@ -70,7 +70,7 @@ class Steepless(Power):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("exponent", [1, 1.5, 3])
+@pytest.mark.parametrize("exponent", [1, 3])
 def test_a_slope_that_a_law_leaves_out_is_found(exponent):
     ours = Steepless(k=K, p_exponent=exponent, reference_pressure="1 GPa")
     pressure = np.array([[0.0, 1e6, 1e8, 2e9]])

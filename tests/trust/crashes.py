@@ -6,6 +6,7 @@ synced, and its name once its folder is.
 """
 
 import os
+import re
 import shutil
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -26,6 +27,8 @@ class Crash:
     how: str
     acknowledged: int
     files: dict
+    before: tuple
+    """What that operation does, and to which file in the end; parts of a result are all one."""
 
     def lay(self, folder):
         """Make the folder what the crash left."""
@@ -53,16 +56,27 @@ class Recorded:
     def crashes(self):
         """Return every different crash, also that after the last operation."""
         seen, told, found = _Disk(self.before), 0, {}
+        final = {each[1]: each[2] for each in self.operations if each[0] == "rename"}
         for at, operation in enumerate([*self.operations, ("end",)]):
             views = seen.crashed()
             if operation[0] == "write":
                 path, held = operation[1:]
                 views["torn"] = seen.view(seen.names, {**seen.held, seen.names[path]: held[::2]})
+            kind, path = (*operation[:2], "")[:2]
+            before = kind, re.sub(r"\d+", "", final.get(path, path))
             for how, files in views.items():
-                found.setdefault((told, frozenset(files.items())), Crash(at, how, told, files))
+                found.setdefault(
+                    (told, frozenset(files.items())), Crash(at, how, told, files, before)
+                )
             told += operation[0] == "acknowledged"
             seen.do(*operation)
         return list(found.values())
+
+
+def of_each_kind(crashes):
+    """Return one of the crashes alike: before the same operation on a file, with saves or none."""
+    alike = {(crash.how, crash.before, crash.acknowledged > 0): crash for crash in crashes}
+    return list(alike.values())
 
 
 class _Disk:

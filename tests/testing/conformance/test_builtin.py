@@ -33,15 +33,13 @@ ROUND = {"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"}
 LAYER = {"thickness": 1e-4, "young": 1e10, "poisson": 0.3}
 
 test_archard = parametrize_checks(Archard, [{"k": "3e-16 1/Pa"}, {"K": 1e-6}])
-test_power = parametrize_checks(
-    Power, [{**REFERENCE, "p_exponent": 1.5}, {**REFERENCE, "p_exponent": 3}]
-)
+test_power = parametrize_checks(Power, [{**REFERENCE, "p_exponent": 1.5}])
 test_scaled = parametrize_checks(Scaled)
 test_running_in = parametrize_checks(RunningIn)
 test_smoothing = parametrize_checks(Smoothing)
 test_dcfft = parametrize_checks(DcFft)
 test_periodic = parametrize_checks(Periodic)
-test_winkler = parametrize_checks(Winkler, [{}, {"modulus": 1.3e15}, {"layer": LAYER}])
+test_winkler = parametrize_checks(Winkler, [{}, {"layer": LAYER}])
 test_reciprocating = parametrize_checks(
     Reciprocating,
     [
@@ -65,8 +63,7 @@ test_unidirectional = parametrize_checks(
 test_sphere = parametrize_checks(Sphere, [{"radius": "5 mm"}])
 test_paraboloid = parametrize_checks(Paraboloid, [{"radius_x": "5 mm", "radius_y": "10 mm"}])
 test_cylinder = parametrize_checks(
-    Cylinder,
-    [{"radius": "5 mm"}, {"radius": "5 mm", "axis": "x"}, {"radius": "5 mm", "degrees": 30}],
+    Cylinder, [{"radius": "5 mm", "axis": "x"}, {"radius": "5 mm", "degrees": 30}]
 )
 test_pin = parametrize_checks(Pin, [{"radius": "3 mm", "edge": "0.5 mm"}])
 test_flat = parametrize_checks(Flat)
