@@ -183,7 +183,7 @@ class Registry:
             except (Exception, SystemExit) as error:
                 warnings.warn(
                     f"{hook} of {each.plugin_name} is left out: it raised {said(error)}"
-                    f"{_place(error, *packages)}; --no-plugin leaves that plugin out",
+                    f"{place(error, *packages)}; --no-plugin leaves that plugin out",
                     TriboWarning,
                     stacklevel=2,
                 )
@@ -213,7 +213,7 @@ class Registry:
             raise
         except BaseException as error:
             plugin.status = "broken"
-            plugin.reason = said(error) + _place(error, plugin.entry_point)
+            plugin.reason = said(error) + place(error, plugin.entry_point)
 
     def _register(self, plugin: Plugin) -> None:
         """Register a plugin with the plugin manager, and ask it for its components."""
@@ -296,8 +296,8 @@ def from_plugins_of(result: Result, hook: str) -> list[Any]:
     return registry.ask(hook, result=result)
 
 
-def _place(error: BaseException, *entry_points: str) -> str:
-    """Return file and line of the innermost call in a plugin, as text; empty if there is none."""
+def place(error: BaseException, *entry_points: str) -> str:
+    """Return file and line of the innermost call in plugins, as text; empty if there is none."""
     if isinstance(error, SyntaxError):
         return ""  # Its message has its place.
     packages = {re.split("[.:]", entry_point)[0] for entry_point in entry_points}

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import pickle
-import sys
-import traceback
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal
 
@@ -19,6 +16,7 @@ from tribo.component import Component
 from tribo.core.errors import PluginError
 from tribo.core.words import said
 from tribo.registry.kinds import check_class
+from tribo.registry.registry import place
 from tribo.testing.checks import Checks, FieldValue
 from tribo.testing.checks_contact_solver import ContactSolverChecks
 from tribo.testing.checks_effect import EffectChecks
@@ -340,8 +338,8 @@ def _outcome(checks: Checks, name: str) -> Outcome:
     except KeyboardInterrupt:
         raise
     except BaseException as error:
-        where = _place(error, checks)
-        return _came(checks, name, "failed", f"it raised {said(error)}, in {where}")
+        where = place(error, checks._cls.__module__)
+        return _came(checks, name, "failed", f"it raised {said(error)}{where}")
     return _came(checks, name, "passed")
 
 
@@ -355,13 +353,3 @@ def _label(checks: Checks) -> str:
     del values["type"]
     text = ", ".join(f"{name}={value!r}" for name, value in values.items()) or "its defaults"
     return text if len(text) <= 60 else text[:59] + "…"
-
-
-def _place(error: BaseException, checks: Checks) -> str:
-    """Return the last line of the class's own package that an error came through."""
-    frames = traceback.extract_tb(error.__traceback__)
-    module = sys.modules[checks._cls.__module__.partition(".")[0]]
-    folder = next(iter(getattr(module, "__path__", ())), getattr(module, "__file__", None))
-    own = [frame for frame in frames if folder and Path(frame.filename).is_relative_to(folder)]
-    where = (own or frames)[-1]
-    return f"{where.filename}:{where.lineno}"

@@ -56,7 +56,7 @@ def test_an_exception_is_told_once_with_the_line_it_arose_in():
     report = check(Raises, [{}])
     line = inspect.getsourcelines(look_up)[1] + 1
     assert str(report).count("it raised KeyError: 'wear'") == 1
-    assert f"{__file__}:{line} (this spoils " in str(report)
+    assert f"({__file__}, line {line}) (this spoils " in str(report)
     assert f"{len(report.failures)} failed" in str(report).splitlines()[0]
 
 
