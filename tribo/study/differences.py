@@ -13,40 +13,21 @@ from tribo.result.read import Result
 
 
 class Difference(NamedTuple):
-    """Difference of a field f from that of the reference, f₀, relative to the latter.
-
-    Parameters
-    ----------
-    l2 : float
-        √(Σ(f − f₀)²/Σf₀²).
-    largest : float
-        Largest magnitude of f − f₀ over that of f₀.
-    """
+    """Difference of a field f from that of the reference, f₀, relative to the latter."""
 
     l2: float
+    """√(Σ(f − f₀)²/Σf₀²)."""
     largest: float
+    """Largest magnitude of f − f₀ over that of f₀."""
 
 
 def differences(result: Result, reference: Result, time: float) -> dict[str, Difference]:
-    """Return the differences of pressure and wear depths from the reference.
+    """Return the differences of pressure and wear depths from the reference, by field, at a save.
 
-    On the same grid the norms run over all cells; else over the sections along
-    and across sliding through the centre, at those of the reference's positions
-    that lie in both windows. Values there are interpolated linearly, and
-    extrapolated over the last half cell.
-
-    Parameters
-    ----------
-    result, reference : Result
-        What to compare, with what.
-    time : float
-        Of a save of both, in s.
-
-    Returns
-    -------
-    dict
-        By field, as ``"pressure"`` or ``"bodies.NAME.wear_depth"``, without
-        those that are zero in the reference.
+    Fields are ``"pressure"`` and ``"bodies.NAME.wear_depth"``, without those that are zero in the
+    reference. On the same grid the norms run over all cells; else over the sections along and
+    across sliding through the centre, at those of the reference's positions that lie in both
+    windows. Values there are interpolated linearly, and extrapolated over the last half cell.
     """
     saves = [(each, each.save_at(time)) for each in (result, reference)]
     pairs = {"pressure": [each.field("pressure", save) for each, save in saves]}

@@ -10,13 +10,7 @@ from tribo.result.read import Result
 
 
 def check_match(match: Mapping[str, str], first: Result, others: Sequence[Result]) -> None:
-    """Check that `match` pairs bodies of the first result with bodies of others, each once.
-
-    Raises
-    ------
-    CaseError
-        If it does not.
-    """
+    """Check that `match` pairs bodies of the first result with bodies of others, each once."""
     theirs = dict.fromkeys(name for result in others for name in result.body_names)
     known = match.keys() <= {*first.body_names} and theirs.keys() >= {*match.values()}
     if not known or len({*match.values()}) < len(match):

@@ -42,11 +42,6 @@ def complete(simulation: Simulation, path: Path, observers: Sequence[Observer]) 
     """Continue the stopped run of a file, or else run the case anew into it.
 
     A file that cannot be resumed is replaced, with a warning that says why.
-
-    Raises
-    ------
-    TriboError
-        What a run raises.
     """
     if os.path.exists(path):
         try:
@@ -71,14 +66,8 @@ def run_variants(
     """Run cases one after another, each into a file of a folder, named after its label.
 
     Finished results of the same cases are taken as they are, and interrupted
-    runs are continued; see `tribo.compare`.
-
-    Raises
-    ------
-    CaseError
-        If the folder holds results of other cases.
-    TriboError
-        What a run raises; the message names the variant.
+    runs are continued; see `tribo.compare`. CaseError if the folder holds
+    results of other cases.
     """
     simulations = {label: Simulation(case, registry) for label, case in cases.items()}
     paths: dict[str, Path | None] = dict.fromkeys(cases)

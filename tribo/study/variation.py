@@ -54,13 +54,8 @@ def variants(
     """Return the cases that follow from `data` with each of the points, by their labels.
 
     All are validated and composed first, so that wrong input costs no run. Those that leave the
-    positions of their cycle open take the same, as many as the one that needs most.
-
-    Raises
-    ------
-    CaseError
-        If a variant is not valid, or two are the same case; the message says
-        which and why.
+    positions of their cycle open take the same, as many as the one that needs most. CaseError says
+    which variants are not valid, or the same case, and why.
     """
     cases: list[tuple[str, Case]] = []
     reasons: dict[str, list[str]] = {}

@@ -33,15 +33,7 @@ class Child:
         self._process: subprocess.Popen[bytes] | None = None
 
     def call(self, function: Callable[..., Any], *given: Any) -> Any:
-        """Return what a function returns there.
-
-        Raises
-        ------
-        Unknown
-            If function, arguments or answer cannot be sent, or are not found there.
-        Lost
-            If the process ended, or exceeded the time limit of plugins.
-        """
+        """Return what a function returns there; `Unknown` or `Lost` if it does not get so far."""
         try:
             sent = pickle.dumps((function, given))
         except Exception as error:

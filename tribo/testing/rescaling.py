@@ -55,13 +55,7 @@ UNITS: Mapping[str, float] = MappingProxyType(
 
 
 def rescaled(table: T) -> T:
-    """Return a table, or a component, with its quantities in the other units.
-
-    Raises
-    ------
-    NotApplicable
-        If numbers of it are in a file.
-    """
+    """Return a table, or a component, with its quantities in the other units."""
     cls: Any = type(table)
     return renewed(
         table,

@@ -104,13 +104,7 @@ def declared(name: str) -> Field | None:
 
 
 def known_field(name: str) -> Field:
-    """Return the declaration of a field, of whose unit more is to be known.
-
-    Raises
-    ------
-    NotApplicable
-        If nothing here declares it.
-    """
+    """Return the declaration of a field, or else raise `NotApplicable`."""
     found = declared(name)
     if found is None:
         raise NotApplicable(f"the unit of {name!r} is not known: no effect here declares it")

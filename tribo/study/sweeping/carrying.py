@@ -38,14 +38,8 @@ def carry(
 
     The file `stop` tells workers to stop; `ended` is called with each run that
     ends, and with the reason if it failed; `patience` is the time that workers
-    may take to stop, in s.
-
-    Raises
-    ------
-    Interrupted
-        If it was stopped from outside.
-    OutputError
-        If the executor has broken.
+    may take to stop, in s. Interrupted if it was stopped from outside,
+    OutputError if the executor has broken.
     """
     begun = Counter[int]()
     futures: dict[Future[tuple[str, str]], Run] = {}

@@ -53,13 +53,7 @@ def processes(count: int | None = None) -> Iterator[Executor]:
 
 @contextmanager
 def on_local_cluster(workers: int | None = None) -> Iterator[Executor]:
-    """Start a dask scheduler and single-threaded workers on this machine.
-
-    Raises
-    ------
-    CaseError
-        If dask is not installed.
-    """
+    """Start a dask scheduler and single-threaded workers on this machine."""
     distributed = _distributed()
     with (
         _environment(),
@@ -76,10 +70,7 @@ def on_local_cluster(workers: int | None = None) -> Iterator[Executor]:
 def on_scheduler(address: str, patience: float = PATIENCE) -> Iterator[Executor]:
     """Connect to the dask scheduler at an address, as ``"tcp://host:8786"``.
 
-    Raises
-    ------
-    CaseError
-        If dask is not installed, or no scheduler answers within `patience`, in s.
+    CaseError if none answers within `patience`, in s.
     """
     with _connected(_distributed(), address, patience) as client:
         if not client.scheduler_info(n_workers=-1)["workers"]:

@@ -64,13 +64,7 @@ class Study(Table):
 
 
 def load_study(path: str | Path) -> tuple[Study, dict[str, Any]]:
-    """Read the file of a study; return it, and the tables of its base case with its settings.
-
-    Raises
-    ------
-    CaseError
-        If a file cannot be read, or what it says is wrong; one line an error.
-    """
+    """Read the file of a study; return it, and the tables of its base case with its settings."""
     path = Path(path)
     tables = read_toml(path, "a study", "a study names a case and says what varies in it")
     if "bodies" in tables and "case" not in tables:
@@ -107,13 +101,8 @@ def _validated(data: dict[str, Any]) -> Study:
 def points(study: Study, data: Mapping[str, Any], most: float = math.inf) -> list[Point]:
     """Return the settings of every run; what is listed last varies first.
 
-    Sampled quantities are read as the base case `data` has them.
-
-    Raises
-    ------
-    CaseError
-        If there are more than `most`, a path is not one or varies twice, values
-        that go together are not equally many, or a range is wrong.
+    Sampled quantities are read as the base case `data` has them. CaseError if there are more than
+    `most`, or the study contradicts itself.
     """
     sample = study.sample
     listed = dict.fromkeys(path for point in study.list for path in point)

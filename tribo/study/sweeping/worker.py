@@ -48,12 +48,7 @@ def carry_out(case: dict[str, Any], path: str, stop: str) -> tuple[str, str]:
 def locked(path: Path) -> Iterator[None]:
     """Hold a lock file; it is created, and removed at the end.
 
-    Raises
-    ------
-    BusyError
-        If another process or thread holds it, or has just released it.
-    OutputError
-        If the file cannot be made.
+    BusyError if another process or thread holds it, or has just released it.
     """
     with open_lock(path) as file:
         if not lock(file.fileno()):
