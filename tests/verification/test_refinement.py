@@ -103,7 +103,7 @@ def test_saves_do_not_keep_steps_from_being_refined(implicit):
 
 
 def test_as_many_steps_at_looser_tolerances_are_no_refinement(monkeypatch):
-    monkeypatch.setattr(refinement, "_looser", lambda config, factor: config)
+    monkeypatch.setattr(refinement, "_changed", lambda config, factor: config)
     study = refine(worn(kinematics=motion(duration=2)))
     assert {estimate.steps.behaviour for estimate in study.estimates} == {"unrefined"}
 

@@ -20,16 +20,13 @@ from typing import Literal
 
 from scipy.optimize import brentq
 
+from tribo.core.rounding import ROUND_OFF
+
 Behaviour = Literal[
     "exact", "converges", "not asymptotic", "oscillates", "scatters", "diverges", "unrefined"
 ]
 
 SAFETY, DOUBTFUL_SAFETY = 1.25, 3.0
-MET = 0.1
-"""Part of the formal order by which the observed one may differ and still be said to meet it."""
-ROUND_OFF = 1e-10
-SCATTER = 0.01
-"""Range of the values, in parts of the largest, that is no sign of divergence."""
 
 
 @dataclass(frozen=True)
@@ -109,12 +106,12 @@ def convergence(
         return doubtful("oscillates")
     order = _observed_order(rough, close, sizes)
     if order is None:
-        if spread <= max(scatter, SCATTER * max(map(abs, values))):
+        if spread <= max(scatter, 0.01 * max(map(abs, values))):
             return doubtful("scatters")
         return Convergence(three, "diverges")
     if not 0.5 * formal_order <= order <= formal_order + 1:
         return doubtful("not asymptotic", order)
-    safety = SAFETY if abs(order - formal_order) <= MET * formal_order else DOUBTFUL_SAFETY
+    safety = SAFETY if abs(order - formal_order) <= 0.1 * formal_order else DOUBTFUL_SAFETY
     gain = (sizes[1] / sizes[2]) ** min(order, formal_order) - 1
     limit = fine - close / gain
     gci = safety * abs(close) / gain / abs(fine) if fine != 0 else None

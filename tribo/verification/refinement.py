@@ -20,7 +20,6 @@ from tribo.verification.problems import run_to_end
 # Above the 1.3 that Celik et al. (2008) ask for, and mild on cases that are coarse already.
 RATIO = 1.5
 FEWEST_CELLS = 20
-GRID_ORDER, STEP_ORDER = 2.0, 1.0
 
 
 @dataclass(frozen=True)
@@ -70,14 +69,8 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
     shortened instead, which stays within their stability limit. Nothing is
     saved on the way, since a save cuts a step short on all levels alike.
 
-    `started` is told what runs before it does; five runs in all.
-
-    Raises
-    ------
-    CaseError
-        If the grid is too coarse to be made coarser.
-    NumericalError
-        If one of the runs fails.
+    `started` is told what runs before it does; five runs in all. CaseError if the grid is too
+    coarse to be made coarser, NumericalError if one of the runs fails.
     """
     cells, stepping = model.grid.cells, model.case.stepping
     if min(cells) < FEWEST_CELLS:
@@ -87,23 +80,23 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
             "grid.cells",
         )
 
-    def run(cells: tuple[int, int], config: Implicit | Explicit) -> Level:
-        what = f"{cells[0]} × {cells[1]} cells, {_step_words(config)}"
+    explicit = isinstance(stepping, Explicit)
+
+    def run(cells: tuple[int, int], factor: float = 1.0) -> Level:
+        how = "shortened" if explicit else "lengthened"
+        what = f"{cells[0]} × {cells[1]} cells, steps {how} by {factor:g}"
         started(what)
         try:
-            return _run(model, cells, config)
+            return _run(model, cells, _changed(stepping, factor))
         except (CaseError, NumericalError) as error:
-            if (cells, config) == (model.grid.cells, stepping):
+            if (cells, factor) == (model.grid.cells, 1.0):
                 raise
             raise NumericalError(f"a run of the study, with {what}: {error}") from error
 
-    base = run(cells, stepping)
-    coarsest, coarser = (run(_coarser(cells, factor), stepping) for factor in (RATIO**2, RATIO))
-    grids = coarsest, coarser, base
-    if isinstance(stepping, Explicit):
-        steps = base, *(run(cells, _finer(stepping, f)) for f in (RATIO, RATIO**2))
-    else:
-        steps = *(run(cells, _looser(stepping, f)) for f in (RATIO**2, RATIO)), base
+    base = run(cells)
+    grids = *(run(_coarser(cells, factor)) for factor in (RATIO**2, RATIO)), base
+    most, more = (run(cells, factor) for factor in (RATIO**2, RATIO))
+    steps = (base, more, most) if explicit else (most, more, base)
     return Refinement(grids, steps, tuple(_estimates(model, grids, steps)))
 
 
@@ -113,11 +106,10 @@ def _coarser(cells: tuple[int, int], factor: float) -> tuple[int, int]:
     return nx, ny
 
 
-def _finer(config: Explicit, factor: float) -> Explicit:
-    return config.model_copy(update={"time_step": config.time_step / factor})
-
-
-def _looser(config: Implicit, factor: float) -> Implicit:
+def _changed(config: Implicit | Explicit, factor: float) -> Implicit | Explicit:
+    """Return explicit steps that are as many times shorter, or implicit ones that are longer."""
+    if isinstance(config, Explicit):
+        return config.model_copy(update={"time_step": config.time_step / factor})
     # The depth error of a step grows as its square, the pressure's in proportion.
     update = {
         "depth_tolerance": config.depth_tolerance * factor**2,
@@ -125,12 +117,6 @@ def _looser(config: Implicit, factor: float) -> Implicit:
         "settle": config.settle * factor,
     }
     return config.model_copy(update=update)
-
-
-def _step_words(config: Implicit | Explicit) -> str:
-    if isinstance(config, Explicit):
-        return f"steps of {config.time_step:.4g} s"
-    return f"pressure_tolerance {config.pressure_tolerance:.3g}"
 
 
 def _run(model: Model, cells: tuple[int, int], config: Implicit | Explicit) -> Level:
@@ -156,8 +142,8 @@ def _estimates(
             continue
         sizes = [1 / level.cells[0] for level in grids], [1 / level.steps for level in steps]
         rough = 2 * RATIO**2 * floor
-        grid = convergence(of_grids, sizes[0], formal_order=GRID_ORDER, scatter=rough)
-        step = convergence(of_steps, sizes[1], formal_order=STEP_ORDER, own=own, scatter=2 * floor)
+        grid = convergence(of_grids, sizes[0], formal_order=2.0, scatter=rough)
+        step = convergence(of_steps, sizes[1], formal_order=1.0, own=own, scatter=2 * floor)
         uncertainty = None
         if grid.uncertainty is not None and step.uncertainty is not None:
             uncertainty = max(grid.uncertainty + step.uncertainty, floor)
