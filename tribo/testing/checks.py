@@ -148,13 +148,10 @@ class Checks(ABC):
 
     def facts_are_text_and_stay(self) -> None:
         """What it states of itself is text by text, and the same each time it is asked."""
-        component = self._make()
-        stated = dict(component.facts())
+        stated, later = (dict(self._make().facts()) for _ in range(2))
         for item in stated.items():
             require(all(isinstance(x, str) for x in item), f"facts() holds {item}; write text")
-        for asked in (component, self._make()):
-            later = dict(asked.facts())
-            require(later == stated, f"facts() gave {stated}, and then {later}")
+        require(later == stated, f"facts() gave {stated}, and then {later}")
 
     def declared_fields_have_units(self) -> None:
         """Each field that it declares has an SI unit and a description."""

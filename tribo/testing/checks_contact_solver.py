@@ -178,7 +178,7 @@ class ContactSolverChecks(Checks):
 
     def pressure_stays_below_the_cap(self) -> None:
         """The cap limits the pressure, the load is carried, and overlap is where the cap acts."""
-        self._apply_if_capped()
+        apply_if(self._make().honours_cap, "honours_cap is False")
         cap = 0.6 * float(np.max(self._plain.pressure))
         solution = self._solve(cap=cap)
         require(np.max(solution.overlap) > 0, "nothing overlaps although the cap acts")
@@ -204,9 +204,6 @@ class ContactSolverChecks(Checks):
         left = GRID.mesh[0] + np.zeros(GRID.cells) < 0
         halves = self._solve(cap=cap, caps=np.where(left, 0.8 * cap, cap))
         require(np.max(halves.pressure) > 0.9 * cap, "no point bears more than the lowest cap")
-
-    def _apply_if_capped(self) -> None:
-        apply_if(self._make().honours_cap, "honours_cap is False")
 
     def no_mode_is_stiffer_than_stated(self) -> None:
         """The smallest compliance is no more than the contact shows to a chequerboard."""

@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from tribo.core.arrays import Array
+from tribo.core.fields import Field
 from tribo.core.units import quantities
 from tribo.guards.answers import initial, rate_of
 from tribo.testing import samples
@@ -100,12 +101,7 @@ class LocalChecks(Checks):
     def states_keep_their_limits(self) -> None:
         """At a limit of a state field, its rate does not lead beyond."""
         component = self._make()
-        limited = [
-            (field, limit, sign)
-            for field in component.state_fields
-            for limit, sign in ((field.at_least, -1.0), (field.at_most, 1.0))
-            if limit is not None
-        ]
+        limited = [each for each in _sides(component) if each[1] is not None]
         apply_if(limited, "no state field has a limit")
         for given in self._samples(component):
             for field, limit, sign in limited:
@@ -155,12 +151,7 @@ class LocalChecks(Checks):
     def states_do_not_run_away(self) -> None:
         """A state without a limit does not grow the faster the more there is of it."""
         component = self._make()
-        free = [
-            (field.name, sign)
-            for field in component.state_fields
-            for limit, sign in ((field.at_least, -1.0), (field.at_most, 1.0))
-            if limit is None
-        ]
+        free = [(field.name, sign) for field, limit, sign in _sides(component) if limit is None]
         apply_if(free, "each state field has limits, or there is none")
         for given in self._samples(component):
             for name, sign in free:
@@ -208,6 +199,15 @@ class LocalChecks(Checks):
                     if first_difference(answers, self._call(component, other)):
                         idle = idle - {name}
         require(not idle, f"{', '.join(sorted(idle))}: no answer changes by 1 % more of it")
+
+
+def _sides(component: Any) -> list[tuple[Field, Any, float]]:
+    """Return each state field with its lower and its upper limit, and on which side that is."""
+    return [
+        (field, limit, sign)
+        for field in component.state_fields
+        for limit, sign in ((field.at_least, -1.0), (field.at_most, 1.0))
+    ]
 
 
 def _at(given: Any, name: str, value: float) -> Any:
