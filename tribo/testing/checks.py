@@ -69,10 +69,6 @@ class Checks(ABC):
         self._others = [*others]
         self._lost = ""
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle what it is made of."""
-        return type(self), (self._config, self._fields, self._others)
-
     @abstractmethod
     def _inputs(self, component: Any, number: int) -> Any:
         """Return new inputs for a call, by number."""

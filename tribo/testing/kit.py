@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import pickle
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from types import MappingProxyType
 from typing import Any, Literal
 
@@ -304,28 +302,13 @@ def outcome_of(checks: Checks, name: str) -> Outcome:
     if checks._lost:
         return _came(checks, name, "failed", checks._lost)
     try:
-        found: Outcome | None = child().call(_outcome_there, pickle.dumps(checks), name)
-    except (Unknown, pickle.PicklingError, AttributeError, TypeError):
+        outcome: Outcome = child().call(_outcome, checks, name)
+    except Unknown:
         return _outcome(checks, name)
     except Lost as error:
         checks._lost = f"{error}, as no call of a component may; nothing more is tried"
         return _came(checks, name, "failed", checks._lost)
-    return found or _outcome(checks, name)
-
-
-def _outcome_there(checks: bytes, name: str) -> Outcome | None:
-    """Make one check; None of a class that is not found, as one of a script."""
-    try:
-        made = _unpacked(checks)
-    except (AttributeError, ImportError):
-        return None
-    return _outcome(made, name)
-
-
-@lru_cache(maxsize=1)
-def _unpacked(checks: bytes) -> Checks:
-    found: Checks = pickle.loads(checks)
-    return found
+    return outcome
 
 
 def _outcome(checks: Checks, name: str) -> Outcome:
