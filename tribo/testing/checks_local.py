@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise, product
 from typing import Any, ClassVar
 
@@ -17,7 +18,7 @@ from tribo.guards.answers import initial, rate_of
 from tribo.testing import samples
 from tribo.testing.ageing import aged
 from tribo.testing.checks import Checks
-from tribo.testing.compare import apply_if, first_difference, locked, require
+from tribo.testing.compare import apply_if, first_difference, jump, locked, require
 from tribo.testing.rescaling import renewed, units_of
 
 _RUNGS = 33
@@ -124,27 +125,18 @@ class LocalChecks(Checks):
                 return [np.asarray(found[key]) for key in sorted(found) if _is_rate(found[key])]
 
             values = given.state[field.name]
-            ladder = np.linspace(float(np.min(values)), float(np.max(values)), _RUNGS)
-            at = [answers(value) for value in ladder] if ladder[0] < ladder[-1] else []
+            ladder = np.linspace(float(np.min(values)), float(np.max(values)), _RUNGS).tolist()
+            span = ladder[-1] - ladder[0]
+            at = [answers(value) for value in ladder] if span > 0 else []
             for number, rungs in enumerate(zip(*at, strict=True)):
                 size = max(float(np.max(np.abs(each))) for each in rungs)
                 steps = [float(np.max(np.abs(b - a))) for a, b in pairwise(rungs)]
-                first = int(np.argmax(steps))
-                low, high = float(ladder[first]), float(ladder[first + 1])
-                below, above = rungs[first], rungs[first + 1]
-                for _ in range(40):
-                    middle = 0.5 * (low + high)
-                    half = answers(middle)[number]
-                    if np.max(np.abs(half - below)) > np.max(np.abs(above - half)):
-                        high, above = middle, half
-                    else:
-                        low, below = middle, half
-                left = float(np.max(np.abs(above - below)))
-                near = 1e-6 * (ladder[-1] - ladder[0])
-                known = any(low - near <= each <= high + near for each in field.breaks)
+                low, high = ladder[int(np.argmax(steps)) :][:2]
+                where, left = jump(partial(_numbered, answers, number), low, high)
+                known = any(abs(each - where) <= 1e-6 * span for each in field.breaks)
                 require(
                     known or left <= 1e-6 * size,
-                    f"as {field.name!r} passes {high:.6g} {field.unit} an answer jumps by "
+                    f"as {field.name!r} passes {where:.6g} {field.unit} an answer jumps by "
                     f"{left:.3g}, of up to {size:.3g}; declare that with its field, as breaks",
                 )
 
@@ -221,6 +213,10 @@ def _is_given(config: Any, name: str) -> bool:
     field, value = type(config).model_fields[name], getattr(config, name)
     marked = any(quantities(field))
     return marked and isinstance(value, float) and value not in (0, field.default)
+
+
+def _numbered(answers: Callable[[float], list[Array]], number: int, value: float) -> Array:
+    return answers(value)[number]
 
 
 def _is_rate(values: Any) -> bool:

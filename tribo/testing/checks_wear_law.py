@@ -18,7 +18,7 @@ from tribo.guards.parts import GuardedLaw
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
 from tribo.testing.checks_local import LocalChecks
-from tribo.testing.compare import apply_if, expect_close, locked, require
+from tribo.testing.compare import apply_if, expect_close, jump, locked, require
 
 _SHAPE = (7, 6)
 # Not an order of magnitude apart, so that a pressure between two is like both.
@@ -107,17 +107,16 @@ class WearLawChecks(LocalChecks):
             depth = self._at(law, number, _LADDER).depth_rate
             rise = np.abs(np.diff(depth, axis=0)) / np.maximum(depth[1:], 1e-300)
             at, point = np.unravel_index(int(np.argmax(rise)), rise.shape)
-            low, high = float(_LADDER[at, 0]), float(_LADDER[at + 1, 0])
-            for _ in range(40):
-                three = np.array([[low], [0.5 * (low + high)], [high]])
-                depths = self._at(law, number, three).depth_rate[:, point]
-                first, second = np.abs(np.diff(depths))
-                low, high = three[1:, 0] if second > first else three[:2, 0]
-            left = max(first, second)
+
+            def wears(p: float, number: int = number, point: Any = point) -> Array:
+                return np.asarray(self._at(law, number, np.array([[p]])).depth_rate[0, point])
+
+            where, left = jump(wears, *map(float, _LADDER[at : at + 2, 0]))
+            size = float(np.max(depth[at : at + 2, point]))
             require(
-                left <= 1e-6 * float(np.max(depths)),
-                f"at p = {low:.6g} Pa{self._when(number)} the depth per metre jumps from "
-                f"{depths[0]:.6g} to {depths[-1]:.6g}",
+                left <= 1e-6 * size,
+                f"at p = {where:.6g} Pa{self._when(number)} the depth per metre jumps by "
+                f"{left:.6g}, of up to {size:.6g}",
             )
 
     def depth_grows_with_pressure(self) -> None:

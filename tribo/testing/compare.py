@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from typing import TypeVar
 
@@ -70,6 +70,19 @@ def _same(one: object, other: object) -> bool:
         same_kind = one.shape == other.shape and one.dtype == other.dtype
         return same_kind and one.tobytes() == other.tobytes()
     return bool(one == other) or bool(one != one and other != other)  # NaN is itself here
+
+
+def jump(answer: Callable[[float], Array], low: float, high: float) -> tuple[float, float]:
+    """Return where between two values an answer changes most at last, and by how much."""
+    below, above = answer(low), answer(high)
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        half = answer(middle)
+        if np.max(np.abs(half - below)) > np.max(np.abs(above - half)):
+            high, above = middle, half
+        else:
+            low, below = middle, half
+    return high, float(np.max(np.abs(above - below)))
 
 
 def expect_close(what: str, found: Array, needed: Array, tolerance: float) -> None:
