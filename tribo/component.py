@@ -131,7 +131,6 @@ class Component(Table, ABC):
         return hash((type(self), *(value for _, value in self)))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the class and its configuration."""
         return type(self).model_validate, (dict(self),)
 
     def facts(self) -> Mapping[str, str]:

@@ -240,7 +240,6 @@ class _Iterate:
         return True
 
     def _leaves(self, pressure: Array) -> Mask:
-        """Find the positions at which a pressure leaves the bounds."""
         return np.asarray((pressure.min(CELLS) < 0) | (pressure > self.limit).any(CELLS))
 
     def spectral_step(self) -> None:
@@ -260,7 +259,6 @@ class _Iterate:
             self.lengthen = not self.lengthen
 
     def switch(self) -> None:
-        """Hand over to the other method."""
         self.conjugate = not self.conjugate
         self.direction = None
         self.rate = 1.0 / float(self.symbol.max())

@@ -75,13 +75,10 @@ class _PointLoad:
         self._integral = scipy.interpolate.CubicSpline(r, values * r).antiderivative()
 
     def green(self, r: Array) -> Array:
-        """Return g(r)."""
         near = np.minimum(r, self._last)
-        value: Array = np.where(r > near, self._tail / np.maximum(r, self._last), self._green(near))
-        return value
+        return np.where(r > near, self._tail / np.maximum(r, self._last), self._green(near))
 
     def integral(self, r: Array) -> Array:
-        """Return ∫ g r dr from 0."""
         near = np.minimum(r, self._last)
         value: Array = self._integral(near) + self._tail * (r - near)
         return value
@@ -90,12 +87,12 @@ class _PointLoad:
 _point_load = lru_cache(maxsize=32)(_PointLoad)
 
 
-def _panels(reach: float, points: int = 16) -> tuple[Array, Array]:
+def _panels(reach: float) -> tuple[Array, Array]:
     """Return nodes and weights on [0, _END]: narrow near 0, and a few waves of J0 at most."""
     edges = [0.0]
     while edges[-1] < _END:
         edges.append(min(edges[-1] + min(0.01 + 0.5 * edges[-1], 16 / reach, 2.0), _END))
-    nodes, weights = np.polynomial.legendre.leggauss(points)
+    nodes, weights = np.polynomial.legendre.leggauss(16)
     starts, widths = np.array(edges[:-1])[:, None], np.diff(edges)[:, None]
     return (starts + 0.5 * widths * (1 + nodes)).ravel(), (0.5 * widths * weights).ravel()
 

@@ -122,7 +122,6 @@ _cached = lru_cache(maxsize=32)(HalfSpace)
 
 
 def _anywhere(cells: Mask) -> Mask:
-    """Find the cells of the window that are set at any position."""
     return np.asarray(cells.reshape(-1, *cells.shape[-2:]).any(axis=0))
 
 

@@ -37,20 +37,10 @@ def displacement(x: Array, y: Array, spacing: tuple[float, float]) -> Array:
 
 
 def wrapped_kernel(shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
-    """Love's displacement at cell offsets, in the order a circular convolution needs.
+    """Return Love's displacement at cell offsets, in the order a circular convolution needs.
 
-    Parameters
-    ----------
-    shape : tuple of int
-        Cells of the (padded) transform along x and y. Entry (i, j) belongs to
-        the offset (min(i, nx − i), min(j, ny − j)) in cells.
-    spacing : tuple of float
-        Edge lengths of a cell along x and y, in m.
-
-    Returns
-    -------
-    ndarray, shape `shape`
-        Displacement for p = 1 and E* = 1, in m; even in both offsets.
+    Entry (i, j) belongs to the offset (min(i, nx − i), min(j, ny − j)) in cells, of a (padded)
+    transform of `shape` (nx, ny); it is for p = 1 and E* = 1, in m.
     """
     halves = [n // 2 + 1 for n in shape]
     # Neighbouring cells share corners, and no corner has X = 0 or Y = 0.

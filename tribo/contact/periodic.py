@@ -25,22 +25,11 @@ from tribo.core.contact import (
 
 
 class PeriodicHalfSpace:
-    """Elastic half-space under a pressure that repeats beyond the window.
+    """Elastic half-space under a pressure that repeats beyond the window; given as a `HalfSpace`.
 
     A mode of wavenumber q displaces the surface by 2/(E* q) per pressure, the
     mean pressure by nothing: displacements count from their mean. Between the
     cells' centres the pressure is the trigonometric polynomial through them.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Cells (nx, ny) of the window.
-    spacing : tuple of float
-        Edge lengths of a cell along x and y, in m.
-    modulus : float
-        Contact modulus E*, in Pa; with coatings that of what lies at the surface.
-    coatings : tuple of Coating, optional
-        Elastic layers on the half-spaces.
 
     References
     ----------

@@ -19,26 +19,12 @@ def over(values: Array) -> Array:
 
 
 def project(pressure: Array, total: Array, limit: Array | float, cells: Mask) -> Array:
-    """Return the nearest pressure within [0, limit] whose sum is `total`.
+    """Return the nearest pressure within [0, limit] whose sum is `total`, at each position.
 
-    That is clip(p + μ, 0, limit) with the μ that carries the load.
-
-    Parameters
-    ----------
-    pressure : ndarray, shape (nx, ny) or (positions, nx, ny)
-        Any values, in Pa.
-    total : ndarray, shape () or (positions,)
-        Wanted sum over the box, in Pa.
-    limit : float or ndarray, of the shape of the pressure
-        Largest pressure, in Pa; may be infinite.
-    cells : ndarray of bool, of the shape of the pressure
-        Cells that may change; the others must lie within the bounds already
-        and must leave a load that `cells` can carry.
-
-    Returns
-    -------
-    ndarray
-        A new array; its sum equals `total` to round-off.
+    That is clip(p + μ, 0, limit) with the μ that carries the load. Pressure and limit, in Pa, have
+    the shape (nx, ny) or (positions, nx, ny); the limit may be one number, or infinite. Of the
+    `cells` that may not change the pressure lies within the bounds, and leaves a load that the
+    others can carry.
     """
     moved = np.empty_like(pressure)
     for place in np.ndindex(pressure.shape[:-2]):
@@ -96,7 +82,6 @@ def _shift(values: Array, target: float, limit: Array | float) -> float:
 
 
 def _inner(pressure: Array, limit: Array | float) -> Mask:
-    """Find the cells strictly within the bounds."""
     inner: Mask = pressure > 0
     if limits(limit):
         inner &= pressure < limit

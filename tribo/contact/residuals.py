@@ -55,27 +55,11 @@ def judged(
 ) -> list[Residuals]:
     """Judge a pressure against the conditions of contact, at one position or several.
 
-    Parameters
-    ----------
-    pressure : ndarray, shape (nx, ny) or (positions, nx, ny)
-        Within [0, limit], in Pa.
-    gap : ndarray, of the same shape
-        Undeformed gap, in m.
-    displacement : ndarray, of the same shape
-        A p, in m.
-    approach : ndarray, shape () or (positions,)
-        In m.
-    total : ndarray, shape () or (positions,)
-        Wanted sum of the pressure, in Pa.
-    limit : float or ndarray, of the same shape
-        Largest pressure, in Pa; may be infinite.
-
-    Returns
-    -------
-    list of Residuals
-        By position. Their scale is the largest displacement under pressure, or the range of
-        the gap there if that is more; so it is positive for two flats as well.
-        An open gap under pressure at the limit counts against complementarity.
+    Pressure, gap and displacement have the shape (nx, ny) or (positions, nx, ny), the approach and
+    the wanted sum of the pressure a value for each position; the limit may be infinite. The scale
+    of the residuals is the largest displacement under pressure, or the range of the gap there if
+    that is more; so it is positive for two flats as well. An open gap under pressure at the limit
+    counts against complementarity.
     """
     touching = pressure > 0
     deformed = gap + displacement

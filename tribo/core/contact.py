@@ -84,15 +84,7 @@ class CycleCompliance:
     mirrored: bool = False
 
     def depth(self, pressure: Array, dx: float) -> Array:
-        """Return the depth worn under `pressure` at each position, in m.
-
-        Parameters
-        ----------
-        pressure : ndarray, shape (positions, nx, ny)
-            In Pa.
-        dx : float
-            Length of a cell; the depth does not depend on it.
-        """
+        """Return the depth worn under `pressure` (positions, nx, ny); it does not depend on dx."""
         first, count = self.rows.start, self.rows.stop - self.rows.start
         starts = [rows for _, rows in self.bodies]
         worn = [np.zeros_like(compliance) for compliance, _ in self.bodies]

@@ -138,7 +138,6 @@ def _is_number(cell: str) -> bool:
 
 
 def _only_table(file: Path) -> NDArray[Any]:
-    """Return the one table of numbers in an HDF5 file."""
     with open_hdf5(file) as source:
         tables = [each for each in contained(source) if each.ndim == 2]
         if len(tables) != 1:

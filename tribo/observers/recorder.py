@@ -175,7 +175,6 @@ class Recorder(Observer):
         self._last_save = snapshot.state.time
 
     def _finish_part(self) -> None:
-        """Write what was added since the last part."""
         part = {**part_of(self._steps), **part_of(self._saves)}
         if not part:
             return

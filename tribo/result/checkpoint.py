@@ -257,7 +257,6 @@ def _load(path: Path) -> dict[str, Any]:
 
 
 def _checkpoint(data: dict[str, Any]) -> Checkpoint:
-    """Return a checkpoint from plain data."""
     try:
         state = data.pop("state")
         return Checkpoint(
@@ -280,5 +279,4 @@ def _checkpoint(data: dict[str, Any]) -> Checkpoint:
 
 
 def _contact(data: dict[str, Any]) -> ContactSolution:
-    """Return a solved contact from plain data."""
     return ContactSolution(residuals=Residuals(**data.pop("residuals")), **data)

@@ -150,7 +150,6 @@ def _named_modules() -> tuple[tuple[list[str], metadata.Distribution], ...]:
 
 
 def _distribution(module: str) -> metadata.Distribution | None:
-    """Return the distribution that a module came with."""
     # An editable installation lists no packages, but its entry points name modules. Of
     # distributions that share a namespace, that of the longest common path is meant.
     parts = module.split(".")
