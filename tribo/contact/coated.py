@@ -47,8 +47,7 @@ def base_kernel(
             part[: near[0], : near[1]] = _exact(load, near, spacing)
         quarter += part
     i, j = (np.minimum(np.arange(n), n - np.arange(n)) for n in shape)
-    wrapped: Array = quarter[np.ix_(i, j)]
-    return wrapped
+    return np.asarray(quarter[np.ix_(i, j)])
 
 
 class _PointLoad:
@@ -80,8 +79,7 @@ class _PointLoad:
 
     def integral(self, r: Array) -> Array:
         near = np.minimum(r, self._last)
-        value: Array = self._integral(near) + self._tail * (r - near)
-        return value
+        return np.asarray(self._integral(near) + self._tail * (r - near))
 
 
 _point_load = lru_cache(maxsize=32)(_PointLoad)
@@ -106,8 +104,7 @@ def _by_gauss(load: _PointLoad, cells: Iterable[int], spacing: tuple[float, floa
         for b, wb in zip(nodes, weights, strict=True):
             away = np.hypot((x + 0.5 * spacing[0] * a)[:, None], y + 0.5 * spacing[1] * b)
             total += 0.25 * wa * wb * load.green(away)
-    integral: Array = total * spacing[0] * spacing[1]
-    return integral
+    return total * spacing[0] * spacing[1]
 
 
 def _exact(load: _PointLoad, cells: Iterable[int], spacing: tuple[float, float]) -> Array:
@@ -123,5 +120,4 @@ def _exact(load: _PointLoad, cells: Iterable[int], spacing: tuple[float, float])
             angle = 0.5 * widest * (1 + node)
             corner += 0.5 * widest * weight * load.integral(s / np.cos(angle))
     corner *= np.sign(x) * np.sign(y)
-    over_cells: Array = np.diff(np.diff(corner, axis=0), axis=1)
-    return over_cells
+    return np.diff(np.diff(corner, axis=0), axis=1)

@@ -192,5 +192,4 @@ def _displacement_bound(touching: Mask, spacing: tuple[float, float], strength: 
         loaded = line[touching.any(axis=1 - axis)]
         reach.append(np.maximum(np.abs(line - loaded[0]), np.abs(line - loaded[-1])))
     distance = np.hypot(np.hypot(reach[0][:, None], reach[1]), np.hypot(*spacing) / np.sqrt(12))
-    bound: Array = strength / (np.pi * distance)
-    return bound
+    return np.asarray(strength / (np.pi * distance))

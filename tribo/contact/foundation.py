@@ -90,8 +90,7 @@ class _Springs:
 
     def pressure(self, approach: float, line_loads: Array) -> Array:
         depth = approach - self.gap - self.swept * line_loads
-        clipped: Array = np.clip(depth / self.softness, 0.0, self.limit)
-        return clipped
+        return np.asarray(np.clip(depth / self.softness, 0.0, self.limit))
 
     def line_loads(self, approach: float) -> tuple[Array, Array]:
         """Return the line load per row, in N/m, and its derivative by the approach."""

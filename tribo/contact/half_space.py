@@ -55,11 +55,13 @@ class HalfSpace:
         kernel = wrapped_kernel(whole, spacing)
         # An even kernel has a real spectrum.
         self._spectrum = scipy.fft.rfft2(kernel).real / modulus
-        periodic = scipy.fft.rfft2(_folded(kernel, shape, spacing)).real
+        (nx, ny), twice = shape, (2 * shape[0], 2 * shape[1])
+        near = kernel if whole == twice else wrapped_kernel(twice, spacing)
+        # On the box with its nearest images, each counted once.
+        periodic = scipy.fft.rfft2(near.reshape(2, nx, 2, ny).sum(axis=(0, 2))).real
         if coatings:
-            twice = 2 * shape[0], 2 * shape[1]
             self._spectrum += scipy.fft.rfft2(base_kernel(whole, spacing, coatings)).real
-            near = base_kernel(twice, spacing, coatings).reshape(2, shape[0], 2, shape[1])
+            near = base_kernel(twice, spacing, coatings).reshape(2, nx, 2, ny)
             periodic += modulus * scipy.fft.rfft2(near.sum(axis=(0, 2))).real
         # The spectrum of a kernel that is cut off oscillates, and could become negative; the
         # bound keeps the preconditioner definite on any box.
@@ -108,14 +110,4 @@ class HalfSpace:
 
     def symbol(self) -> Array:
         """Return the eigenvalues of the periodic operator with the same near field."""
-        symbol: Array = self._symbol.copy()
-        return symbol
-
-
-def _folded(kernel: Array, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
-    """Return the kernel on a box with its nearest images, each counted once."""
-    nx, ny = shape
-    if kernel.shape != (2 * nx, 2 * ny):
-        kernel = wrapped_kernel((2 * nx, 2 * ny), spacing)
-    folded: Array = kernel.reshape(2, nx, 2, ny).sum(axis=(0, 2))
-    return folded
+        return np.asarray(self._symbol.copy())

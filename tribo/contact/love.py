@@ -48,8 +48,7 @@ def wrapped_kernel(shape: tuple[int, int], spacing: tuple[float, float]) -> Arra
     y = (np.arange(halves[1] + 1, dtype=np.float64) - 0.5) * spacing[1]
     quarter = np.diff(np.diff(_corner(x[:, None], y[None, :]), axis=0), axis=1) / np.pi
     i, j = (np.minimum(np.arange(n), n - np.arange(n)) for n in shape)
-    wrapped: Array = quarter[np.ix_(i, j)]
-    return wrapped
+    return np.asarray(quarter[np.ix_(i, j)])
 
 
 @lru_cache(maxsize=64)

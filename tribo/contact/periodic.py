@@ -60,8 +60,7 @@ class PeriodicHalfSpace:
         """Return the displacement under `pressure`; see `Operator.apply`."""
         modes = scipy.fft.rfft2(pressure)
         modes *= self._spectrum
-        displacement: Array = scipy.fft.irfft2(modes, s=self.shape, overwrite_x=True)
-        return displacement
+        return np.asarray(scipy.fft.irfft2(modes, s=self.shape, overwrite_x=True))
 
     def symbol(self) -> Array:
         """Return the eigenvalues, with the largest in place of the mean's, which is 0."""

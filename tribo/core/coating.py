@@ -53,5 +53,4 @@ class Coating:
         decay = np.exp(-2 * xi)
         above = 4 * xi * kap * decay - lam * kap * decay**2
         below = -(lam + kap + 4 * kap * xi**2) * decay + lam * kap * decay**2
-        influence: Array = (above - below) / (1 + below)
-        return influence
+        return (above - below) / (1 + below)

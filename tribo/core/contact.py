@@ -41,8 +41,7 @@ class WearCompliance:
 
     def depth(self, pressure: Array, dx: float) -> Array:
         """Return the depth worn under `pressure` (nx, ny) on cells `dx` long, in m."""
-        depth: Array = self.local * pressure + self.swept * (dx * np.sum(pressure, axis=0))
-        return depth
+        return np.asarray(self.local * pressure + self.swept * (dx * np.sum(pressure, axis=0)))
 
     def on(self, box: Box) -> WearCompliance:
         """Return what of it lies on a box."""

@@ -47,8 +47,7 @@ class Cylinder(Surface):
                 "make grid.size smaller"
             )
         arc = -(across**2) / (radius + np.sqrt(radius**2 - across**2))
-        height: Array = np.broadcast_to(arc, grid.cells).copy()
-        return height
+        return np.broadcast_to(arc, grid.cells).copy()
 
     @property
     def curvature(self) -> tuple[float, float] | None:

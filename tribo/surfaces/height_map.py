@@ -83,8 +83,7 @@ class HeightMap(Laid):
         ]
         at = np.meshgrid(*places, indexing="ij")
         # Half a cell of the map lies beyond its outermost centres.
-        relief: Array = scipy.ndimage.map_coordinates(given, at, order=1, mode="nearest")
-        return relief
+        return np.asarray(scipy.ndimage.map_coordinates(given, at, order=1, mode="nearest"))
 
 
 def _mm(size: tuple[float, float]) -> str:

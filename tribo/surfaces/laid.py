@@ -24,8 +24,7 @@ class Laid(Surface):
 
     def height(self, grid: Grid) -> Array:
         """Return the height of both."""
-        height: Array = self.on.height(grid) + self.relief(grid)
-        return height
+        return self.on.height(grid) + self.relief(grid)
 
     def smoothed(self) -> Surface:
         """Return the surface that the relief lies on."""

@@ -59,5 +59,4 @@ class Pin(Surface):
         t = np.minimum(beyond, self.edge)
         # −t²/(e + √(e² − t²)) is √(e² − t²) − e without its cancellation.
         arc = -(t**2) / (self.edge + np.sqrt(self.edge**2 - t**2))
-        height: Array = arc - STEEP * (beyond - t)
-        return height
+        return arc - STEEP * (beyond - t)

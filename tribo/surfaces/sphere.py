@@ -34,8 +34,7 @@ class Sphere(Surface):
                 f"{1e3 * grid.size[0]:.4g} × {1e3 * grid.size[1]:.4g} mm; make grid.size smaller"
             )
         # −r²/(R + √(R² − r²)) is √(R² − r²) − R without its cancellation.
-        height: Array = -r2 / (radius + np.sqrt(radius**2 - r2))
-        return height
+        return -r2 / (radius + np.sqrt(radius**2 - r2))
 
     @property
     def curvature(self) -> tuple[float, float]:
