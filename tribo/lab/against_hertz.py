@@ -98,15 +98,8 @@ def computed_pressure(
 ) -> tuple[float, str]:
     """Return the computed pressure to compare with Hertz's and the onset of yield, and its words.
 
-    The peak of a point contact, and the pressure of a line contact at mid-length: where a
-    cylinder ends on a half-space the pressure is singular.
-
-    Parameters
-    ----------
-    system : ContactSystem
-        The bodies in contact.
-    max_pressure, centre_pressure : float
-        As computed, in Pa.
+    In Pa: the peak of a point contact, and the pressure of a line contact at mid-length, for
+    where a cylinder ends on a half-space the pressure is singular.
     """
     hertz = hertz_contact(system)
     if hertz is None or not hertz.is_line:
@@ -125,17 +118,7 @@ def in_mpa(pressure: float) -> str:
 
 
 def yield_words(pressure: float, hardness: float, contact: HertzContact) -> str:
-    """Say whether the softer body yields under a peak pressure of a Hertz contact.
-
-    Parameters
-    ----------
-    pressure : float
-        In Pa; see `computed_pressure`.
-    hardness : float
-        Of the softer body, in Pa; see `tribo.closed_forms.hertz.first_yield_pressure`.
-    contact : HertzContact
-        Hertz's contact of the bodies.
-    """
+    """Say whether the softer body, of this hardness, yields under a `computed_pressure`, in Pa."""
     loads = f"P/P_yield {contact.load_ratio:.2g}"
     if pressure >= (1 - ROUND_OFF) * hardness:
         return f"the softer body yields from the start ({loads}): the pressure is its hardness"
