@@ -125,10 +125,6 @@ def load_at_peak(modulus: float, peak_pressure: float, curvature: float) -> floa
     return pi**3 * peak_pressure**3 / (6 * modulus**2 * curvature**2)
 
 
-POINT_YIELD, LINE_YIELD = 1.60, 1.79
-"""Peak pressure over the yield stress where yield begins, for ν = 0.3."""
-
-
 def first_yield_pressure(hardness: float, *, line: bool = False) -> float:
     """Return the Hertzian peak pressure, in Pa, at which yield begins below the surface.
 
@@ -145,7 +141,7 @@ def first_yield_pressure(hardness: float, *, line: bool = False) -> float:
     Mises' criterion 1.79 Y for a cylinder (ν = 0.3); section 6.3: fully plastic indentation
     at H ≈ 2.8 Y.
     """
-    return (LINE_YIELD if line else POINT_YIELD) * hardness / 2.8
+    return (1.79 if line else 1.60) * hardness / 2.8
 
 
 def _require_positive(**values: float) -> None:
