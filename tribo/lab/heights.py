@@ -18,8 +18,6 @@ from tribo.registry.registry import default_registry
 
 OWN = (".npy", ".csv", ".txt", ".h5", ".hdf5")
 """Files that are read without a plugin; they state no scale."""
-OTHER_PITCH = 1e-3
-"""Relative difference of a pitch given from that of the file, which is told."""
 FEWEST = 16
 BLUR = 2.0
 """Width of the Gaussian that maps are smoothed by, in pixels."""
@@ -122,7 +120,7 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
         else:
             found = _by_plugin(path)
             heights, pitch = found.heights, pitch or found.pitch
-            if any(abs(a / b - 1) > OTHER_PITCH for a, b in zip(pitch, found.pitch, strict=True)):
+            if not np.allclose(pitch, found.pitch, rtol=1e-3, atol=0):
                 own, given = (
                     " × ".join(f"{1e6 * p:.4g}" for p in each) for each in (found.pitch, pitch)
                 )
