@@ -60,17 +60,12 @@ class Heights:
                 f"heights of shape {shape} are no map: {FEWEST} × {FEWEST} at least are needed, a "
                 "row for each x with a height for each y"
             )
-        if infinite := np.count_nonzero(np.isinf(self.heights)):
-            raise CaseError(
-                f"{infinite} of its {self.heights.size} heights are infinite; put NaN where "
-                "nothing was measured"
-            )
         if not np.any(np.isfinite(self.heights)):
             raise CaseError("every height of the map is missing; measure again, or mask less")
         if not min(self.pitch) > 0:
             raise CaseError(f"a pitch of {self.pitch} m is none; give one above 0")
         known, width = self.heights[~np.isnan(self.heights)], max(self.grid.size)
-        absurd = known[np.abs(known - np.median(known)) > width]
+        absurd = known[np.abs(known - np.median(known[np.isfinite(known)])) > width]
         if len(absurd):
             raise CaseError(
                 f"{len(absurd)} of its {self.heights.size} heights lie further from their median "
