@@ -10,9 +10,6 @@ import click
 from tribo.cli.options import PATH
 from tribo.templates import TEMPLATES, template
 
-HOOK = "tribo_templates"
-
-
 _LISTED = "\n".join(f"  {name:14} {summary}" for name, summary in TEMPLATES.items())
 HELP = f"""Write a commented case, study or measurements from TEMPLATE to FILE; - prints it.
 
@@ -38,7 +35,7 @@ def new(name: str | None, file: Path | None, force: bool) -> None:
     from tribo.core.writing import check_new, write_file
     from tribo.registry.registry import choose
 
-    plugged = None if name in TEMPLATES else choose(HOOK, name, "template", TEMPLATES)
+    plugged = None if name in TEMPLATES else choose("tribo_templates", name, "template", TEMPLATES)
     text = plugged.text if plugged else template(name)
     if file is None:
         raise click.UsageError("Missing argument 'FILE'; - prints the template.")
