@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
+from copy import deepcopy
 from dataclasses import fields, is_dataclass, replace
 from functools import cache
 from tempfile import TemporaryDirectory
-from types import MappingProxyType
 from typing import Any
 
-import numpy as np
 from pydantic import PrivateAttr
 
 from tribo.case import Output
@@ -43,7 +42,7 @@ class ObserverChecks(Checks):
         raise NotApplicable("an observer answers nothing")
 
     def _inputs(self, component: Any, number: int) -> tuple[RunInfo, list[Snapshot]]:
-        run, *snapshots = _copied(_watched()[: 4 + number])
+        run, *snapshots = deepcopy(_watched()[: 4 + number])
         return run, snapshots
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
@@ -66,25 +65,27 @@ class ObserverChecks(Checks):
         _show(self._make(), run, (), "failed")
         resumed = replace(run, resumed_from=snapshots[1], wall_time=5.0)
         _show(self._make(), resumed, snapshots[2:])
-        names = dict(zip(BODIES, ("upper", "lower"), strict=True))
-        _show(self._make(), *locked(_copied((run, snapshots), names)))
+        _show(self._make(), *locked(_renamed(run, snapshots)))
         observer = self._make()
         for _ in range(2):
             _show(observer, run, snapshots)
 
 
-def _copied(value: Any, names: Mapping[str, str] = MappingProxyType({})) -> Any:
-    """Return a copy of what a run shows, in which bodies may have other names."""
-    if isinstance(value, Mapping):
-        return {names.get(key, key): _copied(inner, names) for key, inner in value.items()}
-    if isinstance(value, list | tuple):
-        return type(value)(_copied(inner, names) for inner in value)
-    if is_dataclass(value) and not isinstance(value, type):
-        own = {f.name: _copied(getattr(value, f.name), names) for f in fields(value) if f.init}
-        return replace(value, **own)
-    if isinstance(value, np.ndarray):
-        return value.copy()
-    return names.get(value, value) if isinstance(value, str) else value
+def _renamed(run: RunInfo, snapshots: Sequence[Snapshot]) -> Any:
+    """Return a run and what it showed with bodies of other names."""
+    names = dict(zip(BODIES, ("upper", "lower"), strict=True))
+
+    def renamed(value: Any) -> Any:
+        if isinstance(value, Mapping):
+            return {names.get(key, key): renamed(inner) for key, inner in value.items()}
+        if isinstance(value, list | tuple):
+            return type(value)(map(renamed, value))
+        if is_dataclass(value) and not isinstance(value, type):
+            parts = {f.name: renamed(getattr(value, f.name)) for f in fields(value) if f.init}
+            return replace(value, **parts)
+        return names.get(value, value) if isinstance(value, str) else value
+
+    return renamed(run), renamed(snapshots)
 
 
 @cache
