@@ -11,7 +11,6 @@ from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from copy import deepcopy
 from dataclasses import fields, is_dataclass, replace
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -37,7 +36,7 @@ class Audience:
             self._started.append(observer)
 
     def step(self, snapshot: Snapshot, *, save: bool) -> None:
-        """Tell of an accepted step, and of the save that it may be."""
+        """Tell of an accepted step, and of the save that it may be; all get the same view."""
         shown = _view(snapshot)
         for observer in self._observers:
             guard = Guard(observer)
@@ -51,10 +50,9 @@ class Audience:
         Where the run itself did not come to its end, what one raises is only warned of.
         """
         # The recorder comes last, so that nothing another one raises costs a result.
-        shown = _view(snapshot)
         with ExitStack() as finishing:
             for observer in self._started:
-                finishing.callback(_finish, observer, shown, reason)
+                finishing.callback(_finish, observer, _view(snapshot), reason)
 
 
 def _finish(observer: Observer, snapshot: Snapshot, reason: str) -> None:
@@ -67,13 +65,13 @@ def _finish(observer: Observer, snapshot: Snapshot, reason: str) -> None:
 
 
 def _view(value: Any) -> Any:
-    """Return `value` with read-only arrays, mappings and sequences, however deep."""
+    """Return `value` with read-only arrays, and containers of its own, however deep."""
     if isinstance(value, np.ndarray):
         return readonly(value)
     if isinstance(value, Mapping):
-        return MappingProxyType({name: _view(each) for name, each in value.items()})
+        return {name: _view(each) for name, each in value.items()}
     if isinstance(value, tuple | list):
-        return tuple(map(_view, value))
+        return type(value)(map(_view, value))
     if is_dataclass(value) and not isinstance(value, type):
         return replace(value, **{f.name: _view(getattr(value, f.name)) for f in fields(value)})
     return value
