@@ -131,15 +131,15 @@ from tribo.stepping.evolution import Course as Course
 from tribo.stepping.evolution import course as course
 from tribo.stepping.evolution import kept_in as kept_in
 from tribo.stepping.evolution import with_loads as with_loads
-from tribo.stepping.integrator import Kept as Kept
 from tribo.stepping.integrator import Part as Part
 from tribo.stepping.integrator import Stretch as Stretch
-from tribo.stepping.integrator import Sum as Sum
 from tribo.stepping.integrator import Values as Values
 from tribo.stepping.integrator import retraced as retraced
 from tribo.stepping.integrator import transposed as transposed
 from tribo.stepping.interval import Interval as Interval
 from tribo.stepping.interval import Moment as Moment
+from tribo.stepping.kept import Kept as Kept
+from tribo.stepping.kept import Sum as Sum
 from tribo.stepping.memory import Memory as Memory
 from tribo.stepping.memory import first_memory as first_memory
 from tribo.stepping.memory import own as own

@@ -6,7 +6,8 @@ from scipy.special import lambertw
 
 from tribo.core.errors import BadValues
 from tribo.stepping.division import integrated
-from tribo.stepping.integrator import Kept, Sum, retraced, transposed
+from tribo.stepping.integrator import retraced, transposed
+from tribo.stepping.kept import Kept, Sum
 
 ANY = Kept("a", "a test")
 ONE = np.ones((1, 1))

@@ -10,7 +10,8 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import BadValues
-from tribo.stepping.integrator import Kept, Part, Rates, Sum, Values, apart, part_of, solved
+from tribo.stepping.integrator import Part, Rates, Values, apart, part_of, solved
+from tribo.stepping.kept import Kept, Sum
 
 ACCURACY = 3e-5
 """Error of an increment, summed over the cells, relative to what it integrates."""
@@ -226,7 +227,7 @@ class _Problem:
         if not self.repeated:
             # Trials held to a limit agree with each other, whatever the state goes to.
             off = max(off, *map(part_of, taken.beyond, sizes), 0.0)
-            off = max(off, *map(part_of, taken.unseen(along, last), sizes), 0.0)
+            off = max(off, *map(part_of, _unseen(taken, along, last), sizes), 0.0)
         passed = taken.passed()
         if off <= accuracy < math.inf and taken.last is None:
             # At a place where points pass breaks, rates jump as is known; elsewhere all may then.
@@ -263,6 +264,36 @@ def _looser(plan: Division) -> Division:
     if LOOSER * plan.accuracy <= LOOSEST:
         return replace(plan, accuracy=LOOSER * plan.accuracy)
     return Division(((1 / MOST_PARTS, False),) * MOST_PARTS, math.inf)
+
+
+def _unseen(part: Part, rates: Rates, last: Values) -> list[float]:
+    """Return how far off each state may be where it passes a break, summed over the cells.
+
+    Rates change on the way there and from there, of which a step knows nothing: they are asked
+    on this side of the break, and at the end of the step. `last` are those at the end of all.
+    """
+    off, row = [0.0] * len(part.kept), part.rows[-1]
+    for taken, pieces in enumerate(row):
+        if not pieces[0].ended:
+            continue
+        end = last if taken + 1 == len(row) else row[taken + 1][0].rates
+        for piece in pieces:
+            change = [np.abs(a - b) for a, b in zip(end, piece.rates, strict=True)]
+            if piece is pieces[0]:
+                change = [np.zeros_like(each) for each in change]
+            states = piece.stepped(part.kept, part.relaxing)
+            for at, (here, number) in piece.ended.items():
+                near = np.nextafter(part.kept[at].end(number), piece.states[at])
+                states[at] = np.where(here, near, states[at])
+            found = rates(states, taken / len(row)) if piece.ended else []
+            for at, (here, _) in piece.ended.items():
+                for other, of in enumerate(part.kept):
+                    if of.place == part.kept[at].place:
+                        own = np.abs(found[other] - piece.rates[other])
+                        change[other] = np.where(here, own, change[other])
+            for at, of in enumerate(part.kept):
+                off[at] += 0.5 * float(np.sum(change[at] * piece.spans[of.place]))
+    return off
 
 
 def _samples(part: Part) -> list[Values]:

@@ -14,8 +14,8 @@ from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.core.state import State
 from tribo.stepping.division import Division, integrated
 from tribo.stepping.evolution import accumulated
-from tribo.stepping.integrator import Sum
 from tribo.stepping.interval import Moment, interval_from
+from tribo.stepping.kept import Sum
 from tribo.stepping.memory import Memory, remembered, under
 from tribo.stepping.rates import local_fields
 

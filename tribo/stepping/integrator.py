@@ -5,134 +5,24 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from itertools import chain
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tribo.core.arrays import Array, Mask
+from tribo.stepping.kept import Field, Kept, Numbers, Sum
+from tribo.stepping.relaxation import bending, growth, lasting
 
 NUDGE = 3e-5
 """Part of a state by which it is moved to find how fast it relaxes, and how that changes."""
-SMALL = 1e-4
-"""Rise below which the derivative of its mean is that of its series."""
 EXACT = 1e-12
 """Relative difference, summed over the cells, of what is the same but for rounding."""
 PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
 """Euler steps of the rows of the extrapolation, without and with the relaxation of the states."""
 
 Values = list[Array]
-Numbers = NDArray[np.intp]
-Field = Array | float
 Rates = Callable[[Sequence[Array], float], Values]
 """Rates of states, and after them of sums, at states and at a share of a part."""
-
-
-@dataclass(frozen=True)
-class Kept:
-    """What the integrator must know of a state.
-
-    Parameters
-    ----------
-    name, owner : str
-        What messages call it, and whose it is.
-    least, most : float
-        Its limits: its rate vanishes where it comes to one.
-    breaks : tuple of float
-        Values at which rates jump, rising; at one itself they are those above it.
-    place : str
-        States that lie at the same place pass breaks together.
-    """
-
-    name: str
-    owner: str = ""
-    least: float = -math.inf
-    most: float = math.inf
-    breaks: tuple[float, ...] = ()
-    place: str = ""
-
-    def __str__(self) -> str:
-        return f"{self.name!r} of {self.owner}"
-
-    @cached_property
-    def ends(self) -> Array | None:
-        """The limits, with the breaks between them; None where there are none."""
-        ends = np.array([self.least, *self.breaks, self.most])
-        return ends if np.any(np.isfinite(ends)) else None
-
-    def hold(self, values: Array) -> Array:
-        """Return values held to the limits."""
-        if math.isinf(self.least) and math.isinf(self.most):
-            return values
-        return np.clip(values, self.least, self.most)
-
-    def aside(self, values: Array, nudge: Field) -> Array:
-        """Return values moved up by a nudge, or down where a limit or a break lies between."""
-        if self.ends is None:
-            return values + nudge
-        above = self.ends[np.searchsorted(self.breaks, values, side="right") + 1]
-        crosses = np.where(above == self.most, values + nudge > above, values + nudge >= above)
-        return np.where(crosses, values - nudge, values + nudge)
-
-    def changes(self, values: Array, others: Array) -> bool:
-        """Whether a break or a limit lies between values and others."""
-        if self.ends is None:
-            return False
-        if np.any((others <= self.least) & (others < values)):
-            return True
-        if np.any((others >= self.most) & (others > values)):
-            return True
-        if not self.breaks:
-            return False
-        one, other = (np.searchsorted(self.breaks, each, side="right") for each in (values, others))
-        return not np.array_equal(one, other)
-
-    def end(self, number: Numbers) -> Array:
-        """Return breaks by their numbers, and the limits by those before and after them."""
-        assert self.ends is not None
-        return self.ends[number + 1]
-
-    def next(self, values: Array, rate: Array, slope: Field) -> tuple[Array, Numbers, Array]:
-        """Return the break or limit that each value comes to next, its number, and when.
-
-        That is never where it comes to none. The rate follows the state by `slope`. Below a break
-        that it comes to from above, a value is the next number below it.
-        """
-        number = np.searchsorted(self.breaks, values, side="right") - (rate <= 0)
-        end = self.end(number)
-        inner = (number >= 0) & (number < len(self.breaks))
-        room = end - values
-        # At a limit a state stays; at a break it may turn down at once.
-        ahead = np.where(rate > 0, room >= 0, (rate < 0) & (room <= 0))
-        far = np.isfinite(end) & ahead & (inner | (room != 0))
-        time = np.divide(room, rate, out=np.full(values.shape, np.inf), where=far)
-        if np.any(slope):
-            with np.errstate(divide="ignore", invalid="ignore"):
-                rise = slope * time
-                later = np.where(rise > -1, np.log1p(rise) / slope, np.inf)
-            time = np.where(far & (np.asarray(slope) < 0), later, time)
-        below: Array = np.nextafter(end, -np.inf)
-        return np.where(inner & (rate < 0), below, end), number, time
-
-
-@dataclass(frozen=True)
-class Sum:
-    """What is only integrated, by rates that hold as long as those of states at a place.
-
-    `see` takes what is known there to where the sum lies. Without a place they hold for all of a
-    step.
-    """
-
-    place: str | None = None
-    see: Callable[[Array], Array] | None = None
-
-    def span(self, spans: Mapping[str, Field], step: float) -> Field:
-        """Return for how long its rates hold."""
-        if self.place is None:
-            return step
-        span = spans.get(self.place, step)
-        return self.see(span) if self.see and isinstance(span, np.ndarray) else span
 
 
 @dataclass(frozen=True)
@@ -212,35 +102,6 @@ class Part:
     def end(self) -> Values:
         """States and sums at its end."""
         return _extrapolated(self.ends, [len(row) for row in self.rows])
-
-    def unseen(self, rates: Rates, last: Values) -> list[float]:
-        """Return how far off each state may be where it passes a break, summed over the cells.
-
-        Rates change on the way there and from there, of which a step knows nothing: they are asked
-        on this side of the break, and at the end of the step. `last` are those at the end of all.
-        """
-        off, row = [0.0] * len(self.kept), self.rows[-1]
-        for taken, pieces in enumerate(row):
-            if not pieces[0].ended:
-                continue
-            end = last if taken + 1 == len(row) else row[taken + 1][0].rates
-            for piece in pieces:
-                change = [np.abs(a - b) for a, b in zip(end, piece.rates, strict=True)]
-                if piece is pieces[0]:
-                    change = [np.zeros_like(each) for each in change]
-                states = piece.stepped(self.kept, self.relaxing)
-                for at, (here, number) in piece.ended.items():
-                    near = np.nextafter(self.kept[at].end(number), piece.states[at])
-                    states[at] = np.where(here, near, states[at])
-                found = rates(states, taken / len(row)) if piece.ended else []
-                for at, (here, _) in piece.ended.items():
-                    for other, of in enumerate(self.kept):
-                        if of.place == self.kept[at].place:
-                            own = np.abs(found[other] - piece.rates[other])
-                            change[other] = np.where(here, own, change[other])
-                for at, of in enumerate(self.kept):
-                    off[at] += 0.5 * float(np.sum(change[at] * piece.spans[of.place]))
-        return off
 
     def passed(self) -> dict[tuple[int, int], float]:
         """Return by state and break the first share of it at which a point rises to the break."""
@@ -528,7 +389,7 @@ def _back(
     for seed, rate, slope, each in zip(states, rates, part.relaxing, part.kept, strict=False):
         span = piece.spans[each.place]
         given.append(seed * lasting(span, slope))
-        left[each.place] = left.get(each.place, 0.0) + seed * rate * _growth(span, slope)
+        left[each.place] = left.get(each.place, 0.0) + seed * rate * growth(span, slope)
     for at, slope in enumerate(part.relaxing):
         if np.ndim(slope):
             span = piece.spans[part.kept[at].place]
@@ -541,7 +402,7 @@ def _back(
         kept, slope, rate = part.kept[at], part.relaxing[at], rates[at]
         span = piece.spans[kept.place]
         by_span = left[kept.place] - times.get(kept.place, 0.0)
-        speed = rate * _growth(span, slope)
+        speed = rate * growth(span, slope)
         far = np.divide(
             np.broadcast_to(by_span, rate.shape), speed, out=np.zeros(rate.shape), where=here
         )
@@ -555,32 +416,6 @@ def _back(
             breaks[at] = breaks.get(at, 0.0) + np.where(number == numbers, at_break, 0.0)
         left[kept.place] = np.where(here, times.get(kept.place, 0.0), left[kept.place])
     return states, given, left
-
-
-def _growth(span: Field, slope: Field) -> Field:
-    """Return the derivative of `lasting` in the span."""
-    return np.exp(slope * np.asarray(span)) if np.any(slope) else 1.0
-
-
-def relaxed(rise: Field) -> Array:
-    """Return the mean of a rate that changes e-fold exp(rise) over a step: (exp(rise) − 1)/rise."""
-    rise = np.asarray(rise)
-    return np.divide(np.expm1(rise), rise, out=np.ones_like(rise), where=rise != 0)
-
-
-def lasting(step: Field, slope: Field) -> Field:
-    """Return how much a step counts for where the rate follows its own state by this slope."""
-    return step * relaxed(step * slope) if np.any(slope) else step
-
-
-def bending(step: Field, slope: Field) -> Field:
-    """Return the derivative of `lasting` in the slope."""
-    if not np.any(slope):
-        return 0.0
-    rise = np.asarray(step * slope)
-    small = np.abs(rise) < SMALL
-    safe = np.where(small, 1.0, rise)
-    return step**2 * np.where(small, 0.5 + rise / 3, (np.exp(safe) - relaxed(safe)) / safe)
 
 
 def relaxation(

@@ -1,0 +1,122 @@
+"""What is integrated along an increment: states with their limits and breaks, and sums."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribo.core.arrays import Array
+
+Numbers = NDArray[np.intp]
+Field = Array | float
+
+
+@dataclass(frozen=True)
+class Kept:
+    """What the integrator must know of a state.
+
+    Parameters
+    ----------
+    name, owner : str
+        What messages call it, and whose it is.
+    least, most : float
+        Its limits: its rate vanishes where it comes to one.
+    breaks : tuple of float
+        Values at which rates jump, rising; at one itself they are those above it.
+    place : str
+        States that lie at the same place pass breaks together.
+    """
+
+    name: str
+    owner: str = ""
+    least: float = -math.inf
+    most: float = math.inf
+    breaks: tuple[float, ...] = ()
+    place: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.name!r} of {self.owner}"
+
+    @cached_property
+    def ends(self) -> Array | None:
+        """The limits, with the breaks between them; None where there are none."""
+        ends = np.array([self.least, *self.breaks, self.most])
+        return ends if np.any(np.isfinite(ends)) else None
+
+    def hold(self, values: Array) -> Array:
+        """Return values held to the limits."""
+        if math.isinf(self.least) and math.isinf(self.most):
+            return values
+        return np.clip(values, self.least, self.most)
+
+    def aside(self, values: Array, nudge: Field) -> Array:
+        """Return values moved up by a nudge, or down where a limit or a break lies between."""
+        if self.ends is None:
+            return values + nudge
+        above = self.ends[np.searchsorted(self.breaks, values, side="right") + 1]
+        crosses = np.where(above == self.most, values + nudge > above, values + nudge >= above)
+        return np.where(crosses, values - nudge, values + nudge)
+
+    def changes(self, values: Array, others: Array) -> bool:
+        """Whether a break or a limit lies between values and others."""
+        if self.ends is None:
+            return False
+        if np.any((others <= self.least) & (others < values)):
+            return True
+        if np.any((others >= self.most) & (others > values)):
+            return True
+        if not self.breaks:
+            return False
+        one, other = (np.searchsorted(self.breaks, each, side="right") for each in (values, others))
+        return not np.array_equal(one, other)
+
+    def end(self, number: Numbers) -> Array:
+        """Return breaks by their numbers, and the limits by those before and after them."""
+        assert self.ends is not None
+        return self.ends[number + 1]
+
+    def next(self, values: Array, rate: Array, slope: Field) -> tuple[Array, Numbers, Array]:
+        """Return the break or limit that each value comes to next, its number, and when.
+
+        That is never where it comes to none. The rate follows the state by `slope`. Below a break
+        that it comes to from above, a value is the next number below it.
+        """
+        number = np.searchsorted(self.breaks, values, side="right") - (rate <= 0)
+        end = self.end(number)
+        inner = (number >= 0) & (number < len(self.breaks))
+        room = end - values
+        # At a limit a state stays; at a break it may turn down at once.
+        ahead = np.where(rate > 0, room >= 0, (rate < 0) & (room <= 0))
+        far = np.isfinite(end) & ahead & (inner | (room != 0))
+        time = np.divide(room, rate, out=np.full(values.shape, np.inf), where=far)
+        if np.any(slope):
+            with np.errstate(divide="ignore", invalid="ignore"):
+                rise = slope * time
+                later = np.where(rise > -1, np.log1p(rise) / slope, np.inf)
+            time = np.where(far & (np.asarray(slope) < 0), later, time)
+        below: Array = np.nextafter(end, -np.inf)
+        return np.where(inner & (rate < 0), below, end), number, time
+
+
+@dataclass(frozen=True)
+class Sum:
+    """What is only integrated, by rates that hold as long as those of states at a place.
+
+    `see` takes what is known there to where the sum lies. Without a place they hold for all of a
+    step.
+    """
+
+    place: str | None = None
+    see: Callable[[Array], Array] | None = None
+
+    def span(self, spans: Mapping[str, Field], step: float) -> Field:
+        """Return for how long its rates hold."""
+        if self.place is None:
+            return step
+        span = spans.get(self.place, step)
+        return self.see(span) if self.see and isinstance(span, np.ndarray) else span
