@@ -236,17 +236,27 @@ def solved(
         rows.append(row)
         ends.append([*states, *totals])
         if shortens and steps == 2 and all(map(_same, *ends)):
-            pieces = [*chain.from_iterable(chain.from_iterable(rows))]
-            passing = {kept[at].place for piece in pieces for at in piece.ended}
-            places = [*(of.place for of in kept), *(of.place for of in sums)]
             last = rates(states, 1.0)
-            if all(
-                of in passing or _same(one, other)
-                for of, one, other in zip(places, first, last, strict=True)
+            passes = any(piece.ended for of in rows for each in of for piece in each)
+            constant = zip(sums, first[len(kept) :], last[len(kept) :], strict=True)
+            # A sum at the place of a state is as that is.
+            if all(map(_same, _ending(kept, row[-1]), last)) and all(
+                _same(one, other) for of, one, other in constant if not (passes and of.place)
             ):
-                rows, ends = (rows, ends) if passing else (rows[:1], ends[:1])
+                rows, ends = (rows, ends) if passes else (rows[:1], ends[:1])
                 return Part(kept, slopes, rows, ends, ends[-1], beyond, last)
     return Part(kept, slopes, rows, ends, _extrapolated(ends[1:], stages[1:]), beyond)
+
+
+def _ending(kept: Sequence[Kept], pieces: Sequence[Stretch]) -> Values:
+    """Return the rates of states that hold as a step ends."""
+    ending = pieces[0].rates[: len(kept)]
+    for piece in pieces[1:]:
+        ending = [
+            np.where(np.asarray(piece.spans[of.place]) > 0, rate, before)
+            for of, rate, before in zip(kept, piece.rates, ending, strict=False)
+        ]
+    return ending
 
 
 def _same(one: Array, other: Array) -> bool:
