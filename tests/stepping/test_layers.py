@@ -407,9 +407,20 @@ def test_a_law_that_is_told_the_depth_worn_does_what_a_layer_does():
     alone = layered.model_copy(update={"bodies": {**layered.bodies, "pin": pin}})
     one, other = ended(layered), ended(alone)
     assert one[0]["bodies"] == other[0]["bodies"]
-    assert one[1] == other[1]
     for count in ("steps", "contact_solves", "solver_iterations"):
         assert one[2][count] == other[2][count]
+
+
+def test_a_break_of_the_law_of_a_layer_is_passed_and_is_no_layer():
+    case = Case.model_validate(flat(pin=coated(hardness="20 GPa"), distance=150))
+    pin = case.bodies["pin"]
+    layer = pin.layers[0].model_copy(update={"wear": Coating(thickness=1e-6)})
+    pin = pin.model_copy(update={"layers": (layer,), "wear": Archard(k=10 * K)})
+    last, found = passed(case.model_copy(update={"bodies": {**case.bodies, "pin": pin}}))
+    through = (1e-6 + 0.1e-6) / (K * PRESSURE)
+    assert found == [pytest.approx(through, rel=1e-9)]
+    exact = COATING + 10 * K * PRESSURE * (150 - through)
+    assert last["bodies"]["pin"]["max_wear_depth_m"] == pytest.approx(exact, rel=1e-9, abs=0)
 
 
 def test_layers_are_written_in_python():

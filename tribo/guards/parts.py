@@ -57,6 +57,9 @@ class GuardedSurface(Guard[Surface]):
 class GuardedLaw(Guard[WearLaw]):
     """A wear law that suits its body's material, and the initial values of its state fields."""
 
+    bottoms: tuple[float, ...] = ()
+    """Those of the body's layers, in m."""
+
     def __init__(self, law: WearLaw, body: str, material: Material) -> None:
         super().__init__(law, body)
         self.material = material
@@ -67,7 +70,7 @@ class GuardedLaw(Guard[WearLaw]):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """The depths worn at which its rate jumps, as at the bottoms of layers, in m."""
+        """The depths worn at which its rate jumps, in m."""
         depth = (field for field in self.state_fields if field.name == WORN_DEPTH.name)
         return next(depth, WORN_DEPTH).breaks
 

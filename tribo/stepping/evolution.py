@@ -41,7 +41,7 @@ class Course:
     plan : Division
         How it is divided for that to be accurate.
     passed : Mapping[str, Mapping[int, float]]
-        By body and layer the first share of it at which a point is worn through that.
+        By body and break of its depth the first share of it at which a point comes to that.
     """
 
     rates: CycleRates

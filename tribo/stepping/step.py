@@ -176,11 +176,12 @@ def _worn_through(
     """Yield a finding for each layer that a body's deepest point passes in a step, when it does."""
     for name, law in model.laws.wear.items():
         was, worn = float(np.max(before.bodies[name].wear)), float(np.max(after[name].wear))
-        for layer, bottom in enumerate(law.breaks):
+        for layer, bottom in enumerate(law.bottoms, start=1):
             reached = bottom * (1 - ROUND_OFF)
             if was < reached <= worn:
-                distance = interval.at(slid.passed.get(name, {}).get(layer, 1.0)).distance
-                passed = layer_worn_through(name, layer + 1, bottom)
+                share = slid.passed.get(name, {}).get(law.breaks.index(bottom), 1.0)
+                distance = interval.at(share).distance
+                passed = layer_worn_through(name, layer, bottom)
                 yield passed.at(model.motion.time_at(distance), distance)
 
 

@@ -38,9 +38,9 @@ def _hardness(model: Model, bodies: Mapping[str, BodyState], position: int) -> d
     """Return the hardness of what is at each body's surface, shape (nx, ny), in Pa."""
     found = {}
     for name, hardness in model.contact.hardness.items():
-        breaks = model.laws.wear[name].breaks if name in model.laws.wear else ()
+        bottoms = model.laws.wear[name].bottoms if name in model.laws.wear else ()
         worn = np.broadcast_to(
             model.cycle.maps[name].see(bodies[name].wear, position), model.grid.cells
         )
-        found[name] = np.array(hardness)[np.searchsorted(breaks, worn, side="right")]
+        found[name] = np.array(hardness)[np.searchsorted(bottoms, worn, side="right")]
     return found

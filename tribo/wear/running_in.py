@@ -131,7 +131,7 @@ class Smoothing(ModifiedLaw):
     def _left(self, local: LocalConditions) -> Array:
         """Return the part of the roughness above Sq∞ that is left.
 
-        A step that is only tried may have smoothed more than there was; it wears at 1/f at least.
+        A step that is only tried may have smoothed more than there was; it wears all the same.
         """
         left = (local.state[ROUGHNESS.name] - self.settled) / (self.roughness - self.settled)
         return np.maximum(left, -1 / max(self.factor, 1.0))

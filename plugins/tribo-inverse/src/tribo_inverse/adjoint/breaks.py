@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 from tribo import WORN_DEPTH, Array, CaseError, LocalConditions, WearRate
-from tribo.kernel_api import DEPTH_ACCURACY, GuardedLaw, Model
+from tribo.kernel_api import DEPTH_ACCURACY, GuardedLaw, Memory, Model, kept_in
 
 
 class SidedLaw(GuardedLaw):
@@ -16,7 +16,7 @@ class SidedLaw(GuardedLaw):
     def __init__(self, law: GuardedLaw, breaks: Sequence[float]) -> None:
         vars(self).update(vars(law))
         self._law, self._own = law, np.array([-np.inf, *law.breaks, np.inf])
-        if hasattr(law, "bottoms"):
+        if law.bottoms:
             self.bottoms = tuple(breaks)
         self.state_fields = tuple(
             replace(each, breaks=tuple(breaks)) if each.name == WORN_DEPTH.name else each
@@ -31,9 +31,22 @@ class SidedLaw(GuardedLaw):
         return self._law.rate(replace(local, state={**local.state, WORN_DEPTH.name: told}))
 
 
-def moved_breaks(model: Model, base: Model, name: str) -> Array:
-    """Return by how much deeper the rate of a body's law jumps in a model, in m."""
-    return np.subtract(model.laws.wear[name].breaks, base.laws.wear[name].breaks)
+def moved_breaks(model: Model, base: Model, before: Memory, state: int) -> Array:
+    """Return by how much higher the breaks of a state, by number, are in a model.
+
+    Raises
+    ------
+    CaseError
+        If it is another state than a depth worn.
+    """
+    own, other = (kept_in(each, before)[state] for each in (base, model))
+    moved = np.subtract(other.breaks, own.breaks)
+    if own.name != WORN_DEPTH.name and np.any(moved):
+        raise CaseError(
+            f"moves the breaks of {own}; a gradient goes through those of layers alone",
+            f"bodies.{own.place}.wear" if own.place in model.case.bodies else "effects",
+        )
+    return moved
 
 
 def with_breaks(model: Model, base: Model, names: Sequence[str]) -> dict[str, GuardedLaw]:
@@ -48,7 +61,7 @@ def with_breaks(model: Model, base: Model, names: Sequence[str]) -> dict[str, Gu
     for name, law in laws.items():
         breaks = base.laws.wear[name].breaks
         if law.breaks != breaks:
-            if law.breaks != getattr(law, "bottoms", None):
+            if law.breaks != law.bottoms or getattr(law, "follows_depth", False):
                 raise CaseError(
                     f"moves the depths at which the rate of {law} jumps; a gradient goes through "
                     "those of layers alone, of laws that do not follow the depth",

@@ -132,7 +132,7 @@ class Remembering:
         asks = other.asks & laws.keys() or self.stages.loads_change
         total = (longer - 1) * along.by_length
         for at, by in along.breaks.items():
-            deeper = moved_breaks(other.model, self.stages.model, self.stages.limits[at].place)
+            deeper = moved_breaks(other.model, self.stages.model, self.stages.slid.before, at)
             total += sum(float(np.sum(of)) * far for of, far in zip(by, deeper, strict=True))
         rates, moves = along.found, other.carriers is not self.stages.carriers
         if asks:
