@@ -230,13 +230,28 @@ def test_debris_comes_to_where_it_flows_off_as_it_comes(length):
     assert last[0, 0] == pytest.approx(float(lambertw(2).real), rel=3e-5)
 
 
+SEEDS = [np.array([each]) for each in ([1.0, -2.0, 0.5], [0.3, 1.0, -1.0], [2.0, 1.0, 1.0])]
+"""Derivatives of an objective in two states, and in a sum."""
+
+
+def weighed(parts):
+    """Return what an objective with these derivatives is at the end of some parts."""
+    ends = [*parts[-1].end[:2], sum(part.end[2] for part in parts)]
+    return sum(float(np.sum(seed * end)) for seed, end in zip(SEEDS, ends, strict=True))
+
+
+def by_state(objective, begin, state, point, nudge):
+    """Return its derivative in one of two states at a point, by a difference."""
+    by = np.zeros((1, 3))
+    by[0, point] = nudge
+    ends = [[*begin], [*begin]]
+    ends[0][state], ends[1][state] = begin[state] + by, begin[state] - by
+    higher, lower = map(objective, ends)
+    return (higher - lower) / (2 * nudge)
+
+
 def test_the_transpose_is_the_derivative():
     begin = [np.array([[0.2, 1.0, 3.0]]), np.array([[0.0, 0.5, 2.0]])]
-    seeds = [
-        np.array([[1.0, -2.0, 0.5]]),
-        np.array([[0.3, 1.0, -1.0]]),
-        np.array([[2.0, 1.0, 1.0]]),
-    ]
     limits, at, asked = [FREE, FREE], {}, list[float]()
 
     def along(number):
@@ -255,10 +270,8 @@ def test_the_transpose_is_the_derivative():
         rates = along(number)
         return retraced(rates, start, rates(start, 0.0), 5.0, limits, ONE_SUM, plan.parts)
 
-    def objective(start, number):
-        done = parts(start, number)
-        ends = [*done[-1].end[:2], sum(part.end[2] for part in done)]
-        return sum(float(np.sum(seed * end)) for seed, end in zip(seeds, ends, strict=True))
+    def objective(start, number=1.5):
+        return weighed(parts(start, number))
 
     def behind(found, given):
         (_, a, b), (of_a, of_b, of_sum) = at[id(found)], given
@@ -266,15 +279,10 @@ def test_the_transpose_is_the_derivative():
         by_a = -(1 + 0.2 * b) * of_a + of_b - np.exp(-a) * b * of_sum
         return [by_a, -0.2 * a * of_a - 4 * of_b + np.exp(-a) * of_sum]
 
-    found = transposed(parts(begin, 1.5), seeds[:2], [(Sum(), seeds[2])], behind).states
+    found = transposed(parts(begin, 1.5), SEEDS[:2], [(Sum(), SEEDS[2])], behind).states
     for state in (0, 1):
         for point in range(3):
-            by = np.zeros((1, 3))
-            by[0, point] = 1e-5
-            ends = [[*begin], [*begin]]
-            ends[0][state], ends[1][state] = begin[state] + by, begin[state] - by
-            higher, lower = (objective(end, 1.5) for end in ends)
-            needed = (higher - lower) / 2e-5
+            needed = by_state(objective, begin, state, point, 1e-5)
             assert found[state][0, point] == pytest.approx(needed, rel=1e-6, abs=1e-8)
     needed = (objective(begin, 1.5 + 1e-5) - objective(begin, 1.5 - 1e-5)) / 2e-5
     assert sum(asked) == pytest.approx(needed, rel=1e-6)
@@ -282,11 +290,6 @@ def test_the_transpose_is_the_derivative():
 
 def test_the_transpose_is_the_derivative_where_breaks_are_passed():
     begin = [np.array([[0.1, 0.45, 0.9]]), np.array([[0.0, 0.5, 2.0]])]
-    seeds = [
-        np.array([[1.0, -2.0, 0.5]]),
-        np.array([[0.3, 1.0, -1.0]]),
-        np.array([[2.0, 1.0, 1.0]]),
-    ]
     k, states = np.array([1.0, 4.0, 0.5]), {}
 
     def along(breaks, factor=1.0):
@@ -307,10 +310,8 @@ def test_the_transpose_is_the_derivative_where_breaks_are_passed():
         first = rates(start, 0.0)
         return retraced(rates, start, first, length, kept, [Sum("")], plan)
 
-    def objective(start, breaks, factor=1.0):
-        done = parts(start, breaks, factor)
-        ends = [*done[-1].end[:2], sum(part.end[2] for part in done)]
-        return sum(float(np.sum(seed * end)) for seed, end in zip(seeds, ends, strict=True))
+    def objective(start, breaks=(0.5, 1.3), factor=1.0):
+        return weighed(parts(start, breaks, factor))
 
     asked = []
 
@@ -322,17 +323,11 @@ def test_the_transpose_is_the_derivative_where_breaks_are_passed():
         return [0.1 * of_worked, -factor * k[here] * np.exp(-worked) * of_rate]
 
     breaks = (0.5, 1.3)
-    found = transposed(parts(begin, breaks), seeds[:2], [(Sum(""), seeds[2])], behind)
+    found = transposed(parts(begin, breaks), SEEDS[:2], [(Sum(""), SEEDS[2])], behind)
     for state in (0, 1):
         for point in range(3):
-            by = np.zeros((1, 3))
-            by[0, point] = 1e-6
-            ends = [[*begin], [*begin]]
-            ends[0][state], ends[1][state] = begin[state] + by, begin[state] - by
-            higher, lower = (objective(end, breaks) for end in ends)
-            assert found.states[state][0, point] == pytest.approx(
-                (higher - lower) / 2e-6, rel=1e-6, abs=1e-7
-            )
+            needed = by_state(objective, begin, state, point, 1e-6)
+            assert found.states[state][0, point] == pytest.approx(needed, rel=1e-6, abs=1e-7)
     for each in (0, 1):
         ends = [[*breaks], [*breaks]]
         ends[0][each] += 1e-6

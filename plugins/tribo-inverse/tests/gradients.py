@@ -235,3 +235,12 @@ def forgotten(method):
         return replace(found, states=[0 * state for state in found.states])
 
     return mutant
+
+
+def unbroken(method):
+    """What follows of where a step ends at a break, left out."""
+
+    def mutant(part, piece, *given, **how):
+        return method(part, replace(piece, ended={}), *given, **how)
+
+    return mutant

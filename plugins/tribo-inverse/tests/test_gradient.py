@@ -25,6 +25,7 @@ from gradients import (
     nothing,
     resolved,
     run,
+    unbroken,
     unfelt,
     without,
     zero,
@@ -95,15 +96,6 @@ def coated(hardness=(None, None)):
 
 OF_COATING = [f"bodies.disk.layers.0.{key}" for key in ("thickness", "young", "poisson")]
 OF_COATING += ["bodies.disk.material.young", "bodies.ball.material.poisson"]
-
-
-def unbroken(method):
-    """What follows of where a step ends at a break, left out."""
-
-    def mutant(part, piece, *given, **how):
-        return method(part, replace(piece, ended={}), *given, **how)
-
-    return mutant
 
 
 def unpressed(method):

@@ -16,6 +16,7 @@ from gradients import (
     layered,
     resolved,
     run,
+    unbroken,
     unfelt,
     without,
     zero,
@@ -373,15 +374,6 @@ def unseen(method):
 
 def as_it_is(method):
     return lambda self, slid, *given: () if rests(slid) else method(self, slid, *given)
-
-
-def unbroken(method):
-    """What follows of where a step ends at a break, left out."""
-
-    def mutant(part, piece, *given, **how):
-        return method(part, replace(piece, ended={}), *given, **how)
-
-    return mutant
 
 
 def rests(slid):
