@@ -31,7 +31,8 @@ class LayeredLaw(GuardedLaw):
         self.bottoms = tuple(accumulate(thicknesses))
         fields, self.initial_state = _state(laws)
         own = {each for law in laws for each in law.breaks}
-        self.follows_depth = any(WORN_DEPTH.name in law.initial_state for law in laws)
+        # Between its breaks it does so where a layer's own law does.
+        self.follows_depth = any(law.follows_depth for law in laws)
         depth = replace(WORN_DEPTH, breaks=tuple(sorted({*self.bottoms, *own})))
         self.state_fields = (*fields, depth)
         self.initial_state[WORN_DEPTH.name] = 0.0

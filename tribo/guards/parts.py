@@ -67,6 +67,7 @@ class GuardedLaw(Guard[WearLaw]):
         self.state_fields = tuple(law.state_fields)
         self.ask(law.check, material)
         self.initial_state = _initial_state(self, law.state_fields, self.ask(law.initial_state))
+        self.follows_depth = WORN_DEPTH.name in self.initial_state
 
     @property
     def breaks(self) -> tuple[float, ...]:

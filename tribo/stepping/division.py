@@ -10,7 +10,15 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import BadValues
-from tribo.stepping.integrator import Part, Rates, Values, apart, part_of, solved
+from tribo.stepping.integrator import (
+    Part,
+    Rates,
+    Values,
+    apart,
+    part_of,
+    places_passing,
+    solved,
+)
 from tribo.stepping.kept import Kept, Sum
 
 ACCURACY = 3e-5
@@ -231,7 +239,7 @@ class _Problem:
         passed = taken.passed()
         if off <= accuracy < math.inf and taken.last is None:
             # At a place where points pass breaks, rates jump as is known; elsewhere all may then.
-            passing = {kept[at].place for piece in taken.pieces for at in piece.ended}
+            passing = places_passing(kept, taken.pieces)
             amounts = [*sizes[:count], *map(np.abs, here.sums)]
             places = [*(of.place for of in kept), *(of.place for of in self.sums)]
             for at, place in enumerate(places):
@@ -278,9 +286,8 @@ def _unseen(part: Part, rates: Rates, last: Values) -> list[float]:
             continue
         end = last if taken + 1 == len(row) else row[taken + 1][0].rates
         for piece in pieces:
-            change = [np.abs(a - b) for a, b in zip(end, piece.rates, strict=True)]
-            if piece is pieces[0]:
-                change = [np.zeros_like(each) for each in change]
+            after = piece.rates if piece is pieces[0] else end
+            change = [np.abs(a - b) for a, b in zip(after, piece.rates, strict=True)]
             states = piece.stepped(part.kept, part.relaxing)
             for at, (here, number) in piece.ended.items():
                 near = np.nextafter(part.kept[at].end(number), piece.states[at])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 
@@ -170,13 +170,18 @@ def stepped(
             left[place] = np.where(rest > EXACT * step, rest, 0.0) if np.ndim(rest) else 0.0
         if not any(map(np.any, left.values())):
             return states, totals, pieces
-        passing = {kept[at].place for each in pieces for at in each.ended}
+        passing = places_passing(kept, pieces)
         found = rates(
             [
                 now if of.place in passing else was
                 for now, was, of in zip(states, start, kept, strict=True)
             ]
         )
+
+
+def places_passing(kept: Sequence[Kept], pieces: Iterable[Stretch]) -> set[str]:
+    """Return the places at which a state comes to a break or a limit in some pieces."""
+    return {kept[at].place for piece in pieces for at in piece.ended}
 
 
 def _coming(
@@ -237,7 +242,7 @@ def solved(
         ends.append([*states, *totals])
         if shortens and steps == 2 and all(map(_same, *ends)):
             last = rates(states, 1.0)
-            passes = any(piece.ended for of in rows for each in of for piece in each)
+            passes = any(piece.ended for of_step in chain(*rows) for piece in of_step)
             constant = zip(sums, first[len(kept) :], last[len(kept) :], strict=True)
             # A sum at the place of a state is as that is.
             if all(map(_same, _ending(kept, row[-1]), last)) and all(
@@ -344,15 +349,14 @@ def transposed(
             deep = [(each, share * seed) for each, seed in sums]
             for pieces in reversed(row):
                 times: dict[str, Field] = {}
-                passing = {part.kept[at].place for each in pieces for at in each.ended}
+                passing = places_passing(part.kept, pieces)
                 elsewhere = [of.place not in passing for of in part.kept]
                 begun: list[Field] = [0.0] * len(after)
                 for piece in reversed(pieces):
                     is_first = piece is pieces[0]
-                    seeds, given, more = _back(
+                    seeds, given, times = _back(
                         part, piece, seeds, deep, times, turns, breaks, is_first=is_first
                     )
-                    times = more
                     if piece.rates is row[0][0].rates:
                         _join(starts, piece.rates, given)
                         continue

@@ -61,7 +61,7 @@ def with_breaks(model: Model, base: Model, names: Sequence[str]) -> dict[str, Gu
     for name, law in laws.items():
         breaks = base.laws.wear[name].breaks
         if law.breaks != breaks:
-            if law.breaks != law.bottoms or getattr(law, "follows_depth", False):
+            if law.follows_depth:
                 raise CaseError(
                     f"moves the depths at which the rate of {law} jumps; a gradient goes through "
                     "those of layers alone, of laws that do not follow the depth",
