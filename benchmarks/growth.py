@@ -61,10 +61,10 @@ def _iterations(cells: int) -> Row:
     elastic, capped = ball(cells), ball(cells, 1000.0, cap=HARDNESS)
     return {
         "cells": cells,
-        "without_nesting": _plain(elastic),
-        "nested": Tribo(elastic, DUTY).solve(elastic.gap).iterations,
-        "capped_without_nesting": _plain(capped),
-        "capped_nested": Tribo(capped, DUTY).solve(capped.gap).iterations,
+        "from_even": _plain(elastic),
+        "own_start": Tribo(elastic, DUTY).solve(elastic.gap).iterations,
+        "capped_from_even": _plain(capped),
+        "capped": Tribo(capped, DUTY).solve(capped.gap).iterations,
     }
 
 

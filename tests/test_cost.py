@@ -73,7 +73,7 @@ def solve():
 @pytest.mark.parametrize(
     ("made", "known"),
     [
-        (solve, 79),
+        (solve, 69),
         (lambda: step(model()), 421),
         (lambda: step(model(positions=33)), 4788),
     ],

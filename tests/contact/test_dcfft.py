@@ -1,4 +1,4 @@
-"""The `dcfft` solver: active window, nested start, symmetry."""
+"""The `dcfft` solver: active window, first guess, symmetry."""
 
 from __future__ import annotations
 

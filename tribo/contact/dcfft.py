@@ -12,7 +12,6 @@ from tribo.contact.bounded_cg import solve_together
 from tribo.contact.elastic import ElasticSolver
 from tribo.contact.half_space import HalfSpace
 from tribo.contact.love import nyquist_compliance
-from tribo.contact.nested_start import coarsen, prolong
 from tribo.contact.operator import Operator, WornOperator
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array, Mask
@@ -24,11 +23,8 @@ from tribo.core.contact import (
     CycleCompliance,
     WearCompliance,
 )
-from tribo.core.errors import NumericalError
 
 _MARGIN = 2
-_COARSEST = 64
-_COARSE_TOLERANCE = 1e-3
 
 
 class DcFft(ElasticSolver):
@@ -65,7 +61,6 @@ class DcFft(ElasticSolver):
         wear: WearCompliance | CycleCompliance | None,
         cap: Array | float | None,
         guess: Array | None,
-        tolerance: float | None = None,
     ) -> list[ContactSolution]:
         """Solve one position or several on a box that grows until nothing overlaps beyond it."""
         load = np.asarray(load)
@@ -84,7 +79,7 @@ class DcFft(ElasticSolver):
                 cap[here] if isinstance(cap, np.ndarray) else cap,
                 None if wear is None else wear.on(box),
                 start=None if guess is None else guess[here],
-                tolerance=tolerance or self.tolerance,
+                tolerance=self.tolerance,
                 max_iterations=self.max_iterations,
             )
             iterations += solutions[0].iterations
@@ -96,21 +91,16 @@ class DcFft(ElasticSolver):
             box = _grown(box, around(missed | _anywhere(guess > 0), _MARGIN))
 
     def _guess(self, problem: ContactProblem) -> Array | None:
-        """Return the pressure on half of the cells, found from that on half of those."""
-        cells = problem.system.grid.cells
-        if min(cells) < _COARSEST:
-            return None
-        coarse = coarsen(problem)
-        system, tolerance = coarse.system, max(_COARSE_TOLERANCE, self.tolerance)
-        guess = self._guess(coarse)
-        try:
-            cap = system.cap if coarse.cap is None else coarse.cap
-            given = coarse.gap, coarse.load, coarse.wear
-            (found,) = self._solve(system, *given, cap, guess, tolerance)
-        except NumericalError:
-            # Without a start the solve takes longer, but may succeed.
-            return None
-        return prolong(found.pressure, cells)
+        """Return Hertz's pressure, as if the gap were that of a ball; None where it is even."""
+        system, gap = problem.system, problem.gap - problem.gap.min()
+        levels = np.sort(gap, axis=None)
+        areas = system.grid.cell_area * np.arange(1, gap.size + 1)
+        # A ball that would overlap by δ, undeformed over an area A, bears 0.94 E* δ √(A/π).
+        loads = system.surface_modulus * levels * np.sqrt(areas / np.pi)
+        approach = levels[min(int(np.searchsorted(loads, problem.load)), gap.size - 1)]
+        # It touches where the gap is less than half of the approach.
+        guess: Array = np.sqrt(np.maximum(0.5 * approach - gap, 0.0))
+        return guess if guess.any() else None
 
 
 def _half_space(shape: tuple[int, int], system: ContactSystem) -> HalfSpace:
