@@ -18,7 +18,7 @@ from common import write
 HERE = Path(__file__).parent
 FIGURES = HERE.parent / "docs" / "_data" / "speed.json"
 OPTIONS = {
-    "contact_solve": ["--peers-up-to", "1024", "--repeats", "3"],
+    "contact_solve": ["--cells", "128", "256", "512", "1024", "--repeats", "3"],
     "hour": [],
     "fft_limit": [],
     "growth": [],

@@ -25,6 +25,8 @@ from tribo.core.contact import (
 )
 
 _MARGIN = 2
+# To what part of it the first guess of an approach is found.
+_ROUGHLY = 0.1
 
 
 class DcFft(ElasticSolver):
@@ -93,11 +95,15 @@ class DcFft(ElasticSolver):
     def _guess(self, problem: ContactProblem) -> Array | None:
         """Return Hertz's pressure, as if the gap were that of a ball; None where it is even."""
         system, gap = problem.system, problem.gap - problem.gap.min()
-        levels = np.sort(gap, axis=None)
-        areas = system.grid.cell_area * np.arange(1, gap.size + 1)
-        # A ball that would overlap by δ, undeformed over an area A, bears 0.94 E* δ √(A/π).
-        loads = system.surface_modulus * levels * np.sqrt(areas / np.pi)
-        approach = levels[min(int(np.searchsorted(loads, problem.load)), gap.size - 1)]
+        low, approach = 0.0, float(gap.max())
+        while approach - low > _ROUGHLY * approach:
+            middle = 0.5 * (low + approach)
+            area = system.grid.cell_area * np.count_nonzero(gap < middle)
+            # What a ball bears that would overlap by so much over this area, undeformed.
+            if 2**1.5 / 3 * system.surface_modulus * middle * np.sqrt(area / np.pi) < problem.load:
+                low = middle
+            else:
+                approach = middle
         # It touches where the gap is less than half of the approach.
         guess: Array = np.sqrt(np.maximum(0.5 * approach - gap, 0.0))
         return guess if guess.any() else None
