@@ -4,16 +4,8 @@ from __future__ import annotations
 
 import math
 
-import scipy
-
 NOTICED = 0.05
 """Excess from which on a run says so."""
-
-GOOD = 0.03
-"""Excess with the stroke that is recommended."""
-
-FAR = 100.0
-"""Longest stroke tried as a remedy, in half-widths."""
 
 
 def groove_excess(
@@ -36,18 +28,13 @@ def groove_excess(
 
     Where both bodies wear alike it is within a point of the runs, and within two where the ball
     wears ten times faster. Where the flat wears ten times faster it states half to one and a half
-    times what is found. Of a ball that does not wear it states up to 2 % where less is found for
-    strokes over 13 half-widths, and 8 % where 21 % is found at 8, with a groove of 5 approaches.
-    Below 4 half-widths it is an estimate: 72 % where 62 % is found at 1.8 with a ball that wears
-    ten times faster, 68 % where 63 % is found at 1, and twice too much at 0.25. Of flat pins it
-    states too much: 7 % where 3 % is found at 11 half-widths.
+    times what is found. Below 4 half-widths it is an estimate: 68 % where 63 % is found at 1, and
+    twice too much at 0.25. Of flat pins it states too much: 7 % where 3 % is found at 11.
 
     A groove that is straight across is as deep at mid-stroke as the average makes it once none of
-    the contacts over that place touch its ends: what it costs falls off exponentially, the further
-    the deeper it is. Beside cylinders resolved along strokes of 4 to 33 half-widths, with grooves
-    of 0.1 to 7 times the approach, the smaller of the two states 0.8 to 3 times what is found
-    where that is over 1 %, of springs up to 4.5 times. Where less than 1 % is found it may still
-    state up to 4 %, and never the other way round.
+    the contacts over that place touch its ends: what it costs falls off exponentially. Beside
+    cylinders resolved along strokes of 4 to 33 half-widths the smaller of the two states 0.8 to 3
+    times what is found where that is over 1 %.
 
     Parameters
     ----------
@@ -88,22 +75,4 @@ def groove_excess(
 
 def too_deep(excess: float) -> str:
     """Say by how much a groove is too deep; an estimate beyond 100 % deserves no digits."""
-    if excess < 1:
-        return f"about {100 * excess:.2g} % too deep"
-    return "more than twice too deep" if excess < 2 else "several times too deep"
-
-
-def good_stroke(
-    stroke: float, half_width: float, depth: float, approach: float, volume_ratio: float, line: bool
-) -> float:
-    """Return the longer stroke (m) with an excess of 3 % over the same sliding distance.
-
-    Parameters as `groove_excess`, which must be more than 3 % here.
-    """
-
-    def excess(longer: float) -> float:
-        # A longer stroke spreads the same wear: its groove is shallower.
-        shallower = depth * stroke / longer
-        return groove_excess(longer, half_width, shallower, approach, volume_ratio, line) - GOOD
-
-    return float(scipy.optimize.brentq(excess, stroke, FAR * half_width, rtol=1e-3))
+    return f"about {100 * excess:.2g} % too deep" if excess < 1 else "more than twice too deep"

@@ -14,7 +14,7 @@ from tribo.core.grid import Grid
 from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.motion.averaging_error import GOOD, NOTICED, good_stroke, groove_excess, too_deep
+from tribo.motion.averaging_error import NOTICED, groove_excess, too_deep
 from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
 from tribo.motion.held import Held, held
@@ -235,18 +235,15 @@ class Reciprocating(Kinematics):
     ) -> str | None:
         """Return what the stroke average costs, once that is more than 5 % of the depth."""
         stroke, widths = self.stroke, self.stroke / half_width_x
-        seen = half_width_x, depth, approach, volume_ratio, line
-        excess = groove_excess(stroke, *seen)
+        excess = groove_excess(stroke, half_width_x, depth, approach, volume_ratio, line)
         if depth <= 0 or excess < NOTICED or not self._averages:
             return None
         many = f"{widths:.2g} half-width" + ("" if f"{widths:.2g}" == "1" else "s")
-        longer = good_stroke(stroke, *seen)
         return (
             f"the groove{f' of {self.swept}' if self.swept else ''} is {too_deep(excess)} at "
             f"mid-stroke, because tribo averages over the stroke ({1e3 * stroke:.3g} mm, {many} of "
-            f"the {2e3 * half_width_x:.3g} mm contact); over the same sliding distance about "
-            f"{100 * GOOD:.0f} % with a stroke of {1e3 * longer:.2g} mm and {stroke / longer:.2g} "
-            "times the frequency; or resolve the stroke by a number of kinematics.positions"
+            f"the {2e3 * half_width_x:.3g} mm contact); resolve the stroke by a number of "
+            "kinematics.positions"
         )
 
     def check_contact(self, half_width_x: float) -> None:
