@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -21,6 +20,7 @@ from tribo.registry.plugins import check_requirements
 from tribo.registry.registry import Registry, default_registry
 
 _LARGEST = 10_000_000
+_WRITING = "text and values with a unit are quoted, as in '5 mm'; decimals follow a point"
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 
 
@@ -55,11 +55,6 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
     Components are looked up in `registry`, the installed plugins if left out. `CaseError`, with a
     line for each error, if anything is wrong.
     """
-    if "bodies" not in data and {"measured", "test", "map"} & data.keys():
-        raise CaseError(
-            "these are measured values, not a case; fit one to them with: "
-            "tribo calibrate CASE --measured FILE"
-        )
     known = registry or default_registry()
     requires = data.get("requires")
     if isinstance(requires, list | tuple):
@@ -76,21 +71,6 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
         if not FEWEST <= cells <= MOST:
             raise CaseError(f"{cells}: must be from {FEWEST} to {MOST}", "grid.cells")
     return case
-
-
-def _quotes(content: bytes, error: ValueError) -> str:
-    """Return a hint on the line of a TOML error: a bare unit, a comma, quotes or brackets."""
-    at = re.search(r"at line (\d+)", str(error))
-    line = content.splitlines()[int(at[1]) - 1].decode() if at else ""
-    if comma := re.search(r"= *([+-]?\d+),(\d+)", line):
-        return f"; decimals follow a point: {comma[1]}.{comma[2]}"
-    bare = re.search(r"([\w.-]+ *= *)([\d.e+-]+ *[A-Za-zµ°][^\"'#,}]*)", line)
-    if bare:
-        return f"; a value with a unit is quoted: {bare[1]}'{bare[2].strip()}'"
-    if "overwrite a value" in str(error) and (key := re.match(r"\s*\[+([\w.]+)\]", line)):
-        return f"; what is given several times stands in double brackets each time, [[{key[1]}]]"
-    open_quote = any(sign in str(error) for sign in (r"'\n'", '"\'"'))
-    return "; is a closing quote missing?" if open_quote or line.count('"') % 2 else ""
 
 
 def case_tables(case: Case | Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
@@ -130,7 +110,7 @@ def read_toml(
         line = content.count(b"\n", 0, error.start) + 1
         raise CaseError(f"{path}, line {line}: not UTF-8 text; save the file as UTF-8") from None
     except ValueError as error:
-        raise CaseError(f"{path} is not TOML: {error}{_quotes(content, error)}") from None
+        raise CaseError(f"{path} is not TOML: {error}; {_WRITING}") from None
     except RecursionError:
         raise CaseError(f"{path}: tables or lists are nested too deeply") from None
     return data

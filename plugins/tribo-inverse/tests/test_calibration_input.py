@@ -189,15 +189,6 @@ def test_a_case_in_the_place_of_measured_values_is_told():
         calibrate(CASE, CASE)
 
 
-def test_measured_values_in_the_place_of_a_case_are_told():
-    with pytest.raises(CaseError) as caught:
-        calibrate({"measured": [GOOD], "fit": [{"path": K}]}, {"measured": [GOOD]})
-    assert str(caught.value) == (
-        "these are measured values, not a case; fit one to them with: "
-        "tribo calibrate CASE --measured FILE"
-    )
-
-
 @pytest.mark.parametrize(
     ("changes", "remedy"),
     [
