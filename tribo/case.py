@@ -206,16 +206,18 @@ class Case(Table):
                 ) from None
         return requires
 
-    @field_validator("bodies")
+    @field_validator("bodies", mode="before")
     @classmethod
-    def _two_bodies(cls, bodies: dict[str, Body]) -> dict[str, Body]:
+    def _two_bodies(cls, bodies: Any) -> Any:
+        if not isinstance(bodies, Mapping):
+            return bodies
         if len(bodies) != 2:
             raise ValueError(
-                f"a contact needs two bodies, as [bodies.ball] and [bodies.disk]; "
-                f"{len(bodies)} given"
+                "a contact needs two bodies, as [bodies.ball] and [bodies.disk]; given: "
+                + (", ".join(map(str, bodies)) or "none")
             )
         for name in bodies:
-            checked_name(name)
+            checked_name(str(name))
         return bodies
 
     def run(self, output: str | Path | None = None, **options: Any) -> Result:

@@ -48,13 +48,6 @@ def test_missing_tables_are_added_and_the_last_of_two_values_counts():
     assert changed("bodies.disk.wear.k=1")["bodies"]["disk"] == {"wear": {"k": 1}}
 
 
-def test_a_third_body_is_a_misspelt_one():
-    two = {"bodies": {"pin": {"surface": "flat"}, "disk": {"surface": "flat"}}}
-    with pytest.raises(CaseError, match=r"^bodies: no body is called 'dsk'; the bodies are pin, d"):
-        apply_settings(two, "bodies.dsk.wear.k=1e-16")
-    assert list(apply_settings(two, {"bodies": {"a": {}, "b": {}}})["bodies"]) == ["a", "b"]
-
-
 def test_lists_are_reached_by_index():
     assert changed("effects.0.rate=2")["effects"][0] == {"type": "heat", "rate": 2}
     assert changed("effects.1=heat")["effects"] == [DATA["effects"][0], "heat"]

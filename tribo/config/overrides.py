@@ -26,8 +26,7 @@ def apply_settings(
     value is read as TOML or else as text. Setting ``type`` to another one drops the other keys of
     the table, which belong to the former type; such changes are made first, in any order. Of
     several values for one path the last counts. Missing tables are added; unknown keys are left to
-    the validation. `CaseError` if a path leads through a value that is not a table, or names a
-    third body.
+    the validation. `CaseError` if a path leads through a value that is not a table.
     """
     if isinstance(settings, str):
         settings = [settings]
@@ -37,17 +36,7 @@ def apply_settings(
     types = sorted((c for c in changes if c[0][-1] == "type"), key=lambda c: len(c[0]))
     for keys, value in types + [c for c in changes if c[0][-1] != "type"]:
         changed = _changed(changed, keys, value)
-    _check_bodies(data.get("bodies"), changed.get("bodies"))
     return changed
-
-
-def _check_bodies(before: object, after: object) -> None:
-    """Raise `CaseError` where a change to a third body was meant for one of the two."""
-    if not (isinstance(before, Mapping) and isinstance(after, Mapping)):
-        return
-    if len(after) > len(before) >= 2:
-        name = next(name for name in after if name not in before)
-        raise CaseError(f"no body is called {name!r}; the bodies are {', '.join(before)}", "bodies")
 
 
 def path_keys(path: str) -> list[str]:
