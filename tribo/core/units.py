@@ -58,13 +58,6 @@ _BOUNDS = (
 )
 """Bounds of a `Quantity`: field, words, comparison and keyword in a JSON schema."""
 
-_INSTEAD = {
-    ("m/s", "Hz"): "n turns per time at a radius R are v = 2 π R n",
-    ("Pa s", "m^2/s"): "multiply it by the density of the fluid",
-}
-"""What to do about a quantity, by the unit that is needed and that which was given."""
-_TURNS = ("rpm", "rev/min", "rev/s")
-
 _PREFIXED = re.compile(r"(m|N|Pa|Hz|W|J)(?!\^|\w)")
 """Start of a unit that is written with prefixes."""
 _THOUSANDS = {1.0: ""} | {
@@ -108,12 +101,10 @@ def parse(text: str, unit: str) -> float:
     try:
         factor, dimension = scale("K" if zero else symbols or "1")
     except ValueError as error:
-        turns = _instead(unit, scale("Hz")[1]) if symbols in _TURNS else ""
-        reason = "revolutions are no speed" if turns else error
-        raise CaseError(f"{text!r}: {reason}; {_needed(unit)}{turns}") from None
+        raise CaseError(f"{text!r}: {error}; {_needed(unit)}") from None
     if dimension != scale(unit)[1]:
         given = f"is {_called(dimension)}" if symbols else "has no unit"
-        raise CaseError(f"{text!r} {given}; {_needed(unit)}{_instead(unit, dimension)}")
+        raise CaseError(f"{text!r} {given}; {_needed(unit)}")
     try:
         return float(number * factor + zero)
     except OverflowError:
@@ -246,16 +237,6 @@ def _called(dimension: Dimension) -> str:
             return name if unit == "1" else f"{name} [{unit}]"
     powers = zip(("m", "kg", "s", "K", "mol"), dimension, strict=True)
     return "a quantity in " + " ".join(f"{u}^{n}" if n != 1 else u for u, n in powers if n)
-
-
-def _instead(unit: str, given: Dimension) -> str:
-    """Return what to do to have `unit`, if that is known."""
-    known = (
-        f"; {words}"
-        for (needed, other), words in _INSTEAD.items()
-        if needed == unit and scale(other)[1] == given
-    )
-    return next(known, "")
 
 
 def _example(unit: str) -> str:
