@@ -85,7 +85,7 @@ BLEND = {"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}
         (
             ball(wear={"type": "blend", "parts": ["none"], "weight": "much"}),
             "bodies.ball.wear.weight",
-            "a number, or 'auto' is needed, 'much' was given",
+            "a number is needed, 'much' was given; or 'auto' is needed, 'much' was given",
         ),
         # Names that TOML would quote.
         ({"bodies": {"my ball": {}}}, 'bodies."my ball".material', "missing"),

@@ -46,10 +46,6 @@ _WORDS = {
 """What to say, by pydantic's type of an error."""
 
 
-NEEDED = " is needed, "
-"""What parts what is allowed and what was given in several of these."""
-
-
 def told(text: str, kind: str = TOLD) -> PydanticCustomError:
     """Return an error for pydantic with a finished message."""
     return PydanticCustomError(kind, "{message}", {"message": text})
@@ -100,10 +96,7 @@ def _unknown(key: object, allowed: Sequence[str], data: object) -> tuple[str, st
     # One that is there already may still be meant: an override adds its key beside it.
     like = did_you_mean(key, [name for name in allowed if name not in given])
     like = like or did_you_mean(key, allowed)
-    ending = suggestion(like)
-    if key == "diameter" and "radius" in allowed:
-        like, ending = "radius", "; give half of it as radius."
-    return f"unknown key {key!r}{ending} Allowed: {', '.join(allowed)}", like
+    return f"unknown key {key!r}{suggestion(like)} Allowed: {', '.join(allowed)}", like
 
 
 def case_error(error: ValidationError) -> CaseError:
@@ -117,16 +110,8 @@ def case_error(error: ValidationError) -> CaseError:
         text = message(details)
         if text not in texts:
             texts.append(text)
-    (place, first), *others = ((place, _either(texts)) for place, texts in lines.items())
+    (place, first), *others = ((place, "; or ".join(texts)) for place, texts in lines.items())
     return CaseError("\n".join([first, *(f"{p}: {t}" if p else t for p, t in others)]), place)
-
-
-def _either(texts: Sequence[str]) -> str:
-    """Return what is to be said of a value that none of its alternatives allows."""
-    needed, _, given = zip(*(text.partition(NEEDED) for text in texts), strict=True)
-    if all(given) and len(set(given)) == 1:
-        return f"{', or '.join(needed)}{NEEDED}{given[0]}"
-    return "; or ".join(texts)
 
 
 def path(keys: tuple[str | int, ...]) -> str:
