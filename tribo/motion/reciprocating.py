@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Literal, Self
 
 import numpy as np
 from pydantic import ConfigDict, Field, Tag, field_validator, model_validator
@@ -25,8 +25,6 @@ LONG, FEW = 4.0, 17
 """Stroke in half-widths up to which an estimate takes positions, and how many."""
 PHASES = 6
 """Speeds of a sinusoidal cycle: means of its powers up to the third are exact to 1e-6."""
-MANY = 50
-"""Half cycles above which an estimate may end a part of one away."""
 SAMPLES = 16
 """Of a sinusoidal half cycle, between two positions."""
 
@@ -185,22 +183,9 @@ class Reciprocating(Kinematics):
         return stroke.passed(times, 0.5 * self.stroke * np.sin(phases))
 
     def coarsened(self, half_width_x: float) -> Reciprocating:
-        """Return the motion with the track average, or a few positions of a short stroke.
-
-        A sinusoidal one of many cycles ends just before, where it slides at the mean speed, and not
-        in a reversal, where it would follow neither frequency nor duration.
-        """
+        """Return the motion at its mean speed, averaged, or a short stroke at few positions."""
         few = "average" if self._averages or self.stroke > LONG * half_width_x else FEW
-        changes: dict[str, Any] = {"positions": few, "allow_short_stroke": True}
-        is_sine = self.waveform == "sinusoidal"
-        if is_sine and (half_cycles := 2 * self._steady * self.end_time) > MANY:
-            part = math.asin(2 / math.pi) / math.pi
-            whole = math.floor(half_cycles)
-            ends_at = (whole - part, whole + part, whole + 1 - part)
-            cycles = 0.5 * max(end for end in ends_at if end <= half_cycles)
-            time = cycles / self._steady
-            ends = {"duration": time, "cycles": cycles, "distance": self.distance_at(time)}
-            changes |= {key: end for key, end in ends.items() if getattr(self, key) is not None}
+        changes = {"positions": few, "waveform": "constant_speed", "allow_short_stroke": True}
         return self.model_copy(update=changes)
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
