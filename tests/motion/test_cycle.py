@@ -1,7 +1,5 @@
 """Positions along a stroke: a quadrature whose nodes lie at whole cells."""
 
-import re
-
 import numpy as np
 import pytest
 from paper_models import case, motion, small
@@ -83,19 +81,6 @@ def test_a_sine_takes_half_a_cycle_for_its_stroke(stroke, positions):
     assert pace == pytest.approx(1 / (2 * stroke * 25), rel=1e-10)
 
 
-@pytest.mark.parametrize("stroke", np.geomspace(0.34e-3, 3e-3, 9))
-def test_a_stroke_of_whole_cells_is_taken_as_it_is_advised(stroke):
-    def cycle(stroke):
-        return motion(stroke=stroke, positions="cells").cycle(Grid(1.3e-3, 77))
-
-    with pytest.raises(CaseError, match="even whole number of cells") as refused:
-        cycle(stroke)
-    advised = re.search(r"as (\S+ mm)", str(refused.value))[1]
-    cells = Grid(1.3e-3, 77).spacing[0]
-    # No cell is left over, at either end.
-    assert len(cycle(advised)) == 1 + round(float(advised.split()[0]) * 1e-3 / cells)
-
-
 def test_a_passing_body_has_the_rows_of_all_its_positions():
     grid = Grid(1e-3, 10)
     exposures = Reciprocating(stroke="0.4 mm", frequency=25, cycles=1, positions="cells").exposures(
@@ -111,7 +96,6 @@ def test_a_passing_body_has_the_rows_of_all_its_positions():
 @pytest.mark.parametrize(
     ("stroke", "positions", "place", "words"),
     [
-        ("2.05 mm", "cells", r"kinematics\.stroke", "20.5 cells of 0.1 mm"),
         ("0.18 mm", 3, r"kinematics\.stroke", "0.18 mm is under two cells of 0.1 mm"),
         # A half-width of 0.2 mm.
         ("2 mm", 19, r"kinematics\.positions", "every 0.111 mm.*first contact.*at least 21"),

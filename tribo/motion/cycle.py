@@ -43,13 +43,7 @@ def missed_shares(nodes: Array, shares: Array) -> Array:
     The sum is compared with that over every second position, by Richardson's extrapolation: of what
     varies smoothly, straight lines over the two gaps h and h' beside a position miss (h³ + h'³) /
     (3 h h' (h + h')) of what they add to one line over both, a third where the gaps are alike.
-
-    Parameters
-    ----------
-    nodes : ndarray, shape (positions,)
-        Where the positions lie along the path.
-    shares : ndarray, shape (positions,)
-        Part of the path at each.
+    Positions lie at `nodes` along the path, with `shares` of it.
     """
     order = np.argsort(nodes, kind="stable")
     missed = np.zeros(len(nodes))

@@ -200,19 +200,9 @@ class Reciprocating(Kinematics):
         return self.positions in ("average", "auto")
 
     def _stroke(self, grid: Grid) -> Stroke:
-        dx = grid.spacing[0]
-        stroke = Stroke(self.stroke, dx, self.positions, grid.period)
+        stroke = Stroke(self.stroke, grid.spacing[0], self.positions, grid.period)
         if not self.allow_short_stroke:
             stroke.check_cells("kinematics.stroke")
-        if self.positions == "cells" and not (stroke.is_whole or stroke.goes_round):
-            cells = self.stroke / dx
-            near = 2e3 * dx * max(1, round(0.5 * cells))
-            raise CaseError(
-                f"{1e3 * self.stroke:.7g} mm are {cells:.7g} cells of {1e3 * dx:.7g} mm; with "
-                f'positions = "cells" give an even whole number of cells, as {near:.9g} mm, or a '
-                "number of positions",
-                "kinematics.stroke",
-            )
         return stroke
 
     def limitation(

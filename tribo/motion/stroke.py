@@ -65,12 +65,6 @@ class Stroke:
         return [int(beyond - cell) for cell in self.cells]
 
     @property
-    def is_whole(self) -> bool:
-        """Whether the stroke is an even whole number of cells."""
-        half = 0.5 * self.length / self.dx
-        return abs(half - round(half)) <= WHOLE * half
-
-    @property
     def goes_round(self) -> int | None:
         """The period that the stroke is as long as or longer, in cells; None if it is shorter."""
         return self.period if self.period is not None and 2 * self._half >= self.period else None
@@ -124,7 +118,8 @@ class Stroke:
     def _half(self) -> int:
         """Cells from mid-stroke to an end."""
         given = 0.5 * self.length / self.dx
-        return max(1, round(given) if self.is_whole else int(np.ceil(given)))
+        is_whole = abs(given - round(given)) <= WHOLE * given
+        return max(1, round(given) if is_whole else int(np.ceil(given)))
 
     def _near(self, path: Array, weights: Array | float = 1.0) -> Array:
         """Return the length of the path that falls to each position, shape (positions,)."""
@@ -191,16 +186,8 @@ def spacing_for(pressure: Array, error: float, *, repeats: bool = False) -> int:
 
     A body that passes is worn by the sum of the pressures at each position; every point of a row
     would get the same if there were no end of them. The mean difference, weighted with the load, is
-    `error` of the largest depth at the most.
-
-    Parameters
-    ----------
-    pressure : ndarray, shape (nx, ny)
-        Pressure of a contact that stays the same all along a path.
-    error : float
-        Relative.
-    repeats : bool, optional
-        Whether the contact repeats with the window: positions then divide it evenly.
+    `error` of the largest depth at the most. Where the contact `repeats` with the window, positions
+    divide it evenly.
     """
     deepest, load = float(np.max(np.sum(pressure, axis=0))), float(np.sum(pressure))
     best = 1
@@ -221,16 +208,8 @@ def near(nodes: Array, path: Array, weights: Array | float = 1.0) -> Array:
 
     A node's part falls in a straight line from the node to the next ones, so that the sum of what a
     field is at the nodes, times these lengths, is the integral along the path of straight lines
-    between them.
-
-    Parameters
-    ----------
-    nodes : ndarray, shape (nodes,)
-        Where the nodes lie, in increasing order, in m.
-    path : ndarray, shape (samples,)
-        Where the path goes, between the first and the last node, in m.
-    weights : ndarray, shape (samples - 1,), or float, optional
-        Weight of each part of the path between two samples.
+    between them. The nodes increase, and the path goes between the first and the last of them, in
+    m; `weights` are those of the parts of the path between two samples.
     """
     lengths = np.zeros_like(nodes)
     low, high = np.minimum(path[:-1], path[1:]), np.maximum(path[:-1], path[1:])
