@@ -16,8 +16,6 @@ from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
 from tribo.motion.stroke import WHOLE, Stroke, odd
 
-FEW = 9
-"""Positions of an estimate."""
 NEAR_AXIS = 0.1
 """Half-width of a contact over the track's radius, from which on its curvature is spoken of."""
 
@@ -100,12 +98,6 @@ class Unidirectional(ClosedTrack):
             f"{1e3 * radius:.3g} mm: its outer edge slides by as much further and the inner one "
             'less, which is left out here; use kinematics.type = "rotating"'
         )
-
-    def coarsened(self, half_width_x: float) -> Unidirectional:
-        """Return the motion with few positions, if it has any."""
-        if self.positions == "average":
-            return self
-        return self.model_copy(update={"positions": FEW})
 
     def _stroke(self, grid: Grid) -> Stroke:
         if grid.period is None:
