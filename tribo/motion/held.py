@@ -10,9 +10,8 @@ from math import inf
 from typing import Any
 
 from tribo.core.errors import CaseError
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.stages import check_times
-
-ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -65,9 +64,9 @@ class Held:
         last, most = self.ends[-1], self.by(self.ends[-1])
         if time is None:
             assert amount is not None
-            lasts, asked = amount <= most * (1 + ROUNDING), f"{amount:g} {unit}"
+            lasts, asked = amount <= most * (1 + ROUND_OFF), f"{amount:g} {unit}"
         else:
-            lasts, asked = time <= last * (1 + ROUNDING), f"{time:g} s"
+            lasts, asked = time <= last * (1 + ROUND_OFF), f"{time:g} s"
         if not lasts:
             raise CaseError(
                 f"the {what} ends at {last:g} s, after {most:g} {unit}, before the run does at "
