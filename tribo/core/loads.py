@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from math import inf
 from pathlib import Path
@@ -231,16 +232,29 @@ class Loads:
         """The least load at any time and position, in N."""
         return min(self.shares) * min(min(piece.first, piece.last) for piece in self.pieces)
 
+    @cached_property
+    def _constant(self) -> ByPosition | None:
+        """The loads where they never change."""
+        (piece, *others), shares = self.pieces, self.shares
+        steady = not others and piece.first == piece.last
+        return tuple(share * piece.last for share in shares) if steady else None
+
     def before(self, time: float) -> ByPosition:
         """Return the loads as `time` (s) is reached: at a jump, those before it."""
-        return self._at(time, bisect_left(self.pieces, time, key=lambda piece: piece.end))
+        return self._constant or self._at(
+            time, bisect_left(self.pieces, time, key=lambda piece: piece.end)
+        )
 
     def after(self, time: float) -> ByPosition:
         """Return the loads from `time` (s) on: at a jump, those after it."""
-        return self._at(time, bisect_right(self.pieces, time, key=lambda piece: piece.end))
+        return self._constant or self._at(
+            time, bisect_right(self.pieces, time, key=lambda piece: piece.end)
+        )
 
     def mean(self, begin: float, end: float) -> ByPosition:
         """Return the mean loads between two times (s) of one piece."""
+        if self._constant:
+            return self._constant
         pairs = zip(self.after(begin), self.before(end), strict=True)
         return tuple(0.5 * (first + last) for first, last in pairs)
 
