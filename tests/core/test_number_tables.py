@@ -47,10 +47,10 @@ def test_a_csv_file_may_have_a_header_and_missing_values(tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("1,2\n3,hello\n", r"line 2, column 2 has 'hello', which is no number; leave a missing"),
+        ("1,2\n3,hello\n", r"line 2, column 2 has 'hello', which is no number; separate"),
         ("1,hello\n3,4\n", r"line 1, column 2 has 'hello'"),
         ("scan 5\nx,y\n" + TWO, r"line 2, column 1 has 'x', .* keep one header line at most"),
-        ("1.5;2\n3;4\n", r"line 2, column 1 has '3;4', .* by commas, .* decimal points, as 1\.5"),
+        ("1.5;2\n3;4\n", r"line 2, column 1 has '3;4', .* by commas .* decimal points, as 1\.5"),
         ("1,5;2,5\n", r"line 1, column 2 has '5;2', .* by commas"),
         ("1 2\n3 4\n", r"line 2, column 1 has '3 4', .* by commas"),
         (TWO + "5,6,7\n8\n", "line 3 has 3 values, and those before it have 2; give as many"),

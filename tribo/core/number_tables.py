@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
+from math import isnan
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +18,6 @@ HDF5 = (".h5", ".hdf5")
 MOST_PIXELS = 2**26
 """Numbers of the largest table that is read, as a map of 8192²: 0.5 GiB, of which tribo makes a few
 copies."""
-_SEPARATED = re.compile(r"\d[;\s]+[-+.\d]")
-"""Numbers of a text that are separated by something else than commas."""
 
 
 def read_numbers(file: Path) -> Array:
@@ -101,13 +99,19 @@ def _table_of_text(lines: Iterable[str]) -> Array:
         cells = [cell.strip() for cell in line.partition("#")[0].split(",")]
         if cells == [""]:
             continue
-        try:
-            row = np.array([number(cell or "nan") for cell in cells])
-        except ValueError:
-            if not (rows or header or any(map(_is_number, cells))):
+        values = [_value(cell) for cell in cells]
+        if None in values:
+            some = any(value is not None and not isnan(value) for value in values)
+            if not (rows or header or some):
                 header = line
                 continue
-            raise ValueError(f"line {place}, {_first_words(cells)}") from None
+            column = values.index(None)
+            raise ValueError(
+                f"line {place}, column {column + 1} has {cells[column][:40]!r}, which is no "
+                "number; separate values by commas and write them with decimal points, as 1.5, "
+                "leave missing ones empty, and keep one header line at most"
+            )
+        row = np.array(values, dtype=np.float64)
         if rows and len(row) != len(rows[0]):
             raise ValueError(
                 f"line {place} has {len(row)} values, and those before it have {len(rows[0])}; "
@@ -120,21 +124,12 @@ def _table_of_text(lines: Iterable[str]) -> Array:
     return np.array(rows)
 
 
-def _first_words(cells: list[str]) -> str:
-    """Return which cell of a line is no number, and what to do."""
-    column = next(i for i, cell in enumerate(cells) if cell and not _is_number(cell))
-    hint = "leave a missing value empty or put nan, and keep one header line at most"
-    if _SEPARATED.search(cells[column]):
-        hint = "separate values by commas, and write them with decimal points, as 1.5"
-    return f"column {column + 1} has {cells[column][:40]!r}, which is no number; {hint}"
-
-
-def _is_number(cell: str) -> bool:
+def _value(cell: str) -> float | None:
+    """Return the number in a cell, NaN in an empty one; None if it has something else."""
     try:
-        number(cell)
+        return number(cell or "nan")
     except ValueError:
-        return False
-    return True
+        return None
 
 
 def _only_table(file: Path) -> NDArray[Any]:
