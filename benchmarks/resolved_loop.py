@@ -25,7 +25,7 @@ from problems import LOAD, MODULUS, Contact, hertz
 from resolved_hour import CASES, paper_case
 
 from tribo import Array, Simulation
-from tribo.contact.love import displacement
+from tribo.contact.love import wrapped_kernel
 from tribo.core.contact import ContactSolution
 from tribo.core.state import State
 from tribo.simulation.march import begin, march
@@ -48,8 +48,7 @@ class PlainNumPy(Package):
     def __init__(self, contact: Contact, tolerance: float) -> None:
         super().__init__(contact, tolerance)
         cells, dx = len(contact.gap), contact.spacing
-        away = np.minimum(np.arange(2 * cells), 2 * cells - np.arange(2 * cells)) * dx
-        self.kernel = np.fft.rfft2(displacement(away[:, None], away, (dx, dx)) / MODULUS)
+        self.kernel = np.fft.rfft2(wrapped_kernel((2 * cells, 2 * cells), (dx, dx)) / MODULUS)
 
     def solve(self, gap: Array, start: Answer | None = None) -> Answer:
         """Return the pressure; see `Package.solve`."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from tribo.contact.dcfft import DcFft
-from tribo.contact.love import displacement
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSystem, WearCompliance
 from tribo.core.grid import Grid
@@ -49,7 +48,14 @@ def dense(shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
     """Love's influence of every cell on every cell, shape (n, n)."""
     i, j = (v.ravel() for v in np.indices(shape))
     x, y = i * spacing[0], j * spacing[1]
-    return displacement(x[:, None] - x, y[:, None] - y, spacing) / MODULUS
+    x, y, (a, b) = x[:, None] - x, y[:, None] - y, (0.5 * spacing[0], 0.5 * spacing[1])
+    across = _corner(x + a, y + b) - _corner(x + a, y - b)
+    across -= _corner(x - a, y + b) - _corner(x - a, y - b)
+    return across / np.pi / MODULUS
+
+
+def _corner(x, y):
+    return x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y))
 
 
 def pressed(gaps, total):

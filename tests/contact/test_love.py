@@ -7,7 +7,7 @@ import pytest
 from contact_problems import MODULUS, dense
 
 from tribo.contact.half_space import HalfSpace
-from tribo.contact.love import displacement, nyquist_compliance, wrapped_kernel
+from tribo.contact.love import nyquist_compliance, wrapped_kernel
 from tribo.contact.operator import WornOperator
 from tribo.core.contact import WearCompliance
 
@@ -24,12 +24,6 @@ def test_square_cell_under_itself_sinks_by_4_ln_1_plus_root_2_over_pi() -> None:
 def test_far_away_a_cell_is_a_point_force() -> None:
     kernel = wrapped_kernel((32, 32), (1.0, 1.0))
     assert kernel[10, 0] * 10 * np.pi == pytest.approx(1.000416, abs=1e-6)
-
-
-def test_displacement_on_the_edges_of_the_cell_is_the_limit_beside_them() -> None:
-    on = np.array([[0.5, 0.0], [0.0, -1.5], [0.5, 1.5], [-0.5, -1.5]])
-    beside = displacement(on[:, 0] * (1 + 1e-12), on[:, 1] * (1 + 1e-12), (1.0, 3.0))
-    assert displacement(on[:, 0], on[:, 1], (1.0, 3.0)) == pytest.approx(beside, rel=1e-9)
 
 
 @pytest.mark.parametrize(("spacing", "expected"), [((1.0, 1.0), 0.58069), ((2.0, 2.0), 1.16139)])

@@ -9,38 +9,16 @@ import numpy as np
 from tribo.core.arrays import Array
 
 
-def displacement(x: Array, y: Array, spacing: tuple[float, float]) -> Array:
-    """Normal displacement of a half-space under unit pressure on one cell.
-
-    Parameters
-    ----------
-    x, y : ndarray
-        Where the displacement is wanted, relative to the centre of the cell,
-        in m; broadcast against each other.
-    spacing : tuple of float
-        Edge lengths of the cell along x and y, in m.
-
-    Returns
-    -------
-    ndarray
-        Displacement for p = 1 and E* = 1, in m; multiply by p/E*.
-
-    References
-    ----------
-    A. E. H. Love, "The stress produced in a semi-infinite solid by pressure on
-    part of the boundary", Phil. Trans. R. Soc. A 228 (1929) 377-420.
-    """
-    a, b = 0.5 * spacing[0], 0.5 * spacing[1]
-    corners = _corner(x + a, y + b) - _corner(x + a, y - b)
-    corners -= _corner(x - a, y + b) - _corner(x - a, y - b)
-    return corners / np.pi
-
-
 def wrapped_kernel(shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
     """Return Love's displacement at cell offsets, in the order a circular convolution needs.
 
     Entry (i, j) belongs to the offset (min(i, nx − i), min(j, ny − j)) in cells, of a (padded)
     transform of `shape` (nx, ny); it is for p = 1 and E* = 1, in m.
+
+    References
+    ----------
+    A. E. H. Love, "The stress produced in a semi-infinite solid by pressure on
+    part of the boundary", Phil. Trans. R. Soc. A 228 (1929) 377-420.
     """
     halves = [n // 2 + 1 for n in shape]
     # Neighbouring cells share corners, and no corner has X = 0 or Y = 0.
@@ -71,8 +49,7 @@ def nyquist_compliance(spacing: tuple[float, float]) -> float:
     unit = min(spacing)
     reach = 64
     scaled = spacing[0] / unit, spacing[1] / unit
-    cells = np.arange(reach + 1, dtype=np.float64)
-    kernel = displacement(scaled[0] * cells[:, None], scaled[1] * cells[None, :], scaled)
+    kernel = wrapped_kernel((2 * reach, 2 * reach), scaled)[: reach + 1, : reach + 1]
     weights = _alternating_weights(reach)
     return unit * float(np.sum(weights[:, None] * weights[None, :] * kernel))
 
@@ -93,11 +70,4 @@ def _alternating_weights(reach: int) -> Array:
 
 
 def _corner(x: Array, y: Array) -> Array:
-    # x·asinh(y/|x|) + y·asinh(x/|y|), with its limit 0 on the axes.
-    x, y = np.broadcast_arrays(x, y)
-    total = np.zeros(x.shape)
-    for s, t in ((x, y), (y, x)):
-        off_axis = s != 0
-        ratio = np.divide(t, np.abs(s), out=np.zeros(x.shape), where=off_axis)
-        total += s * np.arcsinh(ratio)
-    return total
+    return x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y))
