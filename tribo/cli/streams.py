@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 import io
 import os
 import re
@@ -18,21 +17,6 @@ from tribo.core.errors import OutputError, ReaderGone
 
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
-
-PLAIN = "tribo.plain"
-SIGNS = {
-    "µ": "u",
-    "μ": "u",
-    "²": "^2",
-    "³": "^3",
-    "·": "*",
-    "×": "x",
-    "–": "-",
-    "−": "-",
-    "…": "...",
-    "°": "deg",
-}
-
 
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
 """All but tab and line feed, and the marks that change the direction of text."""
@@ -91,7 +75,7 @@ def say(what: str, colour: str, text: str) -> None:
 
 
 def over(stream: TextIO | None, kind: type[GuardedStream | Remarks]) -> TextIO:
-    """Return a stream to the same file that fails as `kind` does and replaces signs it lacks.
+    """Return a stream to the same file that fails as `kind` does and escapes signs it lacks.
 
     None stands for one that is closed.
     """
@@ -112,18 +96,8 @@ def over(stream: TextIO | None, kind: type[GuardedStream | Remarks]) -> TextIO:
     return io.TextIOWrapper(
         io.BufferedWriter(kind(number, "w", closefd=False), size),
         encoding=stream.encoding,
-        errors=PLAIN,
+        errors="backslashreplace",
         # A single byte stays in a buffer of one.
         line_buffering=stream.line_buffering or stream.write_through,
         write_through=stream.write_through,
     )
-
-
-def _plain(error: UnicodeError) -> tuple[str, int]:
-    if not isinstance(error, UnicodeEncodeError):
-        raise error
-    lost = error.object[error.start : error.end]
-    return "".join(SIGNS.get(sign, "?") for sign in lost), error.end
-
-
-codecs.register_error(PLAIN, _plain)
