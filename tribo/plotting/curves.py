@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -21,23 +20,23 @@ from tribo.plotting.style import (
     new_figure,
     save_looks,
 )
-from tribo.plotting.units import fitting, size
+from tribo.plotting.units import shown_in
 from tribo.result.read import Result
 
-SHOWN = {"_Pa": "Pa", "_m": "m"}
-"""Ends of names of columns that are shown in a unit which fits them."""
-OTHERS = (
+UNITS = (
     ("_1_Pa", "1/Pa"),
     ("_m_s", "m/s"),
-    ("_J_m2", "J/m²"),
-    ("_m3", "mm³"),
-    ("_m2", "mm²"),
+    ("_J_m2", "J/m^2"),
+    ("_m3", "m^3"),
+    ("_m2", "m^2"),
     ("_J", "J"),
     ("_N_m", "N m"),
     ("_N", "N"),
     ("_s", "s"),
+    ("_Pa", "Pa"),
+    ("_m", "m"),
 )
-"""Ends of other names, and their unit; the longer first, as the inverse of a pressure."""
+"""Ends of names of columns, and their unit; the longer first, as the inverse of a pressure."""
 MOST_CURVES = 6
 """In a picture of a sweep."""
 MARKS = "osD^vp"
@@ -183,19 +182,6 @@ def _axis(words: str, unit: str, gap: str = " ") -> str:
 
 def column_label(name: str, values: Array) -> tuple[str, str, float]:
     """Return what is said of a column, the unit for its values, "" for none, and its size."""
-    (unit, end), factor = _unit(name, values)
+    end, si = next((each for each in UNITS if name.endswith(each[0])), ("", "1"))
     words = name.removesuffix(end).replace("_", " ").replace(".", " ").removeprefix("bodies ")
-    return words.replace("max ", "largest "), unit, factor
-
-
-def _unit(name: str, values: Array) -> tuple[tuple[str, str], float]:
-    """Return the unit for a column, the end of the name that it replaces, and its size in SI."""
-    largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
-    for end, unit in OTHERS:
-        if name.endswith(end):
-            return (unit, end), size(unit.replace(" ", "*"))
-    for end, si in SHOWN.items():
-        if name.endswith(end):
-            unit = "m" if si == "m" and largest >= 1.0 else fitting(si, largest)
-            return (unit, end), size(unit)
-    return ("", ""), 1.0
+    return words.replace("max ", "largest "), *shown_in(si, values)

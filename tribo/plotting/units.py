@@ -43,7 +43,10 @@ def shown_in(unit: str, values: Array) -> tuple[str, float]:
     """Return the unit in which values in an SI unit are shown, "" for none, and its size in SI."""
     if unit in _UNITS:
         largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
-        unit = height_unit(largest) if unit == "m" else fitting(unit, largest)
+        if unit == "m" and largest < 1:
+            unit = height_unit(largest)
+        elif unit == "Pa":
+            unit = fitting(unit, largest)
         return unit, size(unit)
     if unit in _FIXED:
         return _FIXED[unit], size(_FIXED[unit])
