@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
@@ -18,8 +17,6 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor
 
 NAMED = 5
-EVERY = 10.0
-"""Time between two lines where stderr is not a terminal, in s."""
 
 
 @click.command()
@@ -99,20 +96,17 @@ def _executor(
 
 @contextmanager
 def _shown() -> Iterator[Callable[[int, int, int], None]]:
-    """Show on stderr how many runs have ended, and how long the others will take."""
+    """Show on stderr how many runs have ended, and on a terminal how long the others will take."""
     from tribo.observers.progress import progress_bar
 
     with progress_bar() as bar:
-        shown, told = bar.add_task("", total=None), time.monotonic()
+        shown = bar.add_task("", total=None)
 
         def tell(total: int, done: int, failed: int) -> None:
             ended, failures = done + failed, f", {failed} failed" if failed else ""
             words = f"{ended} of {total} runs{failures}"
             bar.update(shown, total=total, completed=ended, description=words)
-            nonlocal told
-            now = time.monotonic()
-            if bar.disable and (now - told > EVERY or ended == total):
-                told = now
+            if bar.disable:
                 click.echo(words, err=True)
 
         yield tell
