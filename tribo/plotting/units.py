@@ -54,20 +54,13 @@ def shown_in(unit: str, values: Array) -> tuple[str, float]:
 
 
 def time_unit(times: Array) -> str:
-    """Return the largest unit in which every one of `times`, in s, is a short number.
-
-    The last may be longer, as after an interruption. If none serves, the one
-    that suits the longest.
-    """
+    """Return the largest unit in which every one of `times`, in s, is a short number."""
     longest = float(np.max(times, initial=0.0))
-    units = [unit for unit in ("h", "min", "s") if longest >= size(unit)]
-    units = units or ["ms" if longest > 0 else "s"]
-    for part in (times, times[:-1]):
-        for unit in units:
-            shown = part / size(unit)
-            if np.any(part > 0) and np.allclose(shown, np.round(shown, 1), rtol=0.0, atol=1e-9):
-                return unit
-    return next((unit for unit in units if longest >= 100 * size(unit)), units[-1])
+    for unit in ("h", "min"):
+        shown = times / size(unit)
+        if longest >= size(unit) and np.allclose(shown, np.round(shown, 1), rtol=0.0, atol=1e-9):
+            return unit
+    return "ms" if 0 < longest < 1 else "s"
 
 
 def time_labels(times: Array) -> list[str]:
