@@ -1,4 +1,4 @@
-"""Standard streams that cannot be written to, or lack signs, and Ctrl-C."""
+"""Standard streams that cannot be written to, or lack signs."""
 
 import io
 import os
@@ -128,33 +128,3 @@ def test_a_result_is_shown_on_a_stream_that_carries_ascii_only(folder):
     done = tribo(folder, "show", "my.h5", env=ascii_only, capture_output=True)
     assert done.returncode == 0, done.stderr
     assert rb"mm\xb3/(N\xb7m)" in done.stdout
-
-
-INTERRUPTED = """
-import signal, time, weakref
-from unittest import mock
-import tribo.cli.main as cli
-
-# A shell starts what runs in the background with the signal ignored.
-signal.signal(signal.SIGINT, signal.default_int_handler)
-
-class Thing:
-    pass
-
-def work(**options):
-    thing = Thing()
-    kept = weakref.ref(thing, lambda _: signal.raise_signal(signal.SIGINT))
-    del thing
-    time.sleep(60)
-
-with mock.patch.object(cli.tribo, "main", work):
-    try:
-        cli.main()
-    except KeyboardInterrupt:
-        print("stopped")
-"""
-
-
-def test_an_interrupt_that_comes_while_python_tidies_up_is_not_lost(folder):
-    done = tribo(folder, code=INTERRUPTED, capture_output=True, text=True)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "stopped\n", "")

@@ -12,7 +12,6 @@ from typing import Any, NoReturn
 import click
 
 from tribo.cli.commands import OWN, imported, offered, own_command
-from tribo.cli.interrupts import no_interrupt_lost
 from tribo.cli.streams import GuardedStream, Remarks, over, say
 from tribo.core.errors import CaseError, Interrupted, ReaderGone, TriboError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
@@ -114,7 +113,7 @@ def main() -> None:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     sys.stdout, sys.stderr = over(sys.stdout, GuardedStream), over(sys.stderr, Remarks)
     try:
-        with _warnings_on_stderr(), no_interrupt_lost():
+        with _warnings_on_stderr():
             tribo.main(standalone_mode=False)
             # What a plugin may have printed.
             print(end="", flush=True)
