@@ -37,8 +37,8 @@ def plugin_names(distribution: str) -> dict[str, str]:
     """
     if not _FORM.fullmatch(distribution):
         raise CaseError(
-            f"{distribution!r} is no good as a plugin's name; {_remedy(distribution)}: whose it is "
-            "and what it is, in lower-case words joined by hyphens"
+            f"{distribution!r} is no good as a plugin's name; give one as 'acme-fretting': whose "
+            "it is and what it is, in lower-case words joined by hyphens"
         )
     if len(distribution) > _LONGEST:
         raise CaseError(
@@ -62,11 +62,3 @@ def plugin_names(distribution: str) -> dict[str, str]:
         "component": f"{prefix}.{module}",
         "title": title,
     }
-
-
-def _remedy(distribution: str) -> str:
-    words = re.findall(r"[a-z0-9]+", distribution.lower())
-    if len(words) == 1 and words != ["acme"]:
-        words = ["acme", *words]
-    mended = "-".join(words)
-    return f"try {mended!r}" if _FORM.fullmatch(mended) else "one is needed as 'acme-fretting'"
