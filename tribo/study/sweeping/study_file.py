@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Iterable, Mapping
 from itertools import product
 from pathlib import Path
@@ -13,7 +12,7 @@ from pydantic import Field, ValidationError
 
 from tribo.config.load import read_toml
 from tribo.config.overrides import apply_settings, leaves_at
-from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
 from tribo.core.table import Table
 from tribo.study.variation import Point, check_distinct, valid_case
@@ -39,7 +38,7 @@ class Sample(Table):
     method: Literal["latin_hypercube", "sobol"]
     """How they are spread."""
     count: Annotated[int, Field(ge=1)]
-    """How many; a power of two for `sobol`."""
+    """How many; those of `sobol` are spread evenly where they are a power of two."""
     seed: Annotated[int, Field(ge=0)] = 0
     """Another seed gives other points, the same one always the same."""
     ranges: dict[str, Range] = Field(min_length=1)
@@ -173,15 +172,8 @@ def _spread(sample: Sample) -> Any:
 
     if sample.method == "latin_hypercube":
         return qmc.LatinHypercube(len(sample.ranges), seed=sample.seed).random(sample.count)
+    # The first points of a longer sequence are those of a shorter one, of which SciPy would warn.
     above = 1 << (sample.count - 1).bit_length()
-    if above != sample.count:
-        warnings.warn(
-            "sample.count: Sobol points are spread evenly where they are a power of two, as "
-            f"{above // 2} or {above}; {sample.count} are asked for",
-            TriboWarning,
-            stacklevel=2,
-        )
-    # The first points of a longer sequence are those of a shorter one.
     return qmc.Sobol(len(sample.ranges), seed=sample.seed).random(above)[: sample.count]
 
 
