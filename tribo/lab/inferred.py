@@ -16,9 +16,6 @@ from tribo.result.body import BodyResult
 from tribo.result.read import Result
 
 UNWORN = "groove of an unworn ball"
-SHALLOW = "worn less deep than the contact flattens"
-MOST = 10.0
-"""Times the volume worn from which on a formula is not that of such a scar."""
 
 
 class InferredVolume(NamedTuple):
@@ -36,8 +33,6 @@ class InferredVolume(NamedTuple):
         In m³.
     relative_error : float
         How far it is off the volume worn.
-    premise_broken : str or None
-        Why the formula does not apply here; None where it may.
     """
 
     body: str
@@ -45,27 +40,18 @@ class InferredVolume(NamedTuple):
     standard: str | None
     volume_m3: float
     relative_error: float
-    premise_broken: str | None = None
 
     @property
     def off(self) -> str:
-        """How far it is off in %, or why it does not apply."""
-        if self.premise_broken is None:
-            return signed(100 * self.relative_error, 0)
-        return f"does not apply: {self.premise_broken}"
+        """How far it is off, in %."""
+        return signed(100 * self.relative_error, 0)
 
 
 def inferred(
-    body: str,
-    method: str,
-    standard: str | None,
-    volume: float,
-    worn: float,
-    premise: str | None = None,
+    body: str, method: str, standard: str | None, volume: float, worn: float
 ) -> InferredVolume:
-    """Return a volume by a formula beside the one worn, and what breaks its premise if far off."""
-    broken = premise if volume > MOST * worn else None
-    return InferredVolume(body, method, standard, volume, volume / worn - 1, broken)
+    """Return a volume by a formula beside the one worn."""
+    return InferredVolume(body, method, standard, volume, volume / worn - 1)
 
 
 def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
@@ -79,8 +65,7 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
     track. Plastic indentation is left out.
 
     G99 asks for the first and the last only where the other body hardly wears, and all take the
-    scar to be deep beside the elastic flattening: where one gives over ten times what is worn, that
-    is said of it.
+    scar to be deep beside the elastic flattening: elsewhere they are far off.
 
     Returns
     -------
@@ -95,44 +80,26 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
     seen = scar(ball.wear_depth[save], result.grid)
     width = scar(flat.wear_depth[save], result.grid).across
     section = track_section(result, flat, save)
-    deepest = {body.name: float(np.max(body.wear_depth[save])) for body in (ball, flat)}
-
-    def too(other: BodyResult, body: BodyResult) -> str:
-        """Return why a formula for a body beside an unworn one fails."""
-        return f"{other.name} wears too" if deepest[other.name] > deepest[body.name] else SHALLOW
-
     found: list[InferredVolume] = []
     if not ball.swept and 0 < seen.mean_diameter < 2 * radius:
         groove = groove_radius(seen.across, section) if section else None
-        found += ball_volumes(
-            ball.name, seen, radius, groove, worn[ball.name], (too(flat, ball), SHALLOW)
-        )
+        found += ball_volumes(ball.name, seen, radius, groove, worn[ball.name])
     if section and 0 < width < 2 * radius:
         volume = worn[flat.name] / section * circular_groove_area(width, radius)
-        lost, premise = worn[flat.name], too(ball, flat)
-        found.append(inferred(flat.name, UNWORN, "ASTM G99", volume, lost, premise))
+        found.append(inferred(flat.name, UNWORN, "ASTM G99", volume, worn[flat.name]))
     return found
 
 
 def ball_volumes(
-    body: str,
-    seen: Scar,
-    radius: float,
-    groove: float | None,
-    worn: float,
-    premises: tuple[str | None, str | None] = (None, None),
+    body: str, seen: Scar, radius: float, groove: float | None, worn: float
 ) -> list[InferredVolume]:
-    """Return a ball's volumes by formulas, of its scar, its radius and that of the groove in m.
-
-    `premises` are what breaks that of a flat scar, and that of the others.
-    """
-    alone, all_of = premises
+    """Return a ball's volumes by formulas, of its scar, its radius and that of the groove in m."""
     cap, along = ball_cap_volume(seen.mean_diameter, radius), flat_along_ball_volume(*seen, radius)
-    found = [inferred(body, "flat scar", "ASTM G99", cap, worn, alone)]
+    found = [inferred(body, "flat scar", "ASTM G99", cap, worn)]
     if groove and groove > radius:
         volume = conforming_ball_volume(*seen, radius, groove)
-        found.append(inferred(body, "scar in a groove", "ASTM D7755", volume, worn, all_of))
-    found.append(inferred(body, "scar flat along sliding only", None, along, worn, all_of))
+        found.append(inferred(body, "scar in a groove", "ASTM D7755", volume, worn))
+    found.append(inferred(body, "scar flat along sliding only", None, along, worn))
     return found
 
 

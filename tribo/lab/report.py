@@ -84,8 +84,8 @@ class LabReport:
         """Return it in words, a line each."""
         lines = [f"{name}: {_said(body)}" for name, body in self.bodies.items()]
         for each in self.inferred:
-            off = each.off if each.premise_broken else f"{each.off} %"
-            lines.append(f"{each.body}, {each.method}: {1e9 * each.volume_m3:.3g} mm³ ({off})")
+            volume = f"{1e9 * each.volume_m3:.3g} mm³ ({each.off} %)"
+            lines.append(f"{each.body}, {each.method}: {volume}")
         lines += map(str, self.rows)
         return "\n".join([*lines, self.first_contact_words])
 
