@@ -202,15 +202,6 @@ def _sides(component: Any) -> list[tuple[Field, Any, float]]:
     ]
 
 
-def _sides(component: Any) -> list[tuple[Field, Any, float]]:
-    """Return each state field with its lower and its upper limit, and on which side that is."""
-    return [
-        (field, limit, sign)
-        for field in component.state_fields
-        for limit, sign in ((field.at_least, -1.0), (field.at_most, 1.0))
-    ]
-
-
 def _at(given: Any, name: str, value: float) -> Any:
     """Return conditions in which one state field has one value."""
     state = {**given.state, name: np.full_like(given.state[name], value)}
