@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import lambertw
 
-from tribo.core.errors import BadValues
+from tribo.core.errors import BadValues, PluginError
 from tribo.stepping.division import integrated
 from tribo.stepping.integrator import retraced, transposed
 from tribo.stepping.kept import Kept, Sum
@@ -113,7 +113,7 @@ def test_a_state_that_goes_on_beyond_its_limit_is_told_at_once(length):
         asked.append(passed)
         return [ONE]
 
-    with pytest.raises(BadValues, match="beyond its limits of 0 to 1"):
+    with pytest.raises(PluginError, match="beyond its limits of 0 to 1"):
         integrated(rates, [0.5 * ONE], length, [BETWEEN])
     assert len(asked) < 2000
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.core.errors import BadValues
+from tribo.core.errors import BadValues, PluginError
 from tribo.stepping.integrator import (
     Part,
     Rates,
@@ -107,9 +107,10 @@ def integrated(
 
     Raises
     ------
+    PluginError
+        If a state leaves its limits however short the part.
     BadValues
-        If a state leaves its limits however short the part, or the increment is too long for the
-        parts that it may have.
+        If the increment is too long for the parts that it may have.
 
     References
     ----------
@@ -137,7 +138,7 @@ def integrated(
             waiting[0] = part, True
         elif left and (part <= FINEST or len(waiting) + len(done) > MOST_LEAVING):
             of = kept[int(np.argmax(trial.beyond))]
-            raise BadValues(
+            raise PluginError(
                 f"{of} goes on beyond its limits of {of.least:g} to {of.most:g}: "
                 "let its rate vanish there"
             )
