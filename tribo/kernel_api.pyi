@@ -143,6 +143,7 @@ from tribo.stepping.kept import Sum as Sum
 from tribo.stepping.memory import Memory as Memory
 from tribo.stepping.memory import first_memory as first_memory
 from tribo.stepping.memory import own as own
+from tribo.stepping.memory import place as place
 from tribo.stepping.model import Model as Model
 from tribo.stepping.rates import CycleRates as CycleRates
 from tribo.stepping.rates import by_reach as by_reach

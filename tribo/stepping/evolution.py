@@ -17,7 +17,7 @@ from tribo.stepping.division import Division, integrated
 from tribo.stepping.integrator import Values
 from tribo.stepping.interval import Interval
 from tribo.stepping.kept import Kept, Sum
-from tribo.stepping.memory import Memory, laid
+from tribo.stepping.memory import Memory, laid, place
 from tribo.stepping.rates import CycleRates, rates_at_each, wear_rates
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def course(
         return Course(wear_rates(model, contacts, before, interval.at(asked)), before)
     rates = partial(_rates, model, before, contacts, interval)
     sums = [
-        Sum(name, partial(model.cycle.maps[name].see, position=position))
+        Sum(place(model, name), partial(model.cycle.maps[name].see, position=position))
         for position in range(len(contacts))
         for name in model.laws.wear
     ]
@@ -81,8 +81,9 @@ def course(
     ]
     passed: dict[str, dict[int, float]] = {}
     for (state, layer), share in found.passed.items():
-        if kept[state].name == WORN_DEPTH.name:
-            passed.setdefault(kept[state].place, {})[layer] = share
+        body = before.bodies[state]
+        if body and kept[state].name == WORN_DEPTH.name:
+            passed.setdefault(body, {})[layer] = share
     return Course(mean, before.with_values(iter(found.values)), found.plan, passed)
 
 
@@ -197,15 +198,15 @@ def with_loads(
 def kept_in(model: Model, memory: Memory) -> list[Kept]:
     """Return what the integrator must know of `Memory.values`."""
     of_laws = [
-        (field, f"{model.laws.wear[name]}", name)
+        (field, f"{model.laws.wear[name]}", place(model, name))
         for name, of_law in memory.laws.items()
         for key in of_law
         for field in model.laws.wear[name].state_fields
         if field.name == key
     ]
     between = [
-        (model.laws.between[key][1], f"{model.laws.between[key][0]}", f"{key} between")
-        for key in memory.between
+        (field, f"{effect}", field.name if field.uniform else place(model, effect.carrier))
+        for effect, field in (model.laws.between[key] for key in memory.between)
     ]
     return [
         Kept(
@@ -214,7 +215,7 @@ def kept_in(model: Model, memory: Memory) -> list[Kept]:
             -np.inf if field.at_least is None else field.at_least,
             np.inf if field.at_most is None else field.at_most,
             field.breaks,
-            place,
+            where,
         )
-        for field, who, place in (*of_laws, *between)
+        for field, who, where in (*of_laws, *between)
     ]

@@ -34,6 +34,14 @@ class Memory:
         of_laws = [array for fields in self.laws.values() for array in fields.values()]
         return [*of_laws, *self.between.values()]
 
+    @property
+    def bodies(self) -> list[str | None]:
+        """The body of each of them whose law remembers it; None of effects."""
+        return [
+            *(name for name, of in self.laws.items() for _ in of),
+            *(None for _ in self.between),
+        ]
+
     def with_values(self, values: Iterator[Array]) -> Memory:
         """Return the same with other arrays, in the order of `values`."""
         laws = {name: {key: next(values) for key in of} for name, of in self.laws.items()}
@@ -101,6 +109,14 @@ def filling(model: Model, memory: Memory) -> Array:
         for body, key in model.laws.filling:
             height += here.between[key] if body is None else here.laws[body][key]
     return heights
+
+
+def place(model: Model, body: str | None) -> str:
+    """Return where what lies on a body, or between them, is: points that stay there are together.
+
+    A step of the integrator ends for all that is at a place where one of it comes to a break.
+    """
+    return body if body in model.cycle.swept else "contact"
 
 
 def laid(model: Model, key: str, rate: Array, position: int) -> Array:

@@ -103,11 +103,12 @@ class Kind:
     objective: object
     paths: list
     part: float
+    seed: int = 0
 
     @cached_property
     def varied(self):
         """Random changes of all inputs, and the difference along them."""
-        model, random = composed(self.case), np.random.default_rng(0)
+        model, random = composed(self.case), np.random.default_rng(self.seed)
         numbers = {path: random.uniform(0.5, 1.5) for path in self.paths}
         own = {name: (each.rows, model.grid.cells[1]) for name, each in model.cycle.maps.items()}
         sizes = {"wear_rate": 1.0, "height": 1e-8}

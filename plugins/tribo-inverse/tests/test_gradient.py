@@ -261,7 +261,7 @@ KINDS = {
         ),
         Depth("disk", 5e-5),
         ["load.normal", *OF_COATING],
-        1e-6,
+        3e-5,
     ),
     "load over time": Kind(
         run(load=RAMP, bodies=pair(FRESH, power(1.5)), stepping=LONG),

@@ -44,7 +44,7 @@ def moved_breaks(model: Model, base: Model, before: Memory, state: int) -> Array
     if own.name != WORN_DEPTH.name and np.any(moved):
         raise CaseError(
             f"moves the breaks of {own}; a gradient goes through those of layers alone",
-            f"bodies.{own.place}.wear" if own.place in model.case.bodies else "effects",
+            f"bodies.{body}.wear" if (body := before.bodies[state]) else "effects",
         )
     return moved
 

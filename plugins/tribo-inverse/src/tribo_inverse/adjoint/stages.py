@@ -19,6 +19,7 @@ from tribo.kernel_api import (
     kept_in,
     local_fields,
     over,
+    place,
     readonly,
     with_loads,
 )
@@ -98,7 +99,7 @@ class Stages:
     @property
     def sums(self) -> list[Sum]:
         """The depths worn, as the integrator has them where they lie."""
-        return [Sum(name) for name in self.model.laws.wear]
+        return [Sum(place(self.model, name)) for name in self.model.laws.wear]
 
     @cached_property
     def shares(self) -> Array:
