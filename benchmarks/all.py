@@ -1,7 +1,7 @@
 """Run the benchmarks one after another and keep their figures in one file.
 
 The page on speed is made from it. Benchmarks that are not named stay as they are
-in the file. On a quiet machine; it takes about half an hour.
+in the file. On a quiet machine; it takes forty minutes.
 """
 
 from __future__ import annotations
