@@ -183,7 +183,7 @@ class _Iterate:
         self.deformed = self.displacement + self.gap
         self.approach = _approach(self.deformed, self.free, self.zero, self.full)
         self.deformed -= over(self.approach)
-        return judged(p, self.gap, self.displacement, self.approach, self.total, self.limit)
+        return judged(p, self.gap, self.displacement, self.deformed, self.total, self.limit)
 
     def conjugate_step(self) -> bool:
         """Move along a conjugate direction on the face; False if that does not lower the energy."""
@@ -240,7 +240,8 @@ class _Iterate:
         return True
 
     def _leaves(self, pressure: Array) -> Mask:
-        return np.asarray((pressure.min(CELLS) < 0) | (pressure > self.limit).any(CELLS))
+        below: Mask = np.asarray(pressure.min(CELLS) < 0)
+        return below | (pressure > self.limit).any(CELLS) if limits(self.limit) else below
 
     def spectral_step(self) -> None:
         """Move along the gradient by an inverse Rayleigh quotient and project."""

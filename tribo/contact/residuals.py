@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tribo.contact.projection import CELLS, limits, over
+from tribo.contact.projection import CELLS, limits
 from tribo.core.arrays import Array
 from tribo.core.contact import Residuals
 from tribo.core.errors import CaseError, NumericalError
@@ -42,39 +42,37 @@ def residuals(
     pressure: Array, gap: Array, displacement: Array, approach: float, total: float, limit: float
 ) -> Residuals:
     """Judge a pressure, shape (nx, ny), against the conditions of contact; see `judged`."""
-    return judged(pressure, gap, displacement, np.asarray(approach), np.asarray(total), limit)[0]
+    deformed = gap + displacement - approach
+    return judged(pressure, gap, displacement, deformed, np.asarray(total), limit)[0]
 
 
 def judged(
     pressure: Array,
     gap: Array,
     displacement: Array,
-    approach: Array,
+    deformed: Array,
     total: Array,
     limit: Array | float,
 ) -> list[Residuals]:
     """Judge a pressure against the conditions of contact, at one position or several.
 
-    Pressure, gap and displacement have the shape (nx, ny) or (positions, nx, ny), the approach and
-    the wanted sum of the pressure a value for each position; the limit may be infinite. The scale
-    of the residuals is the largest displacement under pressure, or the range of the gap there if
-    that is more; so it is positive for two flats as well. An open gap under pressure at the limit
-    counts against complementarity.
+    Pressure, gap, displacement and deformed gap have the shape (nx, ny) or (positions, nx, ny), the
+    wanted sum of the pressure a value for each position; the limit may be infinite. The scale of
+    the residuals is the largest displacement under pressure, or the range of the gap there if that
+    is more; so it is positive for two flats as well. An open gap under pressure at the limit counts
+    against complementarity.
     """
-    touching = pressure > 0
-    deformed = gap + displacement
-    deformed -= over(approach)
-    highest = np.where(touching, gap, -np.inf).max(CELLS)
-    lowest = np.where(touching, gap, np.inf).min(CELLS)
-    furthest = np.where(touching, displacement, -np.inf).max(CELLS)
-    scale = np.maximum(furthest, highest - lowest)
+    apart = pressure <= 0
+    beyond = np.where(apart, np.inf, 0.0)
+    lowest, highest = (gap + beyond).min(CELLS), (gap - beyond).max(CELLS)
+    scale = np.maximum((displacement - beyond).max(CELLS), highest - lowest)
     # 1 for two periodic flats, which do not displace.
     scale = np.where(scale == 0, 1.0, scale)
-    deepest = np.minimum(np.where(touching, 0.0, deformed).min(CELLS), 0.0)
+    deepest = np.minimum((deformed * apart).min(CELLS), 0.0)
+    misses = np.abs(deformed)
     if limits(limit):
-        np.maximum(deformed, 0.0, out=deformed, where=pressure >= limit)
-    np.abs(deformed, out=deformed)
-    open_ = dots(pressure, deformed) / (total * scale)
+        misses[(pressure >= limit) & (deformed < 0)] = 0.0
+    open_ = dots(pressure, misses) / (total * scale)
     force = abs(pressure.sum(CELLS) / total - 1.0)
     each = [values.ravel().tolist() for values in (force, open_, 0.0 - deepest / scale)]
     return [Residuals(*errors) for errors in zip(*each, strict=True)]
