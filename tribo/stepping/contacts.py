@@ -54,6 +54,16 @@ def solve_cycle(
     return [*left, _symmetric(middle), *map(_mirrored, reversed(left))]
 
 
+def carried_on(state: State) -> Sequence[ContactSolution]:
+    """Return contacts to start from, whose pressures go on to change as in the last step."""
+    if not state.previous:
+        return state.contacts
+    return [
+        replace(contact, pressure=np.maximum(2 * contact.pressure - before, 0.0))
+        for contact, before in zip(state.contacts, state.previous, strict=True)
+    ]
+
+
 def undeformed(model: Model, state: State) -> Array:
     """Return the gap at each position, worn, plastically deformed and filled, in m.
 

@@ -17,7 +17,7 @@ from tribo.core.errors import BadValues, NumericalError, PluginError
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.core.units import Quantity
-from tribo.stepping.contacts import counted, solve_cycle, undeformed
+from tribo.stepping.contacts import carried_on, counted, solve_cycle, undeformed
 from tribo.stepping.division import Division
 from tribo.stepping.events import Worn
 from tribo.stepping.evolution import Course, course, sloped
@@ -236,6 +236,7 @@ class Implicit(Scheme):
         # What is remembered is integrated under the loads of the step already.
         heavier = 1.0 if before.values else loads[0] / model.contact.loads.after(state.time)[0]
         forward = {name: heavier * depth for name, depth in guess.worn.items()}
+        contacts = carried_on(state)
         solved, passes = state, 0
         mismatches: list[float] = []
         while True:
@@ -245,7 +246,7 @@ class Implicit(Scheme):
             beyond = guess.depths - guess.filled - wear.depths(guess.contacts, dx)
             gaps = base + beyond
             try:
-                contacts = solve_cycle(model, gaps, loads, guess.contacts, state.bodies, wear)
+                contacts = solve_cycle(model, gaps, loads, contacts, state.bodies, wear)
             except PluginError:
                 raise
             except NumericalError as error:
