@@ -1,4 +1,4 @@
-"""What is to be known of a case, of data and of a fit, in words and numbers."""
+"""What is to be known of data and of a fit, in words and numbers."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ import numpy as np
 import pandas as pd
 from scipy.ndimage import binary_dilation
 from scipy.special import chdtrc
-from tribo import Array, CaseError, Finding, NumericalError
-from tribo.kernel_api import Model, leaves, signed
+from tribo import Array, Finding
+from tribo.kernel_api import signed
 
 from tribo_inverse.calibration.linearised import COLLINEAR, normalised
 from tribo_inverse.calibration.quantities import (
@@ -28,8 +28,6 @@ from tribo_inverse.calibration.quantities import (
 if TYPE_CHECKING:
     from tribo_inverse.calibration.maps import FittedMaps
 
-MOST = 8
-"""Numbers of a case that are reported."""
 UNLIKELY = 0.01
 """p-value below which data and model disagree."""
 TOO_SMALL = 0.001
@@ -42,42 +40,6 @@ SIGNIFICANT = 4.0
 """Standard deviations above which a level or a volume is not noise."""
 DIRECTIONS = ("along", "across")
 """The sliding direction, by axis."""
-
-
-def of_case(model: Model, half_width_x: float) -> list[Finding]:
-    """Return the `MOST` numbers that rule a case, with half its first contact's length, in m."""
-    from tribo_inverse.adjoint.sensitivity import sensitivity
-
-    try:
-        found = sensitivity(model, half_width_x)
-    except (CaseError, NumericalError) as error:
-        return [Finding("sensitivity", f"not known, since {error}")]
-    depth, time = f"depth of {found.body}", f"time until {found.body} reaches stop.depth"
-    what = depth if found.of == "depth" else time
-    kelvin = {
-        ".".join(map(str, place)): value
-        for place, value, mark in leaves(model.case)
-        if mark and mark.unit == "K"
-    }
-    return [
-        _sensitivity(what, path, change, found.uncertainty[path], kelvin.get(path))
-        for path, change in [*found.percent.items()][:MOST]
-    ]
-
-
-def _sensitivity(
-    what: str, path: str, change: float, uncertainty: float, kelvin: float | None
-) -> Finding:
-    """Word by how many per cent an answer changes for 1 % more of a number, or 1 K more."""
-    # A per cent of a temperature is one of its distance from absolute zero.
-    more, per = ("1 %", 1.0) if kelvin is None else ("1 K", 100 / kelvin)
-    return Finding(
-        "sensitivity",
-        f"{what} {per * change:+.2f} ± {per * uncertainty:.2f} % for {more} more",
-        value=per * change,
-        uncertainty=per * uncertainty,
-        place=path,
-    )
 
 
 def of_run(finding: Finding, runs: Sequence[str] = ()) -> Finding:
