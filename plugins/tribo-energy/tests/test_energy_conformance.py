@@ -7,7 +7,7 @@ from tribo_energy.traction import FrictionTraction
 
 # The checks let the traction follow the pressure, as its slope says.
 # A wide onset, since runs follow each point through it.
-LATE = {"threshold_traction": "50 MPa", "threshold_energy": "300 MJ/m^2", "threshold_spread": 2}
+LATE = {"threshold_traction": "50 MPa", "threshold_energy": "600 MJ/m^2", "threshold_spread": 2}
 test_dissipation = parametrize_checks(
     Dissipation, [{"alpha": "3.11e-6 mm^3/J"}, {"alpha": "3.11e-6 mm^3/J", **LATE}]
 )

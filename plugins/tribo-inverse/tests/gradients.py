@@ -66,7 +66,8 @@ def sought(model, base, steps, objective, worn, depth):
         def missed(until):
             return deepest(model, repeated(model, base, steps, worn, until)[-1]) / depth - 1
 
-        until = newton(missed, steps[-1][0], rtol=1e-13, tol=1e-15)
+        end = steps[-1][0]
+        until = newton(missed, end, x1=end * (1 + 1e-6), rtol=1e-8)
     looks = objective if isinstance(objective, dict) else {base.end_time: objective}
     times = [*(time for time, _ in steps[:-1]), base.end_time]
     states = zip(times, repeated(model, base, steps, worn, until), strict=True)
@@ -143,10 +144,11 @@ class Kind:
 
 CLOSE = 1e-6
 """As near as differences of runs come, whose contacts are solved to 1e-12."""
-WINDOW = Grid(("0.5 mm", "0.5 mm"), (16, 16))
-ODD = Grid(("0.46875 mm", "0.5 mm"), (15, 16))
+WINDOW = Grid(("0.5 mm", "0.5 mm"), (10, 10))
+FINE = Grid(("0.5 mm", "0.5 mm"), (16, 16))
+ODD = Grid(("0.45 mm", "0.5 mm"), (9, 10))
 """With one deepest cell in each row, where two would have a derivative to each side."""
-MIDDLE = Grid(("0.46875 mm", "0.46875 mm"), (15, 15))
+MIDDLE = Grid(("0.45 mm", "0.45 mm"), (9, 9))
 """With one deepest cell."""
 TIGHT = half_space(tolerance=1e-12)
 BASE = ["load.normal", "bodies.ball.wear.k", "bodies.disk.wear.k", "kinematics.frequency"]

@@ -78,7 +78,7 @@ def two_loads(noisy):
         {"name": "heavy", "measured": [noisy(POWER)]},
         {"name": "light", "set": light, "measured": [noisy(POWER, **light)]},
     ]
-    return {"test": tests, "fit": [{"path": K, "start": 5e-16}, {"path": N, "start": 1.1}]}
+    return {"test": tests, "fit": [{"path": K, "start": 3.5e-16}, {"path": N, "start": 1.2}]}
 
 
 @pytest.fixture(scope="module")

@@ -7,6 +7,7 @@ import pytest
 from gradients import (
     BASE,
     CLOSE,
+    FINE,
     FRESH,
     HARD,
     LONG,
@@ -142,7 +143,11 @@ KINDS = {
         1e-6,
     ),
     "layers, remembers": Kind(
-        run(bodies=layered(None, ("0.05 um", FAST), archard(), FRESH), stepping=LONG),
+        run(
+            bodies=layered(None, ("0.05 um", FAST), archard(), FRESH),
+            kinematics=motion(duration=5),
+            stepping=LONG,
+        ),
         Depth("disk"),
         ["load.normal", *SHAPE, *OF_LAYER, "bodies.disk.wear.over"],
         1e-6,
@@ -185,7 +190,7 @@ KINDS = {
         run(
             grid=ODD,
             bodies=layered(None, ("0.01 um", SLOW), None, FLEETING),
-            kinematics=motion(duration=5),
+            kinematics=motion(duration=4),
             stepping=LONG,
         ),
         Depth("disk"),
@@ -194,6 +199,7 @@ KINDS = {
     ),
     "layers, passed late in a step, remembers": Kind(
         run(
+            grid=FINE,
             bodies=layered(("0.05 um", archard()), of_ball=FRESH),
             kinematics=motion(duration=1.75537),
             stepping=LONG,
@@ -217,6 +223,7 @@ KINDS = {
         run(
             contact=Winkler(plasticity=False),
             bodies=layered(None, ("0.05 um", archard(2 * K)), SMOOTH, SMOOTH),
+            kinematics=motion(duration=5),
             stepping=LONG,
         ),
         Depth("ball"),
@@ -225,6 +232,7 @@ KINDS = {
     ),
     "positions, layers, remembers": Kind(
         run(
+            grid=FINE,
             bodies=layered(("0.02 um", FAST), ("0.004 um", archard(2 * K)), FRESH, archard()),
             kinematics=resolved(duration=0.25),
             stepping=LONG,
@@ -327,6 +335,7 @@ def test_a_point_just_above_the_bottom_of_a_layer_passes_it(below):
             grid=MIDDLE,
             contact=Winkler(plasticity=False),
             bodies=layered((thickness, archard()), of_ball=below),
+            kinematics=motion(duration=6),
             stepping=LONG,
             save_times=(5.0,),
         )
@@ -483,7 +492,8 @@ class Step(Surface):
     type = "step"
 
     def height(self, grid):
-        return np.where(np.arange(grid.cells[0])[:, None] < 8, 1e-6, np.zeros(grid.cells))
+        higher = np.arange(grid.cells[0]) < grid.cells[0] // 2
+        return np.outer(1e-6 * higher, np.ones(grid.cells[1]))
 
 
 @pytest.mark.parametrize(

@@ -319,9 +319,9 @@ KINDS["pressure beside"] = Kind(
 )
 KINDS["layers"] = Kind(
     run(
-        bodies=layered(None, ("0.005 um", archard(2 * K))),
+        bodies=layered(None, ("0.43 nm", archard(2 * K))),
         effects=[Grains()],
-        kinematics=motion(duration=1),
+        kinematics=motion(duration=0.1),
         stepping=SLOW,
     ),
     Depth("disk"),
@@ -418,6 +418,7 @@ MUTANTS = [
     ("heat", slopes.Sloping, "_by_pressure", unfelt("square")),
     ("heat", linear.Uniform, "gathered", zero),
     ("heat", remembering.Together, "is_pointwise", lambda _: property(lambda self: True)),
+    ("layers", integrator, "_back", unbroken),
     ("layers, pressure beside", integrator, "_back", unbroken),
 ]
 

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from gradients import BASE, CLOSE, HARD, Kind, layered, resolved, run
+from gradients import BASE, CLOSE, FINE, HARD, Kind, layered, resolved, run
 from paper_models import K, archard, motion, pair, states
 from scipy.optimize import minimize
 from tribo.case import Layer, Stop
@@ -104,7 +104,7 @@ def test_what_is_not_covered_is_refused(changes, message):
     ],
 )
 def test_a_number_without_derivative_is_refused(path, message):
-    case = run(kinematics=resolved(), bodies=pair(archard(), archard(2 * K)))
+    case = run(grid=FINE, kinematics=resolved(), bodies=pair(archard(), archard(2 * K)))
     with pytest.raises(CaseError, match=message):
         gradient(case, Volume("ball"), [path])
 
@@ -237,7 +237,7 @@ def test_of_what_does_not_wear_nothing_is_told_in_per_cent():
 
 
 def test_without_paths_all_numbers_count_and_the_rest_says_why():
-    found = gradient(run(kinematics=resolved()), Depth("disk"))
+    found = gradient(run(grid=FINE, kinematics=resolved()), Depth("disk"))
     assert found["bodies.disk.wear.k"] > 0
     assert str(found).startswith("bodies.disk.wear.k ")
     assert "whole cells" in found.refused["kinematics.stroke"]
@@ -327,7 +327,7 @@ def test_a_save_that_is_not_there_is_refused():
 
 def test_a_depth_that_ends_the_run_before_an_objective_looks_is_refused():
     stops = run(stop=Stop(depth="0.2 um"), save_times=(15.0,))
-    with pytest.raises(CaseError, match=r"a depth ends the run at 5\.\d+ s, before 15 s"):
+    with pytest.raises(CaseError, match=r"a depth ends the run at 6\.\d+ s, before 15 s"):
         gradient(stops, {15.0: Volume("ball")}, [])
 
 
@@ -335,7 +335,7 @@ def test_a_depth_that_ends_the_run_before_an_objective_looks_is_refused():
     ("stop", "message"),
     [
         (Stop(), "stop.depth: is not given"),
-        (Stop(depth="1 um"), "after 20 s the largest depth is 0.587 µm of 1 µm"),
+        (Stop(depth="1 um"), "after 20 s the largest depth is 0.553 µm of 1 µm"),
         (Stop(depth="0.2 um", body="disk"), r"the largest depth is 0\.04\d+ µm of 0\.2 µm"),
     ],
 )
