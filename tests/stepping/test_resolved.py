@@ -48,7 +48,7 @@ def every_cell():
 
 @pytest.mark.slow
 def test_both_bodies_wear_as_in_a_plain_loop_over_the_cells_of_the_stroke(every_cell):
-    ball, disk = plain_loop(every_cell.distance, steps=1200)
+    ball, disk = plain_loop(every_cell.distance, steps=500)
     for found, expected in ((every_cell.bodies["ball"], ball), (every_cell.bodies["disk"], disk)):
         assert found.wear.shape == expected.shape
         assert np.max(np.abs(found.wear - expected)) < 5e-3 * expected.max()
