@@ -120,6 +120,11 @@ def quick_reports(monkeypatch):
         monkeypatch.setattr(f"{module}.result_pictures", two)
 
 
+def empty_pictures(monkeypatch):
+    """Let pictures be drawn, but their files stay empty."""
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", lambda *given, **named: None)
+
+
 def half_width(time):
     """Half-width of the contact along x; it is a tenth wider along y."""
     return 1.5e-4 * (1 + time / 20) ** 0.25

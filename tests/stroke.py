@@ -16,7 +16,7 @@ def resolved(positions="cells", duration=600, grid=GRID, **changes):
     return small(**{"grid": grid, "contact": foundation(), "kinematics": kinematics, **changes})
 
 
-def plain_loop(distance, shares=1.0, steps=1500):
+def plain_loop(distance, shares=1.0, steps=500):
     """Wear ball and disk by forward Euler under a share of the load at each cell of the stroke."""
     (nx, ny), (dx, dy) = GRID.cells, GRID.spacing
     x, y = GRID.mesh

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from made_results import empty_pictures
 
 from tribo.cli.main import tribo
 
@@ -46,6 +47,7 @@ def test_its_python_runs(number, monkeypatch, capsys):
 def test_it_shows_what_the_demo_prints(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "80")
+    empty_pictures(monkeypatch)
     # The resolved hour in a few seconds: its own column is masked.
     monkeypatch.setattr("tribo.cli.demo.RESOLVED", QUICK)
     printed = CliRunner().invoke(tribo, ["demo"], catch_exceptions=False)

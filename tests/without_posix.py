@@ -18,8 +18,8 @@ case = "case.toml"
 [settings]
 grid.cells = 16
 grid.size = "0.7 mm"
-kinematics.duration = 10
-output.save_times = [5]
+kinematics.duration = 4
+output.save_times = [2]
 [grid]
 load.normal = [50, 100]
 """

@@ -18,7 +18,7 @@ output = {{ save_times = [7] }}
 {more}
 [grid]
 size = "0.7 mm"
-cells = 32
+cells = 24
 [load]
 normal = 100
 [bodies.ball]

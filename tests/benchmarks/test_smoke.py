@@ -6,7 +6,7 @@ import math
 import sys
 from functools import partial
 from importlib.util import find_spec
-from itertools import cycle
+from itertools import cycle, islice
 from pathlib import Path
 
 import numpy as np
@@ -169,7 +169,7 @@ def test_profile_run(figures):
 
 @pytest.mark.slow
 def test_time_schemes(figures):
-    options = ("--cells", "20", "--duration", "200", "--growth", "0.4")
+    options = ("--cells", "16", "--duration", "100", "--growth", "0.4")
     (rows,) = figures("time_schemes", *options).values()
     schemes = {row["scheme"]: row for row in rows}
     euler, second = schemes["backward Euler"], schemes["TR-BDF2"]
@@ -226,15 +226,19 @@ def test_resolved_loop(figures):
 
 @pytest.mark.slow
 def test_moving_contact(figures, module, monkeypatch):
-    monkeypatch.setattr(module("moving_contact"), "WIDTHS", (4,))
-    monkeypatch.setattr(module("moving_contact"), "SHORT", (3, 0.25))
+    moving = module("moving_contact")
+    monkeypatch.setattr(moving, "WIDTHS", (4,))
+    monkeypatch.setattr(moving, "SHORT", (3, 0.25))
+    for name in ("grooves", "unworn_ball"):
+        rows = getattr(moving, name)
+        monkeypatch.setattr(moving, name, lambda *given, rows=rows: islice(rows(*given), 1))
     options = ("--cells", "12", "--half-width", "2", "--passes", "1")
     tables = figures("moving_contact", *options)
     lengths = {name: len(rows) for name, rows in tables.items()}
     assert lengths == {
         "paper": 2,
-        "grooves": 6,
-        "ball that does not wear": 3,
+        "grooves": 1,
+        "ball that does not wear": 1,
         "short strokes, worn little": 2,
     }
     for rows in tables.values():

@@ -6,7 +6,7 @@ import shutil
 import pytest
 from click.testing import CliRunner
 from edited import edited
-from made_results import GRID, written
+from made_results import GRID, empty_pictures, written
 
 from tribo.cli.main import tribo
 from tribo.core.errors import CaseError
@@ -31,7 +31,9 @@ def invoke(*args):
 
 @pytest.fixture(scope="module")
 def compared(folder):
-    return invoke(folder / "my.toml", *CONTACTS, *QUICK)
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        empty_pictures(monkeypatch)
+        return invoke(folder / "my.toml", *CONTACTS, *QUICK)
 
 
 def row(text, label):
@@ -170,7 +172,8 @@ def test_another_comparison_does_not_overwrite_the_first_and_one_may_grow(folder
 
 
 @pytest.mark.slow
-def test_pictures_of_other_files_go_to_another_folder(made, tmp_path):
+def test_pictures_of_other_files_go_to_another_folder(made, monkeypatch, tmp_path):
+    empty_pictures(monkeypatch)
     files = [shutil.copy(made["[m]"], tmp_path / f"{name}.h5") for name in "abc"]
     for other in files[1:]:
         assert invoke(files[0], other, "--at", "0").exit_code == 0

@@ -12,6 +12,7 @@ from tempfile import mkdtemp
 import pytest
 import sweeps
 from click.testing import CliRunner
+from made_results import quick_reports
 
 import tribo as package
 from tribo import sweep
@@ -33,7 +34,8 @@ def given():
     (folder / "my.toml").write_text(template("ball_on_disk"), encoding="utf-8")
     # With all that is imported on the way: nobody may not read where Python is.
     for command in ("run my.toml -o a.h5", "compare a.h5 b.h5", "plot a.h5"):
-        with chdir(folder):
+        with chdir(folder), pytest.MonkeyPatch.context() as monkeypatch:
+            quick_reports(monkeypatch)
             done = CliRunner().invoke(tribo, command.split() + QUICK * command.startswith("run"))
             assert done.exit_code == 0, done.output
         shutil.copy(folder / "a.h5", folder / "b.h5")

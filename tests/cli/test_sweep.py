@@ -18,7 +18,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 def swept(tmp_path_factory):
     folder = tmp_path_factory.mktemp("swept")
     sweeps.study(folder)
-    return folder, tribo("sweep", "study.toml", "--jobs", 2, cwd=folder)
+    return folder, tribo("sweep", "study.toml", "--jobs", 1, cwd=folder)
 
 
 @pytest.mark.slow

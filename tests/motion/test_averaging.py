@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from paper_models import K, archard, case, flat, last, motion, named, steel
 
-from tribo import Cylinder, Grid
+from tribo import Cylinder, Grid, Implicit
 from tribo.core.errors import CaseError
 from tribo.motion.averaging_error import groove_excess
 from tribo.motion.unidirectional import Unidirectional
@@ -64,6 +64,7 @@ def line(length, distance, wears, positions):
             for body, k in zip(names, wears, strict=True)
         ],
         kinematics=motion(**kinematics, positions=positions),
+        stepping=Implicit(depth_tolerance=0.01, pressure_tolerance=0.1, settle=0.1),
     )
 
 

@@ -40,7 +40,7 @@ INDENTED = {"worn": (False, False), "plastic": 2e-7, "cap": 2e9, "times": (0.0,)
 
 @pytest.mark.slow
 def test_the_pictures_are_images_of_the_width_of_a_column(monkeypatch, tmp_path):
-    all_of_them, some = figures.result_pictures, ("pressure_map", "worn_section", "wear_history")
+    all_of_them, some = figures.result_pictures, ("pressure_map", "worn_section")
     monkeypatch.setattr(
         figures, "result_pictures", lambda result: {n: all_of_them(result)[n] for n in some}
     )

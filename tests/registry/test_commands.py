@@ -42,6 +42,7 @@ def asked(folder, *args):
         provenance._code,
         provenance._installed,
         provenance._named_modules,
+        provenance._packages,
     ):
         kept.cache_clear()
     for name in [name for name in sys.modules if (folder / f"{name}.py").exists()]:

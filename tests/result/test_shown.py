@@ -7,7 +7,8 @@ from tribo import CaseError
 
 
 @pytest.mark.slow
-def test_measures_and_plots_are_a_method_away(tmp_path):
+def test_measures_and_plots_are_a_method_away(monkeypatch, tmp_path):
+    made_results.empty_pictures(monkeypatch)
     result = made_results.made()
     assert set(result.report().bodies) == {"ball", "disk"}
     assert {path.name for path in result.plot(tmp_path)} >= {"pressure_map.png", "wear_history.png"}

@@ -109,7 +109,7 @@ def test_a_resolved_cycle_goes_on_along_its_whole_track(tmp_path):
 @pytest.mark.slow
 def test_what_has_yielded_along_a_resolved_track_is_kept(tmp_path):
     bodies = pair(archard(), archard(), hardness=(None, 1.2e9))
-    kinematics = motion(stroke=24 * GRID.spacing[0], duration=0.2, positions=13)
+    kinematics = motion(stroke=24 * GRID.spacing[0], duration=0.2, positions=9)
     parts = {"bodies": bodies, "contact": half_space(), "kinematics": kinematics}
     begin = tmp_path / "first.h5"
     with Simulation(worn_case(**parts)).run(begin) as first:

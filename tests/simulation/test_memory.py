@@ -27,7 +27,7 @@ MEASURE = """
     warnings.simplefilter("ignore")
     # Imported when they are first used, and no part of what a case takes.
     import h5py, scipy.fft, scipy.ndimage, scipy.optimize
-    cells = 160
+    cells = 128
     for case in sys.argv[1:]:
         if not os.fork():
             break

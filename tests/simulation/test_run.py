@@ -40,7 +40,7 @@ class Stopper(Observer):
             os.kill(os.getpid(), self.number)
 
 
-WATCHED = {"save_times": (20, 100)}
+WATCHED = {"save_times": (4, 20), "kinematics": motion(duration=30)}
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +61,7 @@ def test_a_stopped_run_resumes_to_the_same_bits(tmp_path, undisturbed, number, s
             go_on(path, observers=[Stopper(after=after, number=number)])
         with Result.open(path) as result:
             assert result.status == "interrupted"
-            assert result.times[-1] < 200
+            assert result.times[-1] < 30
         go_on = Simulation(case(**WATCHED)).resume
     with go_on(path) as result:
         assert result.status == "done"

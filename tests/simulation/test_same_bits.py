@@ -15,8 +15,8 @@ pytestmark = pytest.mark.slow
 
 SETTINGS = {
     "grid.cells": "48",
-    "kinematics.duration": "20",
-    "output.save_times": "[5]",
+    "kinematics.duration": "8",
+    "output.save_times": "[3]",
     "load.normal": "900",  # beyond the hardness: plastic flow takes part
 }
 SHELL = "from tribo.cli.main import main; main()"

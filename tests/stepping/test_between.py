@@ -112,8 +112,8 @@ LYING = [Filling(length="0.5 m"), Debris(length="0.5 m", on="disk")]
 @pytest.mark.slow
 @pytest.mark.parametrize("debris", LYING)
 def test_a_resumed_run_has_the_same_bits(tmp_path, debris):
-    short = motion(duration=1.5)
-    case = model(effects=[debris, Bath()], kinematics=short, save_times=(1,)).case
+    short = motion(duration=0.6)
+    case = model(effects=[debris, Bath()], kinematics=short, save_times=(0.4,)).case
     goes_on(case, tmp_path, 3).close()
 
 

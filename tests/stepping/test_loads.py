@@ -86,7 +86,7 @@ def test_steps_under_a_ramp_are_of_first_order():
     assert (coarse - exact) / (fine - exact) == pytest.approx(2, abs=0.35)
 
 
-def plain_loop(load, end, steps=1500):
+def plain_loop(load, end, steps=700):
     """Wear ball and disk by forward Euler, under a load (N) that is a function of time (s)."""
     (nx, ny), (dx, dy) = GRID.cells, GRID.spacing
     x, y = GRID.mesh

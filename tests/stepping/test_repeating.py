@@ -84,7 +84,7 @@ def track(**values):
     )
 
 
-def plain_loop(offsets, shares, distance, steps=600):
+def plain_loop(offsets, shares, distance, steps=300):
     """Wear two rough bodies, of which the lower one goes round, by forward Euler."""
     unworn = [-rough(seed).height(GRID) for seed in (1, 2)]
     upper, lower = np.zeros(GRID.cells), np.zeros(GRID.cells)

@@ -222,7 +222,7 @@ def test_an_address_without_a_scheduler_is_named_in_time(content):
         if content:
             answered_with(listener, content)
         with (
-            pytest.raises(CaseError, match=f"no scheduler answers at {address} within 1 s"),
-            on_scheduler(address, patience=1),
+            pytest.raises(CaseError, match=f"no scheduler answers at {address} within 0.2 s"),
+            on_scheduler(address, patience=0.2),
         ):
             pass

@@ -85,7 +85,7 @@ def everything():
     """A case whose laws and effect remember and whose disk yields."""
     law = RunningIn(k_first=9e-16, k_last=3e-16, length=5.0)
     model = small(
-        grid=Grid((0.7e-3, 0.7e-3), (12, 12)),
+        grid=Grid((0.7e-3, 0.7e-3), (8, 8)),
         contact=half_space(),
         bodies=pair(law, law, (None, 1.5e9)),
         kinematics=motion(duration=2),

@@ -21,20 +21,20 @@ from tribo.core.errors import TriboError
 from tribo.observers import recorder
 from tribo.observers.observer import Observer
 
-SAVES = (5, 10, 15)
+SAVES = (2, 4, 6)
 TIME_LIMIT = 120.0
 CHECKPOINTS = 0.1
 """Wall time between checkpoints, in s, so that many fall between the saves."""
 
 
 def simulation():
-    """Twenty seconds of a ball on a disk, whose laws remember, and debris between them."""
+    """Eight seconds of a ball on a disk, whose laws remember, and debris between them."""
     law = RunningIn(k_first=9e-16, k_last=3e-16, length=5.0)
     model = small(
         grid=Grid((0.7e-3, 0.7e-3), (20, 20)),
         contact=half_space(),
         bodies=pair(law, law),
-        kinematics=motion(duration=20),
+        kinematics=motion(duration=8),
         effects=[Debris(length=0.5)],
         save_times=SAVES,
     )

@@ -160,4 +160,4 @@ def test_a_mutant_fails(monkeypatch, name):
     (owner, attribute), mutate, text = MUTANTS[name]
     monkeypatch.setattr(owner, attribute, mutate(getattr(owner, attribute)))
     noticing = [known for known in REFERENCES if text in known.case]
-    assert "fails" in {row.verdict for known in noticing for row in known.run()}
+    assert any(row.verdict == "fails" for known in noticing for row in known.run())

@@ -31,7 +31,7 @@ EXPECTED = {
 @pytest.fixture(scope="module")
 def result():
     case = tomllib.loads(template("ball_on_disk"))
-    case["grid"].update(size="2 mm", cells=256)
+    case["grid"].update(size="2 mm", cells=160)
     return Simulation(case).run()
 
 

@@ -43,7 +43,7 @@ def test_levels_are_the_cases_own_and_two_coarser_of_the_same_parity(implicit):
 @pytest.mark.slow
 def test_stated_uncertainties_cover_a_much_finer_run(implicit):
     stepping = Implicit(pressure_tolerance=0.005, depth_tolerance=1e-5, settle=1e-3)
-    fine = refinement._run(worn(), (147, 147), stepping)
+    fine = refinement._run(worn(), (99, 99), stepping)
     exact = refinement._quantities(worn(), fine.end)
     found = by_name(implicit)
     # A body that does not wear is left out.

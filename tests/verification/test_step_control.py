@@ -22,7 +22,7 @@ def test_halved_tolerances_halve_the_error_of_the_steps():
         ball = case(
             bodies=bodies,
             contact=foundation(),
-            grid=Grid((0.7e-3, 0.7e-3), (200, 200)),
+            grid=Grid((0.7e-3, 0.7e-3), (100, 100)),
             stepping=Implicit(pressure_tolerance=tolerance, depth_tolerance=0.1, settle=1.0),
         )
         last = Simulation(ball).run().saves()[-1]

@@ -100,7 +100,7 @@ def holed(self, grid):
 for name, words, height in (
     (
         "column",
-        "of body 'ball' gave 'height' that is float64 of shape (32, 1)",
+        "of body 'ball' gave 'height' that is float64 of shape (24, 1)",
         lambda s, grid: Sphere.height(s, grid)[:, :1],
     ),
     ("holed", "'height' that is not finite in 1 cells", holed),
@@ -133,7 +133,7 @@ for name, words, fields in (
 for name, words, heat in (
     (
         "short_heat",
-        "'zoo_heat' for body 'ball' that is float64 of shape (31, 32)",
+        "'zoo_heat' for body 'ball' that is float64 of shape (23, 24)",
         lambda self, pressure: pressure[1:],
     ),
     ("heat_raises", "raised KeyError: 'steel'", raising(KeyError("steel"))),
@@ -245,7 +245,7 @@ def used_again(self, problem, start=None):
 
 for name, words, spoilt in (
     ("no_solution", "NoneType as its solution", lambda self, s, problem: None),
-    ("short", "of shape (31, 32)", solution(lambda s: {"pressure": s.pressure[1:]})),
+    ("short", "of shape (23, 24)", solution(lambda s: {"pressure": s.pressure[1:]})),
     ("nan_p", "1 cells", solution(lambda s: {"pressure": point(s.pressure, corner=np.nan)})),
     (
         "adhesive",

@@ -85,7 +85,7 @@ exposed("volume_nan", "'volume' for body 'ball' that is nan", volume=lambda self
 for name, words, envelope in (
     (
         "envelope_short",
-        "'envelope' for body 'ball' that is float64 of shape (31, 32)",
+        "'envelope' for body 'ball' that is float64 of shape (23, 24)",
         lambda self, field: field[1:],
     ),
 ):
@@ -95,7 +95,7 @@ for name, words, compliance in (
     (
         "compliance_below_0",
         "'local' for body 'ball' that is -",
-        lambda self, k, p: WearCompliance(-k, np.zeros(32)),
+        lambda self, k, p: WearCompliance(-k, np.zeros(24)),
     ),
 ):
     exposed(name, words, compliance=compliance)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -54,14 +54,14 @@ def check_contained(file: h5py.File) -> None:
         raise ValueError(f"it promises {promised / 1e6:.3g} MB, more than it can hold")
 
 
-def read_variables(file: h5py.File, bodies: tuple[str, ...]) -> dict[str, Variable]:
+def read_variables(
+    kept: Mapping[str, h5py.Dataset], bodies: tuple[str, ...]
+) -> dict[str, Variable]:
     """Return the variables of a file, none of them read; ValueError if they do not fit."""
-    lacking = {*ROUGHNESS, TRACK_PLASTIC} - file.keys()
-    if not {"track_x", TRACK} & file.keys():
+    lacking = {*ROUGHNESS, TRACK_PLASTIC} - kept.keys()
+    if not {"track_x", TRACK} & kept.keys():
         lacking |= {"track_x", TRACK}
     table = {name: variable for name, variable in FIXED.items() if name not in lacking}
-    # Each is looked up in the file once, as that takes long.
-    kept = dict(file.items())
     for name, values in kept.items():
         if "kind" in values.attrs:
             table[name] = _field_of_model(name, values, bodies)

@@ -11,7 +11,7 @@ import numpy as np
 
 from tribo.core.hdf5 import open_hdf5
 from tribo.core.state import RunInfo
-from tribo.result.layout import Rows, Variable, attributes, variables
+from tribo.result.layout import FIXED, Rows, Variable, attributes, variables
 
 if TYPE_CHECKING:
     import h5py
@@ -41,7 +41,7 @@ def empty_image(run: RunInfo, **changed: Any) -> bytes:
         # netCDF takes the dimensions from these.
         for dim in sizes:
             datasets[dim].make_scale(dim)
-        for name in table.keys() - sizes.keys():
+        for name in [each for each in table if each not in sizes]:
             for axis, dim in enumerate(table[name].dims):
                 datasets[name].dims[axis].attach_scale(datasets[dim])
     return image.getvalue()

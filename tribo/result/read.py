@@ -55,7 +55,9 @@ class Result:
         with checks.interpreting(name), ExitStack() as unsound:
             self._file = unsound.enter_context(open_hdf5(source))
             self._header = read_header(self._file.attrs)
-            self._variables = checks.read_variables(self._file, self.body_names)
+            # Each is looked up in the file once, as that takes long.
+            self._kept = dict(self._file.items())
+            self._variables = checks.read_variables(self._kept, self.body_names)
             small = [name for name, values in self._variables.items() if len(values.dims) <= 2]
             self._scalars = {name: self._read(name, ...) for name in small}
             if not (len(self.times) or self.status == "running"):
@@ -356,7 +358,7 @@ class Result:
 
     def _read(self, name: str, *index: Any) -> Array:
         with checks.interpreting(self.name):
-            return checks.checked(name, np.asarray(self._file[name][index]))
+            return checks.checked(name, np.asarray(self._kept[name][index]))
 
     def _index(self, body: str) -> int:
         if body not in self.body_names:
