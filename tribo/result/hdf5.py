@@ -11,7 +11,7 @@ import numpy as np
 
 from tribo.core.hdf5 import open_hdf5
 from tribo.core.state import RunInfo
-from tribo.result.layout import FIXED, Rows, Variable, attributes, variables
+from tribo.result.layout import Rows, Variable, attributes, variables
 
 if TYPE_CHECKING:
     import h5py
