@@ -118,6 +118,25 @@ def test_a_state_that_goes_on_beyond_its_limit_is_told_at_once(length):
     assert len(asked) < 2000
 
 
+@pytest.mark.parametrize("length", [1.5, 3.0, 100.0])
+@pytest.mark.parametrize(("place", "within"), [(None, 1e-3), ("a place", 3e-5)])
+@pytest.mark.parametrize(("breaks", "after"), [((), 0.0), ((0.4,), -0.5)])
+def test_a_sum_whose_rate_follows_a_state_to_a_break_is_right(length, place, within, breaks, after):
+    """A state falls from 1, below a break more slowly, to its limit; what is summed is 1 more."""
+    kept = Kept("a", "a test", least=0.0, breaks=breaks, place="a place")
+    low = breaks[0] if breaks else 0.0
+
+    def rates(values, passed):
+        falls = np.where(values[0] >= low, -1.0, after)
+        return [np.where(values[0] > 0, falls, 0.0), 1 + values[0]]
+
+    first = 1 - low
+    rest = min(length - first, low / -after) if after else 0.0
+    exact = length + 0.5 * (1 + low) * first + (low + 0.5 * after * rest) * rest
+    found = integrated(rates, [ONE], length, [kept], [Sum(place)])
+    assert found.sums[0] == pytest.approx(exact, rel=within)
+
+
 LAYERED = Kept("a", "a test", breaks=(0.3, 0.5, 2.0))
 
 

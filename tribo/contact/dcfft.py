@@ -14,6 +14,7 @@ from tribo.contact.half_space import HalfSpace
 from tribo.contact.love import nyquist_compliance
 from tribo.contact.operator import Operator, WornOperator
 from tribo.contact.projection import CELLS, over
+from tribo.contact.residuals import check_finite
 from tribo.core.arrays import Array, Mask
 from tribo.core.box import Box, around, whole
 from tribo.core.contact import (
@@ -94,6 +95,7 @@ class DcFft(ElasticSolver):
 
     def _guess(self, problem: ContactProblem) -> Array | None:
         """Return Hertz's pressure, as if the gap were that of a ball; None where it is even."""
+        check_finite(problem.gap)
         system, gap = problem.system, problem.gap - problem.gap.min()
         low, approach = 0.0, float(gap.max())
         while approach - low > _ROUGHLY * approach:

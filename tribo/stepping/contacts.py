@@ -58,10 +58,13 @@ def carried_on(state: State) -> Sequence[ContactSolution]:
     """Return contacts to start from, whose pressures go on to change as in the last step."""
     if not state.previous:
         return state.contacts
-    return [
-        replace(contact, pressure=np.maximum(2 * contact.pressure - before, 0.0))
-        for contact, before in zip(state.contacts, state.previous, strict=True)
-    ]
+    going_on = []
+    for contact, before in zip(state.contacts, state.previous, strict=True):
+        # That of another load, as before a jump, in proportion.
+        share = float(np.sum(contact.pressure)) / float(np.sum(before))
+        pressure = np.maximum(2 * contact.pressure - share * before, 0.0)
+        going_on.append(replace(contact, pressure=pressure))
+    return going_on
 
 
 def undeformed(model: Model, state: State) -> Array:

@@ -236,7 +236,7 @@ class _Problem:
         if not self.repeated:
             # Trials held to a limit agree with each other, whatever the state goes to.
             off = max(off, *map(part_of, taken.beyond, sizes), 0.0)
-            off = max(off, *map(part_of, _unseen(taken, along, last), sizes), 0.0)
+            off = max(off, *map(part_of, _unseen(taken, self.sums, along, last), sizes), 0.0)
         passed = taken.passed()
         if off <= accuracy < math.inf and taken.last is None:
             # At a place where points pass breaks, rates jump as is known; elsewhere all may then.
@@ -275,13 +275,14 @@ def _looser(plan: Division) -> Division:
     return Division(((1 / MOST_PARTS, False),) * MOST_PARTS, math.inf)
 
 
-def _unseen(part: Part, rates: Rates, last: Values) -> list[float]:
-    """Return how far off each state may be where it passes a break, summed over the cells.
+def _unseen(part: Part, sums: Sequence[Sum], rates: Rates, last: Values) -> list[float]:
+    """Return how far off states and sums may be where a break is passed, summed over the cells.
 
     Rates change on the way there and from there, of which a step knows nothing: they are asked
     on this side of the break, and at the end of the step. `last` are those at the end of all.
     """
-    off, row = [0.0] * len(part.kept), part.rows[-1]
+    every: list[Kept | Sum] = [*part.kept, *sums]
+    off, row = [0.0] * len(every), part.rows[-1]
     for taken, pieces in enumerate(row):
         if not pieces[0].ended:
             continue
@@ -295,12 +296,13 @@ def _unseen(part: Part, rates: Rates, last: Values) -> list[float]:
                 states[at] = np.where(here, near, states[at])
             found = rates(states, taken / len(row)) if piece.ended else []
             for at, (here, _) in piece.ended.items():
-                for other, of in enumerate(part.kept):
+                for other, of in enumerate(every):
                     if of.place == part.kept[at].place:
                         own = np.abs(found[other] - piece.rates[other])
-                        change[other] = np.where(here, own, change[other])
-            for at, of in enumerate(part.kept):
-                off[at] += 0.5 * float(np.sum(change[at] * piece.spans[of.place]))
+                        change[other] = np.where(of.seen(here), own, change[other])
+            for at, of in enumerate(every):
+                span = of.seen(np.asarray(piece.spans.get(of.place or "", 0.0)))
+                off[at] += 0.5 * float(np.sum(change[at] * span))
     return off
 
 

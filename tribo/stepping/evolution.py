@@ -205,8 +205,8 @@ def kept_in(model: Model, memory: Memory) -> list[Kept]:
         if field.name == key
     ]
     between = [
-        (field, f"{effect}", field.name if field.uniform else place(model, effect.carrier))
-        for effect, field in (model.laws.between[key] for key in memory.between)
+        (field, f"{effect}", f"all of {key}" if field.uniform else place(model, effect.carrier))
+        for key, (effect, field) in ((key, model.laws.between[key]) for key in memory.between)
     ]
     return [
         Kept(

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +48,10 @@ class Kept:
         """The limits, with the breaks between them; None where there are none."""
         ends = np.array([self.least, *self.breaks, self.most])
         return ends if np.any(np.isfinite(ends)) else None
+
+    def seen(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Return what is known where it lies as it is; a `Sum` may lie elsewhere."""
+        return values
 
     def hold(self, values: Array) -> Array:
         """Return values held to the limits."""
@@ -119,4 +124,8 @@ class Sum:
         if self.place is None:
             return step
         span = spans.get(self.place, step)
-        return self.see(span) if self.see and isinstance(span, np.ndarray) else span
+        return self.seen(span) if isinstance(span, np.ndarray) else span
+
+    def seen(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Return what is known at its place, where it lies."""
+        return self.see(values) if self.see and values.ndim else values

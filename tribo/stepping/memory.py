@@ -116,7 +116,7 @@ def place(model: Model, body: str | None) -> str:
 
     A step of the integrator ends for all that is at a place where one of it comes to a break.
     """
-    return body if body in model.cycle.swept else "contact"
+    return body if body in model.cycle.swept else "the contact"
 
 
 def laid(model: Model, key: str, rate: Array, position: int) -> Array:
