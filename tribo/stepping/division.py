@@ -303,6 +303,11 @@ def _unseen(part: Part, sums: Sequence[Sum], rates: Rates, last: Values) -> list
             for at, of in enumerate(every):
                 span = of.seen(np.asarray(piece.spans.get(of.place or "", 0.0)))
                 off[at] += 0.5 * float(np.sum(change[at] * span))
+    if places_passing(part.kept, part.pieces):
+        # Rows of what goes on over breaks may agree by chance.
+        for at, of in enumerate(every):
+            if of.place is None:
+                off[at] = apart(part.ends[-1][at], part.ends[0][at])
     return off
 
 
