@@ -14,10 +14,12 @@ from tribo.case import Begin
 from tribo.cli.show import show
 from tribo.core.errors import PluginError
 from tribo.core.fields import LOAD_SHARE
+from tribo.core.words import checked_name
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin
 from tribo.stepping.explicit import Explicit
+from tribo.stepping.memory import place
 
 COVERED = Covered(k=K, cover="50 nm")
 WARM = Field("warm", "K", "Temperature of a bath.", uniform=True, at_least=0)
@@ -168,6 +170,11 @@ def test_a_state_that_leaves_its_limits_ends_the_run_by_name():
     words = r"'left' of effect 'test\.runaway' goes on beyond its limits of 0 to 1"
     with pytest.raises(PluginError, match=words):
         states(model(archard(), effects=[Runaway()], grid=Grid((0.7e-3, 0.7e-3), (10, 10))))
+
+
+def test_a_place_is_called_as_no_body_can_be():
+    with pytest.raises(ValueError, match="is no good as a body's name"):
+        checked_name(place(small(), None))
 
 
 class Twice(Bath):

@@ -1,5 +1,7 @@
 """Implicit steps are backward Euler, whatever the law."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from paper_models import K, archard, foundation, half_space, last, pair, power, small
@@ -7,7 +9,7 @@ from paper_models import K, archard, foundation, half_space, last, pair, power, 
 from tribo.core.contact import ContactProblem
 from tribo.core.fields import ContactConditions, Field, WearRate
 from tribo.effects.effect import Effect
-from tribo.stepping.contacts import undeformed
+from tribo.stepping.contacts import carried_on, undeformed
 from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Errors, Implicit
 from tribo.wear.law import WearLaw
@@ -16,6 +18,20 @@ from tribo.wear.law import WearLaw
 def one_step(model, increment=1.0):
     state = first_contact(model)
     return Implicit().step(model, state, increment, increment / 0.1)
+
+
+@pytest.mark.parametrize("part", [0.05, 1.0, 3.0])
+def test_a_step_begins_with_pressures_that_go_on_as_in_the_last_one(part):
+    """Whatever the load has come to since."""
+    first = one_step(small(bodies=pair(archard(), None)))
+    (contact,) = first.contacts
+    flatter = contact.pressure * np.where(contact.pressure > 0.5 * np.max(contact.pressure), 0.9, 1)
+    heavier = replace(contact, pressure=part * contact.pressure)
+    (start,) = carried_on(replace(first, contacts=(heavier,), previous=(flatter,)))
+    share = np.sum(contact.pressure) / np.sum(flatter)
+    expected = part * (2 * contact.pressure - share * flatter)
+    np.testing.assert_allclose(start.pressure, np.maximum(expected, 0), rtol=1e-12)
+    assert np.sum(start.pressure) == pytest.approx(part * np.sum(contact.pressure), rel=1e-2)
 
 
 LAWS = [(archard(), archard()), (power(1.5), power(1.5)), (power(2), archard()), (power(3), None)]
