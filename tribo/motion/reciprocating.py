@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Literal, Self
 
 import numpy as np
 from pydantic import ConfigDict, Field, Tag, field_validator, model_validator
@@ -92,7 +92,9 @@ class Reciprocating(Kinematics):
 
     @field_validator("frequency")
     @classmethod
-    def _slides_on(cls, frequency: Any) -> Any:
+    def _slides_on(
+        cls, frequency: float | tuple[FrequencyStage, ...]
+    ) -> float | tuple[FrequencyStage, ...]:
         held("frequency", frequency)
         return frequency
 
