@@ -9,7 +9,7 @@ from paper_models import K, archard, foundation, half_space, last, pair, power, 
 from tribo.core.contact import ContactProblem
 from tribo.core.fields import ContactConditions, Field, WearRate
 from tribo.effects.effect import Effect
-from tribo.stepping.contacts import carried_on, undeformed
+from tribo.stepping.contacts import extrapolated, undeformed
 from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Errors, Implicit
 from tribo.wear.law import WearLaw
@@ -22,12 +22,12 @@ def one_step(model, increment=1.0):
 
 @pytest.mark.parametrize("part", [0.05, 1.0, 3.0])
 def test_a_step_begins_with_pressures_that_go_on_as_in_the_last_one(part):
-    """Whatever the load has come to since."""
+    """Under any load that followed."""
     first = one_step(small(bodies=pair(archard(), None)))
     (contact,) = first.contacts
     flatter = contact.pressure * np.where(contact.pressure > 0.5 * np.max(contact.pressure), 0.9, 1)
     heavier = replace(contact, pressure=part * contact.pressure)
-    (start,) = carried_on(replace(first, contacts=(heavier,), previous=(flatter,)))
+    (start,) = extrapolated(replace(first, contacts=(heavier,), previous=(flatter,)))
     share = np.sum(contact.pressure) / np.sum(flatter)
     expected = part * (2 * contact.pressure - share * flatter)
     np.testing.assert_allclose(start.pressure, np.maximum(expected, 0), rtol=1e-12)

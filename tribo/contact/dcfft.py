@@ -26,7 +26,7 @@ from tribo.core.contact import (
 )
 
 _MARGIN = 2
-# To what part of it the first guess of an approach is found.
+# Relative error of a first approach: from the exact one solves took two iterations fewer at most.
 _ROUGHLY = 0.1
 
 
@@ -94,7 +94,7 @@ class DcFft(ElasticSolver):
             box = _grown(box, around(missed | _anywhere(guess > 0), _MARGIN))
 
     def _guess(self, problem: ContactProblem) -> Array | None:
-        """Return Hertz's pressure, as if the gap were that of a ball; None where it is even."""
+        """Return Hertz's pressure of a ball with the same gap; None where it is even."""
         check_finite(problem.gap)
         system, gap = problem.system, problem.gap - problem.gap.min()
         low, approach = 0.0, float(gap.max())

@@ -75,8 +75,8 @@ class State:
     invariants : Invariants
         How well they hold in the step that led here.
     previous : tuple of ndarray, shape (nx, ny)
-        Pressure at each position a step ago, in Pa, by which chattering is told and the next
-        one is guessed; empty before the first.
+        Pressure at each position a step ago, in Pa, to detect chattering and to start the next
+        solve; empty before the first.
     speed : float
         Mean sliding speed of the last step, in m/s, 0 at rest; at first that of the motion soon
         after.

@@ -58,7 +58,7 @@ class GuardedLaw(Guard[WearLaw]):
     """A wear law that suits its body's material, and the initial values of its state fields."""
 
     bottoms: tuple[float, ...] = ()
-    """Those of the body's layers, in m."""
+    """Depths at which the layers of the body end, in m."""
 
     def __init__(self, law: WearLaw, body: str, material: Material) -> None:
         super().__init__(law, body)

@@ -54,17 +54,17 @@ def solve_cycle(
     return [*left, _symmetric(middle), *map(_mirrored, reversed(left))]
 
 
-def carried_on(state: State) -> Sequence[ContactSolution]:
-    """Return contacts to start from, whose pressures go on to change as in the last step."""
+def extrapolated(state: State) -> Sequence[ContactSolution]:
+    """Return contacts to start from, with pressures that change as in the last step."""
     if not state.previous:
         return state.contacts
-    going_on = []
+    starts = []
     for contact, before in zip(state.contacts, state.previous, strict=True):
-        # That of another load, as before a jump, in proportion.
+        # Before a jump the load was another.
         share = float(np.sum(contact.pressure)) / float(np.sum(before))
         pressure = np.maximum(2 * contact.pressure - share * before, 0.0)
-        going_on.append(replace(contact, pressure=pressure))
-    return going_on
+        starts.append(replace(contact, pressure=pressure))
+    return starts
 
 
 def undeformed(model: Model, state: State) -> Array:

@@ -233,14 +233,15 @@ class _Problem:
         last = taken.last or (here.rates if at_end else along(held, 1.0))
         errors = [apart(*each) for each in zip(best, rough, strict=True)]
         off = max(map(part_of, errors, sizes), default=0.0)
+        passing = places_passing(kept, taken.pieces)
         if not self.repeated:
             # Trials held to a limit agree with each other, whatever the state goes to.
             off = max(off, *map(part_of, taken.beyond, sizes), 0.0)
-            off = max(off, *map(part_of, _unseen(taken, self.sums, along, last), sizes), 0.0)
+            if passing:
+                off = max(off, *map(part_of, _unseen(taken, self.sums, along, last), sizes))
         passed = taken.passed()
         if off <= accuracy < math.inf and taken.last is None:
             # At a place where points pass breaks, rates jump as is known; elsewhere all may then.
-            passing = places_passing(kept, taken.pieces)
             amounts = [*sizes[:count], *map(np.abs, here.sums)]
             places = [*(of.place for of in kept), *(of.place for of in self.sums)]
             for at, place in enumerate(places):
@@ -281,7 +282,8 @@ def _unseen(part: Part, sums: Sequence[Sum], rates: Rates, last: Values) -> list
     Rates change on the way there and from there, of which a step knows nothing: they are asked
     on this side of the break, and at the end of the step. `last` are those at the end of all.
     """
-    every: list[Kept | Sum] = [*part.kept, *sums]
+    # States lie at their places.
+    every = [*(Sum(of.place) for of in part.kept), *sums]
     off, row = [0.0] * len(every), part.rows[-1]
     for taken, pieces in enumerate(row):
         if not pieces[0].ended:
@@ -301,13 +303,11 @@ def _unseen(part: Part, sums: Sequence[Sum], rates: Rates, last: Values) -> list
                         own = np.abs(found[other] - piece.rates[other])
                         change[other] = np.where(of.seen(here), own, change[other])
             for at, of in enumerate(every):
-                span = of.seen(np.asarray(piece.spans.get(of.place or "", 0.0)))
-                off[at] += 0.5 * float(np.sum(change[at] * span))
-    if places_passing(part.kept, part.pieces):
-        # Rows of what goes on over breaks may agree by chance.
-        for at, of in enumerate(every):
-            if of.place is None:
-                off[at] = apart(part.ends[-1][at], part.ends[0][at])
+                off[at] += 0.5 * float(np.sum(change[at] * of.span(piece.spans, 0.0)))
+    for at, of in enumerate(every):
+        # Rows of a sum over all of a step may agree by chance.
+        if of.place is None:
+            off[at] = apart(part.ends[-1][at], part.ends[0][at])
     return off
 
 

@@ -41,7 +41,7 @@ class Course:
     plan : Division
         How it is divided for that to be accurate.
     passed : Mapping[str, Mapping[int, float]]
-        By body and break of its depth the first share of it at which a point comes to that.
+        By body and break of its depth the first share of it at which a point reaches the break.
     """
 
     rates: CycleRates
@@ -205,8 +205,12 @@ def kept_in(model: Model, memory: Memory) -> list[Kept]:
         if field.name == key
     ]
     between = [
-        (field, f"{effect}", f"all of {key}" if field.uniform else place(model, effect.carrier))
-        for key, (effect, field) in ((key, model.laws.between[key]) for key in memory.between)
+        (
+            field,
+            f"{effect}",
+            f"all of {field.name}" if field.uniform else place(model, effect.carrier),
+        )
+        for effect, field in (model.laws.between[key] for key in memory.between)
     ]
     return [
         Kept(

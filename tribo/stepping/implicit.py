@@ -17,7 +17,7 @@ from tribo.core.errors import BadValues, NumericalError, PluginError
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.core.units import Quantity
-from tribo.stepping.contacts import carried_on, counted, solve_cycle, undeformed
+from tribo.stepping.contacts import counted, extrapolated, solve_cycle, undeformed
 from tribo.stepping.division import Division
 from tribo.stepping.events import Worn
 from tribo.stepping.evolution import Course, course, sloped
@@ -236,7 +236,7 @@ class Implicit(Scheme):
         # What is remembered is integrated under the loads of the step already.
         heavier = 1.0 if before.values else loads[0] / model.contact.loads.after(state.time)[0]
         forward = {name: heavier * depth for name, depth in guess.worn.items()}
-        contacts = carried_on(state)
+        contacts = extrapolated(state)
         solved, passes = state, 0
         mismatches: list[float] = []
         while True:

@@ -180,7 +180,7 @@ def stepped(
 
 
 def places_passing(kept: Sequence[Kept], pieces: Iterable[Stretch]) -> set[str]:
-    """Return the places at which a state comes to a break or a limit in some pieces."""
+    """Return the places at which a state reaches a break or a limit in some pieces."""
     return {kept[at].place for piece in pieces for at in piece.ended}
 
 
@@ -242,7 +242,7 @@ def solved(
         ends.append([*states, *totals])
         if shortens and steps == 2 and all(map(_same, *ends)):
             last = rates(states, 1.0)
-            passes = any(piece.ended for of_step in chain(*rows) for piece in of_step)
+            passes = bool(places_passing(kept, chain.from_iterable(chain(*rows))))
             constant = zip(sums, first[len(kept) :], last[len(kept) :], strict=True)
             # A sum at the place of a state is as that is.
             if all(map(_same, _ending(kept, row[-1]), last)) and all(

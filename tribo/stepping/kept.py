@@ -49,10 +49,6 @@ class Kept:
         ends = np.array([self.least, *self.breaks, self.most])
         return ends if np.any(np.isfinite(ends)) else None
 
-    def seen(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Return what is known where it lies as it is; a `Sum` may lie elsewhere."""
-        return values
-
     def hold(self, values: Array) -> Array:
         """Return values held to the limits."""
         if math.isinf(self.least) and math.isinf(self.most):
@@ -128,4 +124,4 @@ class Sum:
 
     def seen(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return what is known at its place, where it lies."""
-        return self.see(values) if self.see and values.ndim else values
+        return self.see(values) if self.see else values

@@ -112,9 +112,9 @@ def filling(model: Model, memory: Memory) -> Array:
 
 
 def place(model: Model, body: str | None) -> str:
-    """Return where what lies on a body, or between them, is: points that stay there are together.
+    """Return the place of a state on a body, or between both: all points that stay share one.
 
-    A step of the integrator ends for all that is at a place where one of it comes to a break.
+    A step of the integrator ends for all states at a place where one reaches a break.
     """
     return body if body in model.cycle.swept else "the contact"
 
