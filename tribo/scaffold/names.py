@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import keyword
 import re
+from pathlib import Path
 
-import tribo
 from tribo.core.errors import CaseError
+from tribo.core.lazy import homes
 
 _FORM = re.compile(r"[a-z][a-z0-9]*-[a-z][a-z0-9]*(-[a-z0-9]+)*")
+_PACKAGE = Path(__file__).parents[1] / "__init__.py"
 _LONGEST = 30
 """What keeps the lines of the files within 100 characters."""
 
@@ -48,7 +50,7 @@ def plugin_names(distribution: str) -> dict[str, str]:
     title = "".join(word.capitalize() for word in module.split("_"))
     for name, taken, whose in (
         (module, keyword.iskeyword(module), "a keyword of Python"),
-        (title, title in tribo.__all__, "tribo's own"),
+        (title, title in homes(str(_PACKAGE)), "tribo's own"),
     ):
         if taken:
             raise CaseError(
