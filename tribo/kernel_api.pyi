@@ -123,6 +123,7 @@ from tribo.simulation.march import march as march
 from tribo.simulation.positions import chosen as chosen
 from tribo.simulation.validity import findings_of as findings_of
 from tribo.stepping.division import Division as Division
+from tribo.stepping.euler_step import Stretch as Stretch
 from tribo.stepping.events import Drawn as Drawn
 from tribo.stepping.events import Event as Event
 from tribo.stepping.events import Worn as Worn
@@ -132,14 +133,13 @@ from tribo.stepping.evolution import course as course
 from tribo.stepping.evolution import kept_in as kept_in
 from tribo.stepping.evolution import with_loads as with_loads
 from tribo.stepping.integrator import Part as Part
-from tribo.stepping.integrator import Stretch as Stretch
-from tribo.stepping.integrator import Values as Values
 from tribo.stepping.integrator import retraced as retraced
 from tribo.stepping.integrator import transposed as transposed
 from tribo.stepping.interval import Interval as Interval
 from tribo.stepping.interval import Moment as Moment
 from tribo.stepping.kept import Kept as Kept
 from tribo.stepping.kept import Sum as Sum
+from tribo.stepping.kept import Values as Values
 from tribo.stepping.memory import Memory as Memory
 from tribo.stepping.memory import first_memory as first_memory
 from tribo.stepping.memory import own as own

@@ -14,9 +14,8 @@ from tribo.core.contact import ContactSolution
 from tribo.core.fields import WORN_DEPTH, WearRate
 from tribo.stepping.contacts import in_stripes
 from tribo.stepping.division import Division, integrated
-from tribo.stepping.integrator import Values
 from tribo.stepping.interval import Interval
-from tribo.stepping.kept import Kept, Sum
+from tribo.stepping.kept import Kept, Sum, Values
 from tribo.stepping.memory import Memory, laid, place
 from tribo.stepping.rates import CycleRates, rates_at_each, wear_rates
 

@@ -3,48 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 
 import numpy as np
 
-from tribo.core.arrays import Array, Mask
-from tribo.stepping.kept import Field, Kept, Numbers, Sum
-from tribo.stepping.relaxation import bending, growth, lasting
+from tribo.core.arrays import Array
+from tribo.stepping.euler_step import Stretch, places_passing, stepped, stepped_back
+from tribo.stepping.kept import Field, Kept, Sum, Values
+from tribo.stepping.relaxation import Rates, moved, relaxation
 
-NUDGE = 3e-5
-"""Part of a state by which it is moved to find how fast it relaxes, and how that changes."""
 EXACT = 1e-12
 """Relative difference, summed over the cells, of what is the same but for rounding."""
 PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
 """Euler steps of the rows of the extrapolation, without and with the relaxation of the states."""
-
-Values = list[Array]
-Rates = Callable[[Sequence[Array], float], Values]
-"""Rates of states, and after them of sums, at states and at a share of a part."""
-
-
-@dataclass(frozen=True)
-class Stretch:
-    """States, their rates, and for how long these hold at each place: for a step, or to a break.
-
-    `ended` has where a state, by its number, comes to a break or to a limit, and to which.
-    """
-
-    states: Values
-    rates: Values
-    step: float
-    spans: Mapping[str, Field]
-    ended: Mapping[int, tuple[Mask, Numbers]]
-
-    def stepped(self, kept: Sequence[Kept], slopes: Sequence[Field]) -> Values:
-        """Return the states at its end."""
-        return [
-            state + lasting(self.spans[of.place], slope) * rate
-            for state, rate, slope, of in zip(self.states, self.rates, slopes, kept, strict=False)
-        ]
-
 
 Row = Sequence[Sequence[Stretch]]
 """Euler steps of a part, each in pieces."""
@@ -120,83 +93,6 @@ class Part:
                         share = (at + first) / len(row)
                         found[state, int(each)] = min(share, found.get((state, int(each)), 1.0))
         return found
-
-
-def stepped(
-    rates: Callable[[Sequence[Array]], Values],
-    start: Sequence[Array],
-    first: Values,
-    step: float,
-    slopes: Sequence[Field],
-    kept: Sequence[Kept],
-    sums: Sequence[Sum],
-) -> tuple[Values, Values, list[Stretch]]:
-    """Return states after an Euler step, what sums come to over it, and its pieces.
-
-    Where a state comes to a break or a limit, the step ends for all states at its place, and a
-    shorter one goes on from there with rates asked anew. What lies elsewhere, for these rates, is
-    as it was at the beginning, as for those of the whole step.
-    """
-    states, found = list(start), first
-    totals = [np.zeros_like(rate) for rate in first[len(states) :]]
-    left: dict[str, Field] = {each.place: step for each in kept}
-    pieces = list[Stretch]()
-    # Rates that lead back to a break from both sides would end no step.
-    most = 1 + sum(len(each.breaks) + 1 for each in kept if each.ends is not None)
-    while True:
-        spans, ended = dict(left), dict[int, tuple[Mask, Numbers]]()
-        coming = _coming(states, found, slopes, kept, left) if len(pieces) < most else []
-        for at, _, _, time in coming:
-            place = kept[at].place
-            if np.any((time <= left[place]) & (left[place] > 0)):
-                spans[place] = np.minimum(spans[place], time)
-        piece = Stretch(states, found, step, spans, ended)
-        states = piece.stepped(kept, slopes)
-        claimed: dict[str, Mask] = {}
-        for at, end, number, time in coming:
-            place = kept[at].place
-            here = (time <= spans[place]) & (left[place] > 0) & ~claimed.get(place, np.False_)
-            if np.any(here):
-                claimed[place] = claimed.get(place, np.False_) | here
-                ended[at] = here, number
-                states[at] = np.where(here, end, states[at])
-        totals = [
-            total + each.span(spans, 0.0 if pieces else step) * rate
-            for total, each, rate in zip(totals, sums, found[len(states) :], strict=True)
-        ]
-        pieces.append(piece)
-        for place, span in spans.items():
-            rest = left[place] - span
-            left[place] = np.where(rest > EXACT * step, rest, 0.0) if np.ndim(rest) else 0.0
-        if not any(map(np.any, left.values())):
-            return states, totals, pieces
-        passing = places_passing(kept, pieces)
-        found = rates(
-            [
-                now if of.place in passing else was
-                for now, was, of in zip(states, start, kept, strict=True)
-            ]
-        )
-
-
-def places_passing(kept: Sequence[Kept], pieces: Iterable[Stretch]) -> set[str]:
-    """Return the places at which a state reaches a break or a limit in some pieces."""
-    return {kept[at].place for piece in pieces for at in piece.ended}
-
-
-def _coming(
-    states: Sequence[Array],
-    rates: Values,
-    slopes: Sequence[Field],
-    kept: Sequence[Kept],
-    left: Mapping[str, Field],
-) -> list[tuple[int, Array, Numbers, Array]]:
-    """Return of each state that may come to a break or a limit its number, and `Kept.next`."""
-    return [
-        (at, *each.next(states[at], rates[at], slopes[at]))
-        for at, each in enumerate(kept)
-        if each.changes(states[at], states[at] + left[each.place] * rates[at])
-    ]
 
 
 def solved(
@@ -354,8 +250,16 @@ def transposed(
                 begun: list[Field] = [0.0] * len(after)
                 for piece in reversed(pieces):
                     is_first = piece is pieces[0]
-                    seeds, given, times = _back(
-                        part, piece, seeds, deep, times, turns, breaks, is_first=is_first
+                    seeds, given, times = stepped_back(
+                        part.kept,
+                        part.relaxing,
+                        piece,
+                        seeds,
+                        deep,
+                        times,
+                        turns,
+                        breaks,
+                        is_first=is_first,
                     )
                     if piece.rates is row[0][0].rates:
                         _join(starts, piece.rates, given)
@@ -375,86 +279,6 @@ def transposed(
             before = _added(before, behind(stage, given))
         after = before
     return Transposed(after, breaks)
-
-
-def _back(
-    part: Part,
-    piece: Stretch,
-    seeds: Sequence[Field],
-    sums: Sequence[tuple[Sum, Field]],
-    times: Mapping[str, Field],
-    turns: list[Field],
-    breaks: dict[int, Array],
-    *,
-    is_first: bool,
-) -> tuple[list[Field], list[Field], dict[str, Field]]:
-    """Return derivatives before a piece: in states, in its rates, and in what was left of a step.
-
-    From those in states and in what is left after it, `times`. The span of a piece that ends at a
-    break follows the state that comes to it, its rate, and the break.
-    """
-    rates, own = piece.rates, len(part.kept)
-    states = [*seeds]
-    for at, (here, _) in piece.ended.items():
-        # What comes to a break is there, whatever it was before.
-        states[at] = np.where(here, 0.0, seeds[at])
-    given: list[Field] = []
-    left: dict[str, Field] = {}
-    for seed, rate, slope, each in zip(states, rates, part.relaxing, part.kept, strict=False):
-        span = piece.spans[each.place]
-        given.append(seed * lasting(span, slope))
-        left[each.place] = left.get(each.place, 0.0) + seed * rate * growth(span, slope)
-    for at, slope in enumerate(part.relaxing):
-        if np.ndim(slope):
-            span = piece.spans[part.kept[at].place]
-            turns[at] = turns[at] + states[at] * rates[at] * bending(span, slope)
-    for (total, seed), rate in zip(sums, rates[own:], strict=True):
-        given.append(seed * total.span(piece.spans, piece.step if is_first else 0.0))
-        if total.place is not None and total.place in left:
-            left[total.place] = left[total.place] + seed * rate
-    for at, (here, number) in piece.ended.items():
-        kept, slope, rate = part.kept[at], part.relaxing[at], rates[at]
-        span = piece.spans[kept.place]
-        by_span = left[kept.place] - times.get(kept.place, 0.0)
-        speed = rate * growth(span, slope)
-        far = np.divide(
-            np.broadcast_to(by_span, rate.shape), speed, out=np.zeros(rate.shape), where=here
-        )
-        states[at] = states[at] - far
-        given[at] = given[at] - far * lasting(span, slope)
-        if np.ndim(slope):
-            turns[at] = turns[at] - far * rate * bending(span, slope)
-        if kept.breaks:
-            at_break = np.where(here, far + seeds[at], 0.0)
-            numbers = np.arange(len(kept.breaks)).reshape(-1, *[1] * number.ndim)
-            breaks[at] = breaks.get(at, 0.0) + np.where(number == numbers, at_break, 0.0)
-        left[kept.place] = np.where(here, times.get(kept.place, 0.0), left[kept.place])
-    return states, given, left
-
-
-def relaxation(
-    rates: Rates,
-    states: Sequence[Array],
-    first: Sequence[Array],
-    length: float,
-    kept: Sequence[Kept],
-) -> list[Field]:
-    """Return how the rate of each state changes with itself, where that is downwards."""
-    found: list[Field] = []
-    for index, (state, rate, of) in enumerate(zip(states, first, kept, strict=False)):
-        other = moved(state, rate, length, of)
-        if other is state:
-            found.append(0.0)
-            continue
-        nudged = rates([*states[:index], other, *states[index + 1 :]], 0.0)[index]
-        found.append(np.minimum((nudged - rate) / (other - state), 0.0))
-    return found
-
-
-def moved(state: Array, rate: Array, length: float, kept: Kept) -> Array:
-    """Return a state moved by a part of the most that it is or becomes, past no break or limit."""
-    largest = max(float(np.max(np.abs(state))), length * float(np.max(np.abs(rate))))
-    return state if largest == 0 else kept.aside(state, NUDGE * largest)
 
 
 def weight(steps: int, rows: Sequence[int]) -> float:

@@ -15,6 +15,7 @@ from tribo.core.arrays import Array
 
 Numbers = NDArray[np.intp]
 Field = Array | float
+Values = list[Array]
 
 
 @dataclass(frozen=True)

@@ -243,7 +243,7 @@ def forgotten(method):
 def unbroken(method):
     """What follows of where a step ends at a break, left out."""
 
-    def mutant(part, piece, *given, **how):
-        return method(part, replace(piece, ended={}), *given, **how)
+    def mutant(kept, slopes, piece, *given, **how):
+        return method(kept, slopes, replace(piece, ended={}), *given, **how)
 
     return mutant

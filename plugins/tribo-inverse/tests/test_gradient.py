@@ -448,11 +448,11 @@ MUTANTS = [
     ("remembers", remembering._Along, "by_length", lambda _: 0.0),
     ("remembers", parameters, "moved", nothing),
     ("load over time", slopes.Sloping, "_by_pressure", unfelt("load")),
-    ("layers", integrator, "_back", unbroken),
+    ("layers", integrator, "stepped_back", unbroken),
     ("layers", remembering, "moved_breaks", lambda _: lambda *given: [0.0]),
-    ("layers, remembers", integrator, "_back", unbroken),
+    ("layers, remembers", integrator, "stepped_back", unbroken),
     ("layers, remembers", remembering, "moved_breaks", lambda _: lambda *given: [0.0]),
-    ("positions, layers, remembers", integrator, "_back", unbroken),
+    ("positions, layers, remembers", integrator, "stepped_back", unbroken),
 ]
 
 

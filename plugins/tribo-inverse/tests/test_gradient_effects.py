@@ -418,8 +418,8 @@ MUTANTS = [
     ("heat", slopes.Sloping, "_by_pressure", unfelt("square")),
     ("heat", linear.Uniform, "gathered", zero),
     ("heat", remembering.Together, "is_pointwise", lambda _: property(lambda self: True)),
-    ("layers", integrator, "_back", unbroken),
-    ("layers, pressure beside", integrator, "_back", unbroken),
+    ("layers", integrator, "stepped_back", unbroken),
+    ("layers, pressure beside", integrator, "stepped_back", unbroken),
 ]
 
 
