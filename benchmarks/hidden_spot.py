@@ -36,9 +36,9 @@ from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT
 
 from tribo import Case, TriboWarning
 from tribo.core.arrays import Array
+from tribo.model.model import Model
 from tribo.simulation.march import begin, march
 from tribo.simulation.positions import composed
-from tribo.stepping.model import Model
 
 NOISE = 20e-9
 SPOT, AT, RADIUS = 0.4, (60e-6, -40e-6), 60e-6

@@ -28,11 +28,11 @@ from tribo import Array, Simulation
 from tribo.contact.love import wrapped_kernel
 from tribo.core.contact import ContactSolution
 from tribo.core.state import State
+from tribo.evolution.interval import interval_from
+from tribo.model.model import Model
 from tribo.simulation.march import begin, march
 from tribo.stepping.contacts import undeformed
 from tribo.stepping.explicit import Explicit, largest_stable_increment
-from tribo.stepping.interval import interval_from
-from tribo.stepping.model import Model
 
 EQUAL = "equal coefficients"
 OWN, AVERAGED = "tribo, resolved", "tribo, averaged"

@@ -15,11 +15,11 @@ from tribo.cli.show import show
 from tribo.core.errors import PluginError
 from tribo.core.fields import LOAD_SHARE
 from tribo.core.words import checked_name
+from tribo.evolution.memory import place
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin
 from tribo.stepping.explicit import Explicit
-from tribo.stepping.memory import place
 
 COVERED = Covered(k=K, cover="50 nm")
 WARM = Field("warm", "K", "Temperature of a bath.", uniform=True, at_least=0)

@@ -10,10 +10,10 @@ from tribo import Simulation
 from tribo.closed_forms.sinusoid import compliance, worn_amplitude
 from tribo.contact.periodic import Periodic
 from tribo.core.grid import Grid
+from tribo.evolution.interval import Moment
 from tribo.stepping.explicit import Explicit, largest_stable_increment
 from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.interval import Moment
 from tribo.surfaces.surface import Surface
 
 WAVELENGTH = 1e-4

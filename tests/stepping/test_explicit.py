@@ -5,10 +5,10 @@ from paper_models import K, archard, last, pair, small
 from tribo import Effect, Field, WearLaw, WearRate
 from tribo.contact.dcfft import DcFft
 from tribo.core.errors import CaseError
+from tribo.evolution.interval import Moment
 from tribo.simulation.run import Simulation
 from tribo.stepping.explicit import Explicit, largest_stable_increment
 from tribo.stepping.first_contact import first_contact
-from tribo.stepping.interval import Moment
 
 
 def test_steps_that_cannot_do_are_refused_before_anything_is_written(tmp_path):

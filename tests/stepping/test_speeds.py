@@ -8,13 +8,13 @@ from paper_models import Faster, K, foundation, lost, motion, pair, small
 
 from tribo import Effect, Field, Grid, WearLaw, WearRate
 from tribo.core.errors import PluginError
+from tribo.evolution.rates import effect_fields
 from tribo.motion.measured import Measured
 from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.march import begin
 from tribo.stepping.explicit import Explicit
-from tribo.stepping.rates import effect_fields
 
 SINE = {"waveform": "sinusoidal"}
 MEAN = 2 * 2e-3 * 25

@@ -7,12 +7,13 @@ import pytest
 
 from tribo.contact import dcfft, half_space, love, periodic
 from tribo.core.fields import WearRate
+from tribo.evolution import rates
 from tribo.guards.parts import GuardedSolver
 from tribo.lab import ball, track
 from tribo.motion.exposure import Track
 from tribo.motion.stroke import Stroke
 from tribo.simulation import assembly
-from tribo.stepping import plastic_groove, rates, step
+from tribo.stepping import plastic_groove, step
 from tribo.verification.suite import REFERENCES
 from tribo.wear.archard import Archard
 from tribo.wear.power import Power

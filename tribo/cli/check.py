@@ -25,10 +25,10 @@ from tribo.lab.against_hertz import (
     in_mpa,
     yield_words,
 )
+from tribo.model.model import Model
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.positions import lengths_of
 from tribo.simulation.predict import Prediction
-from tribo.stepping.model import Model
 
 SPREAD = 3.0
 """Factor to which the time of a run is known."""

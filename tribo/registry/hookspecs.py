@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
     from tribo.component import Component
     from tribo.lab.heights import Heights
+    from tribo.model.model import Model
     from tribo.result.read import Result
-    from tribo.stepping.model import Model
     from tribo.verification.reference import Reference
 
 PROJECT = "tribo"

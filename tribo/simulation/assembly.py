@@ -28,16 +28,16 @@ from tribo.guards.parts import (
     GuardedSolver,
     GuardedSurface,
 )
+from tribo.model.contact_setup import ContactSetup
+from tribo.model.cycle import Cycle
+from tribo.model.laws import Laws
+from tribo.model.model import Model
 from tribo.motion.exposure import Exposure
 from tribo.motion.unidirectional import Unidirectional
 from tribo.registry.plugins import check_requirements
 from tribo.simulation.effects import in_order
 from tribo.simulation.hardness import yielding
 from tribo.simulation.memory import check_memory, memory_needed
-from tribo.stepping.contact_setup import ContactSetup
-from tribo.stepping.cycle import Cycle
-from tribo.stepping.laws import Laws
-from tribo.stepping.model import Model
 
 SAME_RADIUS = 1e-2
 """Relative difference up to which a ring has the radius of its track."""

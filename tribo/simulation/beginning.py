@@ -15,10 +15,10 @@ from tribo.core.fields import Field
 from tribo.core.findings import begun_worn
 from tribo.core.grid import Grid
 from tribo.core.state import BodyState, State
+from tribo.model.model import Model
 from tribo.result.layout import BETWEEN, STATE, TRACK, TRACK_PLASTIC, TRACK_STATE
 from tribo.result.read import Result
 from tribo.stepping.first_contact import first_contact
-from tribo.stepping.model import Model
 
 PLACE = "begin.result"
 SAME = 1e-6

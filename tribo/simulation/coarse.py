@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from tribo.case import Case, Output
 from tribo.core.grid import Grid
+from tribo.model.model import Model
 from tribo.simulation.assembly import as_it_repeats, assemble, varied
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.model import Model
 
 MARGINS = (1.5, 1.0)
 """Edges of the windows to try, in those of the case: the contact may outgrow its own."""

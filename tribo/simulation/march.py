@@ -11,6 +11,7 @@ from tribo.core.errors import OutOfWindow, PluginError
 from tribo.core.findings import chattering, ended
 from tribo.core.measures import half_widths, reaches_border
 from tribo.core.state import State
+from tribo.model.model import Model
 from tribo.simulation.beginning import first_state
 from tribo.simulation.doubt import doubting
 from tribo.simulation.validity import (
@@ -22,7 +23,6 @@ from tribo.simulation.validity import (
     peak_at_the_edge,
 )
 from tribo.stepping.invariants import chatters, hold
-from tribo.stepping.model import Model
 from tribo.stepping.step import distance_until, start_sliding
 
 DEPTH_ACCURACY = 1e-6

@@ -12,9 +12,9 @@ from tribo.core.measures import (
     half_widths,
 )
 from tribo.core.state import State
+from tribo.evolution.friction import friction_force
 from tribo.lab.running_in import contact_roughness
-from tribo.stepping.friction import friction_force
-from tribo.stepping.model import Model
+from tribo.model.model import Model
 from tribo.stepping.quadrature import cycle_error
 from tribo.stepping.yielding import caps
 

@@ -14,6 +14,7 @@ from tribo.core.findings import averaged_although, fewer_positions, positions_ch
 from tribo.core.measures import half_widths
 from tribo.core.words import readable
 from tribo.lab.against_hertz import hertz_half_width
+from tribo.model.model import Model
 from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.stroke import Stroke, least_positions, spacing_for
 from tribo.result.read import Result
@@ -22,7 +23,6 @@ from tribo.simulation.coarse import smoothed
 from tribo.simulation.validity import is_endless
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.first_contact import first_contact
-from tribo.stepping.model import Model
 
 LENGTHS = 20.0
 """Lengths of the first contact from which on a stroke is averaged.

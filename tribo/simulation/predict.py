@@ -18,6 +18,7 @@ from tribo.core.state import State
 from tribo.guards.guard import Guard
 from tribo.guards.trial_time import limited
 from tribo.lab.against_hertz import HertzContact, hertz_contact
+from tribo.model.model import Model
 from tribo.result.provenance import stated_facts
 from tribo.simulation.beginning import first_state
 from tribo.simulation.coarse import MARGINS, coarsened
@@ -33,7 +34,6 @@ from tribo.simulation.validity import (
     too_wide,
 )
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.model import Model
 from tribo.stepping.step import start_sliding
 
 COARSE = 72

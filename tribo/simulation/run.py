@@ -18,7 +18,9 @@ from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
 from tribo.core.findings import Finding, failed
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
 from tribo.core.writing import check_new
+from tribo.evolution.rates import effect_fields
 from tribo.guards.guard import Guard
+from tribo.model.model import Model
 from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
 from tribo.registry.plugins import Plugin
@@ -35,8 +37,6 @@ from tribo.simulation.interrupt import interrupts_held
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.positions import composed
-from tribo.stepping.model import Model
-from tribo.stepping.rates import effect_fields
 
 OTHERS = (".csv", ".json", ".pdf", ".png", ".svg", ".toml", ".txt", ".xls", ".xlsx")
 """Endings of files that are not HDF5."""

@@ -16,10 +16,10 @@ from tribo.core.measures import Measures, half_widths
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.lab.against_hertz import hertz_contact
+from tribo.model.model import Model
 from tribo.motion.stroke import check_spacing, spacing_for
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.registry import from_packages
-from tribo.stepping.model import Model
 from tribo.stepping.quadrature import cycle_error
 
 SEAM = 4

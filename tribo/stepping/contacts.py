@@ -12,16 +12,14 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactProblem, ContactSolution, CycleCompliance
 from tribo.core.loads import ByPosition
 from tribo.core.state import BodyState, State
-from tribo.stepping.events import Solved
+from tribo.evolution.memory import filling, remembered
+from tribo.model.events import Solved
 from tribo.stepping.linear_wear import LinearWear
-from tribo.stepping.memory import filling, remembered
 from tribo.stepping.yielding import caps
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
-NUDGE = 1e-4
-"""Part of the pressure by which it is varied to find what a wear rate makes of it."""
 MIRRORED = 1e-12
 """Relative difference below which two positions mirror each other: rounding."""
 
@@ -97,23 +95,6 @@ def solved_anew(model: Model, state: State, loads: ByPosition) -> State:
     contacts = solve_cycle(model, gaps, loads, state.contacts, state.bodies)
     model.tell(Solved(contacts))
     return replace(counted(state, contacts), contacts=tuple(contacts), rates=())
-
-
-def in_stripes(
-    contacts: Sequence[ContactSolution],
-) -> tuple[list[ContactSolution], list[Array]]:
-    """Return contacts with pressures varied up and down from row to row, and by how much, in Pa.
-
-    It is the mode that grows first, under the same load.
-    """
-    stripes = [NUDGE * contact.pressure for contact in contacts]
-    for each in stripes:
-        each[:, ::2] *= -1
-    nudged = [
-        replace(contact, pressure=readonly(contact.pressure + each))
-        for contact, each in zip(contacts, stripes, strict=True)
-    ]
-    return nudged, stripes
 
 
 def _all_mirror(problems: Sequence[ContactProblem], coupling: CycleCompliance | None) -> bool:

@@ -15,14 +15,15 @@ from tribo.core.fields import WearRate
 from tribo.core.findings import Finding, unstable
 from tribo.core.state import State
 from tribo.core.units import Quantity
-from tribo.stepping.contacts import counted, in_stripes, solve_cycle, undeformed
-from tribo.stepping.events import Solved, Worn
-from tribo.stepping.evolution import Course, course
-from tribo.stepping.friction import with_friction_work
-from tribo.stepping.interval import Moment, interval_from
+from tribo.evolution.course import Course, course
+from tribo.evolution.friction import with_friction_work
+from tribo.evolution.interval import Moment, interval_from
+from tribo.evolution.memory import remembered
+from tribo.evolution.rates import CycleRates, wear_rates
+from tribo.evolution.stripes import in_stripes
+from tribo.model.events import Solved, Worn
+from tribo.stepping.contacts import counted, solve_cycle, undeformed
 from tribo.stepping.linear_wear import wear_compliance
-from tribo.stepping.memory import remembered
-from tribo.stepping.rates import CycleRates, wear_rates
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     accepted,
@@ -34,7 +35,7 @@ from tribo.stepping.step import (
 )
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 MOST_STEPS = 1e8
 PLACE = "stepping.time_step"

@@ -13,14 +13,14 @@ from tribo.core.contact import ContactProblem, ContactSolution
 from tribo.core.errors import CaseError
 from tribo.core.measures import reaches_border
 from tribo.core.state import BodyState, State
+from tribo.evolution.memory import first_memory
+from tribo.model.events import Solved
 from tribo.stepping.contacts import undeformed
-from tribo.stepping.events import Solved
-from tribo.stepping.memory import first_memory
 from tribo.stepping.plastic_groove import yielded
 from tribo.stepping.yielding import caps
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 
 def first_contact(

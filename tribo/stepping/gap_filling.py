@@ -11,14 +11,14 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.state import State
-from tribo.stepping.contacts import in_stripes
-from tribo.stepping.evolution import course
-from tribo.stepping.interval import interval_from
-from tribo.stepping.memory import filling, remembered
+from tribo.evolution.course import course
+from tribo.evolution.interval import interval_from
+from tribo.evolution.memory import filling, remembered
+from tribo.evolution.stripes import in_stripes
 from tribo.stepping.step import worn_depths
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 PARTS = np.logspace(-6, 0, 7)
 """Parts of the path over which it is held against it."""

@@ -17,16 +17,16 @@ from tribo.core.errors import BadValues, NumericalError, PluginError
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.core.units import Quantity
+from tribo.evolution.course import Course, course, sloped
+from tribo.evolution.friction import with_friction_work
+from tribo.evolution.interval import Moment, interval_from
+from tribo.evolution.memory import filling, remembered
+from tribo.evolution.rates import wear_rates
+from tribo.evolution.repeated import check_repeatable
+from tribo.integration.division import Division
+from tribo.model.events import Worn
 from tribo.stepping.contacts import counted, extrapolated, solve_cycle, undeformed
-from tribo.stepping.division import Division
-from tribo.stepping.events import Worn
-from tribo.stepping.evolution import Course, course, sloped
-from tribo.stepping.friction import with_friction_work
-from tribo.stepping.interval import Moment, interval_from
 from tribo.stepping.linear_wear import linear_wear
-from tribo.stepping.memory import filling, remembered
-from tribo.stepping.rates import wear_rates
-from tribo.stepping.repeated import check_repeatable
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     SMALLEST,
@@ -41,7 +41,7 @@ from tribo.stepping.step import (
 )
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 FIRST = 0.05
 VOLUME = 5.0

@@ -19,10 +19,10 @@ from tribo.core.errors import NumericalError
 from tribo.core.findings import CHATTERING, chattering
 from tribo.core.measures import Invariants
 from tribo.core.state import State
-from tribo.stepping.rates import CycleRates
+from tribo.evolution.rates import CycleRates
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 LOAD = 1e-6
 CONDITIONS = 1e-2

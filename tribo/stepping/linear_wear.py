@@ -12,10 +12,10 @@ import numpy as np
 from tribo.core.arrays import Array, union
 from tribo.core.contact import ContactSolution, CycleCompliance, WearCompliance
 from tribo.core.fields import WearRate
-from tribo.stepping.rates import CycleRates
+from tribo.evolution.rates import CycleRates
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 
 @dataclass(frozen=True)

@@ -13,12 +13,12 @@ from tribo.core.contact import ContactSolution
 from tribo.core.errors import NumericalError
 from tribo.core.loads import ByPosition
 from tribo.core.state import BodyState, State
+from tribo.model.events import Drawn, Yielded
 from tribo.stepping.contacts import solved_anew
-from tribo.stepping.events import Drawn, Yielded
 from tribo.stepping.yielding import plastic_share
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 # Each pass is one warm solve; a groove in a much softer body takes over a thousand.
 SETTLE_PASSES = 5000

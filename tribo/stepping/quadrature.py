@@ -9,7 +9,7 @@ import numpy as np
 from tribo.core.state import State
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 
 def cycle_error(model: Model, state: State) -> float:

@@ -13,7 +13,7 @@ from tribo.core.table import Table
 from tribo.stepping.gap_filling import check_filling
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 
 def _type_required(schema: dict[str, Any]) -> None:

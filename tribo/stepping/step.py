@@ -16,18 +16,18 @@ from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import BodyState, State
+from tribo.evolution.course import Course, course
+from tribo.evolution.interval import Interval, interval_from
+from tribo.evolution.memory import own, remembered
+from tribo.evolution.rates import CycleRates
+from tribo.model.events import Worn
 from tribo.stepping.contacts import solved_anew
-from tribo.stepping.events import Worn
-from tribo.stepping.evolution import Course, course
-from tribo.stepping.interval import Interval, interval_from
 from tribo.stepping.invariants import ONE_LOAD, wear_balance
-from tribo.stepping.memory import own, remembered
 from tribo.stepping.plastic_groove import settled, yielded, yields
-from tribo.stepping.rates import CycleRates
 from tribo.stepping.yielding import caps
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 SMALLEST = 1e-12
 """Of the distance until the next stop: a shorter step would drown in rounding."""

@@ -11,7 +11,7 @@ from tribo.core.arrays import Array
 from tribo.core.state import BodyState
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 
 def caps(model: Model, bodies: Mapping[str, BodyState]) -> Sequence[Array | None]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
-from tribo.stepping.model import Model
+from tribo.model.model import Model
 
 
 @dataclass(frozen=True)

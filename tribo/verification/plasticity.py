@@ -11,10 +11,10 @@ from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.measures import contact_area
+from tribo.model.model import Model
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.assembly import assemble, varied
 from tribo.stepping.first_contact import first_contact
-from tribo.stepping.model import Model
 from tribo.stepping.step import start_sliding
 from tribo.verification import problems as paper
 from tribo.verification.reference import Row, norm, reference

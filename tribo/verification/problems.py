@@ -17,13 +17,13 @@ from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
 from tribo.core.state import State
+from tribo.model.model import Model
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.model import Model
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.paraboloid import Paraboloid
 from tribo.surfaces.surface import Surface

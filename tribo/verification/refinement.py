@@ -9,11 +9,11 @@ from tribo.case import Output
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
+from tribo.model.model import Model
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.measure import measure
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.model import Model
 from tribo.verification.convergence import Convergence, convergence
 from tribo.verification.problems import run_to_end
 

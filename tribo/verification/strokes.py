@@ -18,13 +18,13 @@ from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.core.measures import half_widths
 from tribo.core.state import State
+from tribo.model.model import Model
 from tribo.motion.averaging_error import groove_excess
 from tribo.motion.measured import Measured
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.assembly import assemble, varied
 from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.model import Model
 from tribo.verification.moving import round_a_ring, to_and_fro
 from tribo.verification.problems import BALL, SPEED, WEAR_COEFFICIENT, Shape, on_flat, run_to_end
 from tribo.verification.reference import Row, norm, reference

@@ -37,9 +37,9 @@ from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.core.errors import NumericalError
 from tribo.core.grid import Grid
+from tribo.integration import integrator
 from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
-from tribo.stepping import integrator
 from tribo.stepping.explicit import Explicit
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.surface import Surface

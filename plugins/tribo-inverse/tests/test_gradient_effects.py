@@ -25,7 +25,7 @@ from paper_models import K, archard, motion, pair
 from tribo.core.errors import CaseError
 from tribo.core.fields import LOAD_SHARE, Field
 from tribo.effects.effect import Effect
-from tribo.stepping import integrator
+from tribo.integration import integrator
 from tribo.stepping.explicit import Explicit
 from tribo.wear.archard import Archard
 from tribo.wear.modified import times

@@ -12,15 +12,15 @@ import numpy as np
 from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import WORN_DEPTH, WearRate
-from tribo.stepping.contacts import in_stripes
-from tribo.stepping.division import Division, integrated
-from tribo.stepping.interval import Interval
-from tribo.stepping.kept import Kept, Sum, Values
-from tribo.stepping.memory import Memory, laid, place
-from tribo.stepping.rates import CycleRates, rates_at_each, wear_rates
+from tribo.evolution.interval import Interval
+from tribo.evolution.memory import Memory, laid, place
+from tribo.evolution.rates import CycleRates, rates_at_each, wear_rates
+from tribo.evolution.stripes import in_stripes
+from tribo.integration.division import Division, integrated
+from tribo.integration.kept import Kept, Sum, Values
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 
 COARSE = Division(((0.25, True), (0.75, True)), np.inf)

@@ -5,9 +5,9 @@ import pytest
 from scipy.special import lambertw
 
 from tribo.core.errors import BadValues, PluginError
-from tribo.stepping.division import integrated
-from tribo.stepping.integrator import retraced, transposed
-from tribo.stepping.kept import Kept, Sum
+from tribo.integration.division import integrated
+from tribo.integration.integrator import retraced, transposed
+from tribo.integration.kept import Kept, Sum
 
 ANY = Kept("a", "a test")
 ONE = np.ones((1, 1))

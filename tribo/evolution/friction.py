@@ -12,15 +12,15 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.core.state import State
-from tribo.stepping.division import Division, integrated
-from tribo.stepping.evolution import accumulated
-from tribo.stepping.interval import Moment, interval_from
-from tribo.stepping.kept import Sum
-from tribo.stepping.memory import Memory, remembered, under
-from tribo.stepping.rates import local_fields
+from tribo.evolution.course import accumulated
+from tribo.evolution.interval import Moment, interval_from
+from tribo.evolution.memory import Memory, remembered, under
+from tribo.evolution.rates import local_fields
+from tribo.integration.division import Division, integrated
+from tribo.integration.kept import Sum
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 
 def friction_force(model: Model, state: State) -> float:

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from tribo.core.arrays import Array, Mask
-from tribo.stepping.kept import Field, Kept, Numbers, Sum, Values
-from tribo.stepping.relaxation import bending, growth, lasting
+from tribo.integration.kept import Field, Kept, Numbers, Sum, Values
+from tribo.integration.relaxation import bending, growth, lasting
 
 LEFT = 1e-12
 """Part of a step below which what is left of it is rounding."""

@@ -11,12 +11,12 @@ from tribo.core.arrays import Array
 from tribo.core.errors import PluginError
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
-from tribo.stepping.interval import Moment
-from tribo.stepping.memory import remembered, under
-from tribo.stepping.rates import local_fields, rates_at_each
+from tribo.evolution.interval import Moment
+from tribo.evolution.memory import remembered, under
+from tribo.evolution.rates import local_fields, rates_at_each
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 
 def check_repeatable(model: Model, state: State) -> None:

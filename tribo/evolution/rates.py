@@ -24,13 +24,13 @@ from tribo.core.fields import (
     WearRate,
 )
 from tribo.core.state import State
+from tribo.evolution.interval import Moment
+from tribo.evolution.memory import Memory, fields_of, in_window, remembered, under
 from tribo.motion.cycle import Speeds
-from tribo.stepping.interval import Moment
-from tribo.stepping.memory import Memory, fields_of, in_window, remembered, under
 
 if TYPE_CHECKING:
     from tribo.guards.parts import GuardedEffect
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 # Cells around the contact where laws are asked too: what a step may newly touch.
 MARGIN = 8

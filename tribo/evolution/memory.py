@@ -15,7 +15,7 @@ from tribo.core.fields import WORN_DEPTH
 from tribo.core.state import State
 
 if TYPE_CHECKING:
-    from tribo.stepping.model import Model
+    from tribo.model.model import Model
 
 
 @dataclass(frozen=True)

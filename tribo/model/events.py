@@ -10,9 +10,9 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 
 if TYPE_CHECKING:
-    from tribo.stepping.division import Division
-    from tribo.stepping.interval import Interval
-    from tribo.stepping.memory import Memory
+    from tribo.evolution.interval import Interval
+    from tribo.evolution.memory import Memory
+    from tribo.integration.division import Division
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,10 @@ from tribo.guards.guard import Guard
 from tribo.guards.motion import GuardedMotion
 from tribo.guards.parts import GuardedLaw, GuardedSurface
 from tribo.lab.roughness import is_rough
-from tribo.stepping.contact_setup import ContactSetup
-from tribo.stepping.cycle import Cycle
-from tribo.stepping.events import Listener, unheard
-from tribo.stepping.laws import Laws
+from tribo.model.contact_setup import ContactSetup
+from tribo.model.cycle import Cycle
+from tribo.model.events import Listener, unheard
+from tribo.model.laws import Laws
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.stepping.kept import Field, Kept, Values
+from tribo.integration.kept import Field, Kept, Values
 
 Rates = Callable[[Sequence[Array], float], Values]
 """Rates of states, and after them of sums, at states and at a share of a part."""
