@@ -28,11 +28,11 @@ import numpy as np
 from scipy.fft import idctn
 from scipy.ndimage import shift as moved
 from tribo_inverse import View
-from tribo_inverse.adjoint.local import localised
 from tribo_inverse.calibration.cells import cell_means
 from tribo_inverse.calibration.maps import fit_maps
 from tribo_inverse.calibration.prior import Prior
 from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT
+from tribo_inverse.recording.local import localised
 
 from tribo import Case, TriboWarning
 from tribo.core.arrays import Array

@@ -21,8 +21,8 @@ from tribo_inverse.adjoint.backwards import swept_back
 from tribo_inverse.adjoint.numbers import changed, find
 from tribo_inverse.adjoint.objective import View
 from tribo_inverse.adjoint.parameters import chain
-from tribo_inverse.adjoint.tape import Tape, recorded
 from tribo_inverse.calibration.fit import STEP
+from tribo_inverse.recording.tape import Tape, recorded
 
 from tribo import Case, TriboWarning
 from tribo.simulation.march import begin, march

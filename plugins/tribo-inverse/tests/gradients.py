@@ -18,10 +18,10 @@ from tribo.stepping.step import distance_until, rested, start_sliding
 from tribo.wear.running_in import RunningIn, Smoothing
 
 from tribo_inverse.adjoint.gradient import gradient
-from tribo_inverse.adjoint.local import localised
 from tribo_inverse.adjoint.numbers import changed, find
 from tribo_inverse.adjoint.objective import View
 from tribo_inverse.adjoint.parameters import Stops
+from tribo_inverse.recording.local import localised
 
 
 def repeated(model, base, steps, worn, until=None):

@@ -20,13 +20,13 @@ from tribo.lab.heights import Heights
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 
-from tribo_inverse.adjoint.local import localised
 from tribo_inverse.adjoint.objective import View
 from tribo_inverse.calibration.cells import on_cells
 from tribo_inverse.calibration.mapped import calibrate_maps
 from tribo_inverse.calibration.maps import _Posterior, fit_maps
 from tribo_inverse.calibration.measured import MapEntry, read_measurements
 from tribo_inverse.calibration.prior import Prior
+from tribo_inverse.recording.local import localised
 
 CASE = apply_settings(
     cheap(20),

@@ -48,16 +48,11 @@ from tribo.wear.archard import Archard
 from tribo.wear.modified import times
 from tribo.wear.running_in import RunningIn
 
-from tribo_inverse.adjoint import (
-    backwards,
-    linear,
-    local,
-    parameters,
-    remembering,
-    slopes,
-)
+from tribo_inverse.adjoint import backwards, linear, parameters
 from tribo_inverse.adjoint.gradient import gradient
 from tribo_inverse.adjoint.objective import Deepest, Depth, EndDistance, EndTime, Pressure, Volume
+from tribo_inverse.increment import remembering, slopes
+from tribo_inverse.recording import local
 
 
 def flats():

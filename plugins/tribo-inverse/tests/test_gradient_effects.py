@@ -30,17 +30,11 @@ from tribo.stepping.explicit import Explicit
 from tribo.wear.archard import Archard
 from tribo.wear.modified import times
 
-from tribo_inverse.adjoint import (
-    backwards,
-    linear,
-    parameters,
-    remembering,
-    response,
-    slopes,
-    tape,
-)
+from tribo_inverse.adjoint import backwards, linear, parameters
 from tribo_inverse.adjoint.gradient import gradient
 from tribo_inverse.adjoint.objective import Depth, Pressure, Volume
+from tribo_inverse.increment import remembering, response, slopes
+from tribo_inverse.recording import tape
 
 
 class Grains(Effect):

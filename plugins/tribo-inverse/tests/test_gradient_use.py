@@ -25,9 +25,8 @@ from tribo.surfaces.height_map import HeightMap
 from tribo.templates import template
 from tribo.wear.archard import Archard
 
-from tribo_inverse.adjoint import tape
 from tribo_inverse.adjoint.gradient import gradient, value_and_gradient
-from tribo_inverse.adjoint.linear import Carrier, StepSystem
+from tribo_inverse.adjoint.linear import StepSystem
 from tribo_inverse.adjoint.numbers import find
 from tribo_inverse.adjoint.objective import (
     Deepest,
@@ -41,6 +40,8 @@ from tribo_inverse.adjoint.objective import (
     Width,
 )
 from tribo_inverse.adjoint.sensitivity import sensitivity
+from tribo_inverse.increment.carriers import Carrier
+from tribo_inverse.recording import tape
 
 
 class Turns(Effect):

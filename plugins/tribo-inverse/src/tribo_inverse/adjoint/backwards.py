@@ -22,14 +22,15 @@ from tribo.kernel_api import (
     whole,
 )
 
-from tribo_inverse.adjoint.course import Before, Plain, plain
-from tribo_inverse.adjoint.linear import StepSystem, carriers_between, carriers_of
-from tribo_inverse.adjoint.local import WatchedLaw
+from tribo_inverse.adjoint.linear import StepSystem
 from tribo_inverse.adjoint.objective import Seeds
 from tribo_inverse.adjoint.parameters import Chain
-from tribo_inverse.adjoint.remembering import Alone, Together
-from tribo_inverse.adjoint.slopes import Sloping
-from tribo_inverse.adjoint.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
+from tribo_inverse.increment.carriers import carriers_between, carriers_of
+from tribo_inverse.increment.course import Before, Plain, plain
+from tribo_inverse.increment.remembering import Alone, Together
+from tribo_inverse.increment.slopes import Sloping
+from tribo_inverse.recording.local import WatchedLaw
+from tribo_inverse.recording.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
 
 JUST = 1e-9
 """Part of the largest pressure, or of the hardness, within which a cell just touches or yields."""

@@ -12,7 +12,7 @@ from tribo.kernel_api import DEPTH_ACCURACY, Model
 from tribo_inverse.adjoint.backwards import JUST, Derivatives, swept_back
 from tribo_inverse.adjoint.objective import Seeds
 from tribo_inverse.adjoint.parameters import Chain, of_length
-from tribo_inverse.adjoint.tape import Tape
+from tribo_inverse.recording.tape import Tape
 
 
 def at_depth(

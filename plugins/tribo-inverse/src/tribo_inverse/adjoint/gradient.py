@@ -14,13 +14,13 @@ from tribo import Array, Case, CaseError, Simulation
 from tribo.kernel_api import Model
 
 from tribo_inverse.adjoint.backwards import covered, swept_back
-from tribo_inverse.adjoint.breaks import unreached
 from tribo_inverse.adjoint.ending import at_depth
-from tribo_inverse.adjoint.local import factor_shape, localised
 from tribo_inverse.adjoint.numbers import changed, find, listed
 from tribo_inverse.adjoint.objective import Objective, View, is_finite, looked
 from tribo_inverse.adjoint.parameters import Chain, chain
-from tribo_inverse.adjoint.tape import Tape, recorded
+from tribo_inverse.increment.breaks import unreached
+from tribo_inverse.recording.local import factor_shape, localised
+from tribo_inverse.recording.tape import Tape, recorded
 
 FURTHEST = 30.0
 """Change of the logarithm of a number beyond which no case is asked for."""

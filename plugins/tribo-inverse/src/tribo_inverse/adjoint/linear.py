@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.fft
-from tribo import Array, CaseError, NumericalError, Operator
-from tribo.kernel_api import CELLS, Box, Mask, Model, add_from, over
+from tribo import Array, NumericalError, Operator
+from tribo.kernel_api import CELLS, Box, Mask, over
+
+from tribo_inverse.increment.carriers import Carrier
 
 Map = Callable[[Array], Array]
 
@@ -18,116 +20,6 @@ MIRRORED = 1e-9
 """Relative difference below which positions mirror each other."""
 MOST, RESTART = 400, 60
 """Iterations of which the method gives up, and after which GMRES starts anew."""
-
-
-@dataclass(frozen=True)
-class Carrier:
-    """How a body's own surface meets the window.
-
-    It has `rows` cells along x, and the window begins at the row `starts` of it at each position.
-    `weights`, shape (nx, ny), are those with which an average takes the cells of a row; None where
-    points keep their own.
-    """
-
-    rows: int
-    starts: Sequence[int]
-    weights: Array | None
-
-    def differs(self, other: Carrier) -> bool:
-        """Whether another one lies or counts otherwise."""
-        same = self.rows == other.rows and [*self.starts] == [*other.starts]
-        own, others = (np.array(0) if c.weights is None else c.weights for c in (self, other))
-        return not (same and np.array_equal(own, others))
-
-    def gathered(self, parts: Array, box: Box) -> Array:
-        """Return what fields on a box, by position, add up to on the body: shape (rows, ny)."""
-        along, columns = box.slices
-        own = np.zeros((self.rows, box.window[1]))
-        if self.weights is not None:
-            own[0, columns] = np.sum(parts, axis=(0, 1))
-            return own
-        for part, start in zip(parts, self.starts, strict=True):
-            add_from(own[:, columns], part, start + along.start)
-        return own
-
-    def seen(self, own: Array, box: Box) -> Array:
-        """Return fields on the body, shape (…, rows, ny), as they lie in a box, by position."""
-        along, columns = box.slices
-        field = own[..., columns]
-        if self.weights is not None or not any(self.starts):
-            here = field if self.weights is not None else field[..., along, :]
-            shape = (*own.shape[:-2], len(self.starts), *box.shape)
-            placed = here[..., None, :, :]
-            return placed if placed.shape == shape else np.broadcast_to(placed, shape)
-        rows = np.arange(along.start, along.stop)
-        each = [np.take(field, start + rows, -2, mode="wrap") for start in self.starts]
-        return np.stack(each, axis=-3)
-
-    def part(self, box: Box) -> Array | float:
-        """Return what each cell of a box counts for in the mean rate of its point."""
-        return 1.0 if self.weights is None else self.weights[box.slices]
-
-
-@dataclass(frozen=True)
-class Uniform(Carrier):
-    """Where one number lies that stands for all of the window."""
-
-    def gathered(self, parts: Array, box: Box) -> Array:
-        """Return the sum of fields on a box, shape (1, 1)."""
-        return np.sum(parts).reshape(1, 1)
-
-    def seen(self, own: Array, box: Box) -> Array:
-        """Return the number, shape (…, 1, 1), at each cell of a box, by position."""
-        shape = (*own.shape[:-2], len(self.starts), *box.shape)
-        return np.broadcast_to(own[..., None, :, :], shape)
-
-
-def carriers_between(model: Model, of_bodies: Mapping[str, Carrier]) -> dict[str, Carrier]:
-    """Return where what effects remember lies, by its name."""
-    found: dict[str, Carrier] = {}
-    rows, starts = model.grid.cells[0], [0] * len(model.cycle)
-    for key, (effect, field) in model.laws.between.items():
-        if field.uniform:
-            even = np.full(model.grid.cells, 1 / np.prod(model.grid.cells))
-            found[key] = Uniform(1, starts, even)
-        elif effect.carrier is None:
-            found[key] = Carrier(rows, starts, None)
-        else:
-            found[key] = of_bodies[effect.carrier]
-    return found
-
-
-def carriers_of(model: Model) -> dict[str, Carrier]:
-    """Return how the surfaces of bodies meet the window, by name."""
-    return {name: carrier_of(model, name) for name in model.case.bodies}
-
-
-def carrier_of(model: Model, name: str) -> Carrier:
-    """Return how a body's own surface meets the window.
-
-    Raises
-    ------
-    CaseError
-        If the average over a track is not a weighted sum over its rows.
-    """
-    exposure, cells = model.cycle.maps[name], model.grid.cells
-    starts = exposure.starts if exposure.starts is not None else [0] * len(model.cycle)
-    trial = np.random.default_rng(0).random(cells)
-    answer, expected, weights = exposure.average(trial), trial, None
-    if exposure.averaged:
-        weights = np.zeros(cells)
-        for row, of_row in enumerate(weights):
-            probe = np.zeros(cells)
-            probe[row] = 1.0
-            of_row[:] = exposure.average(probe)[0]
-        expected = np.sum(weights * trial, axis=0, keepdims=True)
-    if answer.shape != expected.shape or not np.allclose(answer, expected, rtol=1e-12, atol=0):
-        raise CaseError(
-            f"the average of {model.case.kinematics.type!r} over the track of {name} is not a sum "
-            "over its rows, for which gradients are known",
-            "kinematics.type",
-        )
-    return Carrier(exposure.rows, starts, weights)
 
 
 @dataclass(frozen=True)

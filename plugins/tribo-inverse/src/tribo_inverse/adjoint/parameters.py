@@ -11,14 +11,14 @@ from pydantic import ValidationError
 from tribo import Array, CaseError, Operator, TriboError
 from tribo.kernel_api import Interval, Mask, Memory, Model, OverTime, assemble
 
-from tribo_inverse.adjoint.breaks import unreached
-from tribo_inverse.adjoint.course import Other
-from tribo_inverse.adjoint.linear import Carrier, carriers_of
-from tribo_inverse.adjoint.local import SPEED, localised
 from tribo_inverse.adjoint.numbers import ANY, changed
 from tribo_inverse.adjoint.objective import Seeds
-from tribo_inverse.adjoint.response import ASIDE, NUDGE
-from tribo_inverse.adjoint.tape import Pressed, Slid
+from tribo_inverse.increment.breaks import unreached
+from tribo_inverse.increment.carriers import Carrier, carriers_of
+from tribo_inverse.increment.course import Other
+from tribo_inverse.increment.response import ASIDE, NUDGE
+from tribo_inverse.recording.local import SPEED, localised
+from tribo_inverse.recording.tape import Pressed, Slid
 
 LAW = "law"
 """What a number changes of a law that it enters."""

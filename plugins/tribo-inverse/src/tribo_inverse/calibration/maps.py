@@ -17,15 +17,15 @@ from tribo.kernel_api import Mask, Model, assemble, begin, march, varied
 
 from tribo_inverse.adjoint.backwards import swept_back
 from tribo_inverse.adjoint.gradient import FURTHEST, ValueAndGradient
-from tribo_inverse.adjoint.local import localised
 from tribo_inverse.adjoint.objective import Seeds, View
-from tribo_inverse.adjoint.tape import Tape, recorded
 from tribo_inverse.calibration.cells import cell_means, surface_shape
 from tribo_inverse.calibration.descent import descended
 from tribo_inverse.calibration.lanczos import eigenpairs
 from tribo_inverse.calibration.map_errors import MapErrors
 from tribo_inverse.calibration.prior import Prior
 from tribo_inverse.findings import UNLIKELY, of_maps
+from tribo_inverse.recording.local import localised
+from tribo_inverse.recording.tape import Tape, recorded
 
 STEP = 1e-2
 """Largest change of a logarithm for the finite difference of all depths along a direction."""

@@ -11,10 +11,9 @@ import numpy as np
 from tribo import WORN_DEPTH, Array, CaseError
 from tribo.kernel_api import CELLS, over
 
-from tribo_inverse.adjoint.linear import Carrier
-from tribo_inverse.adjoint.local import localised
-from tribo_inverse.adjoint.rate_stage import RateStage
-from tribo_inverse.adjoint.response import (
+from tribo_inverse.increment.carriers import Carrier
+from tribo_inverse.increment.rate_stage import RateStage
+from tribo_inverse.increment.response import (
     ALONE,
     ASIDE,
     MOST,
@@ -27,7 +26,8 @@ from tribo_inverse.adjoint.response import (
     near,
     shared,
 )
-from tribo_inverse.adjoint.stages import Stages, together
+from tribo_inverse.increment.stages import Stages, together
+from tribo_inverse.recording.local import localised
 
 
 class Reach(NamedTuple):

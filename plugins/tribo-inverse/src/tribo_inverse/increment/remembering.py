@@ -10,13 +10,13 @@ import numpy as np
 from tribo import WORN_DEPTH, Array
 from tribo.kernel_api import CELLS, Memory, Part, Stretch, Values, over, own, retraced, transposed
 
-from tribo_inverse.adjoint.breaks import moved_breaks, with_breaks
-from tribo_inverse.adjoint.course import Before, Other
-from tribo_inverse.adjoint.linear import Carrier
-from tribo_inverse.adjoint.rate_stage import RateStage
-from tribo_inverse.adjoint.response import ALONE, Arrays, Field
-from tribo_inverse.adjoint.slopes import Slopes, Sloping
-from tribo_inverse.adjoint.stages import together
+from tribo_inverse.increment.breaks import moved_breaks, with_breaks
+from tribo_inverse.increment.carriers import Carrier
+from tribo_inverse.increment.course import Before, Other
+from tribo_inverse.increment.rate_stage import RateStage
+from tribo_inverse.increment.response import ALONE, Arrays, Field
+from tribo_inverse.increment.slopes import Slopes, Sloping
+from tribo_inverse.increment.stages import together
 
 _Seeded = tuple[Slopes, Sequence[Field]]
 """Rates, and the derivatives in them."""

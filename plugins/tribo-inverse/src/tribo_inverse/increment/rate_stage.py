@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tribo import Array
 
-from tribo_inverse.adjoint.response import Arrays
+from tribo_inverse.increment.response import Arrays
 
 
 @dataclass(frozen=True)

@@ -22,9 +22,9 @@ from tribo.kernel_api import (
     worn_depths,
 )
 
-from tribo_inverse.adjoint.linear import Carrier
-from tribo_inverse.adjoint.response import Arrays, local
-from tribo_inverse.adjoint.tape import Slid
+from tribo_inverse.increment.carriers import Carrier
+from tribo_inverse.increment.response import Arrays, local
+from tribo_inverse.recording.tape import Slid
 
 
 @dataclass(frozen=True)

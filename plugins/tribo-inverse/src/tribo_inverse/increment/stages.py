@@ -24,11 +24,11 @@ from tribo.kernel_api import (
     with_loads,
 )
 
-from tribo_inverse.adjoint.course import pressed, stacked
-from tribo_inverse.adjoint.linear import Carrier, carriers_between
-from tribo_inverse.adjoint.rate_stage import RateStage
-from tribo_inverse.adjoint.response import ASIDE, Arrays
-from tribo_inverse.adjoint.tape import Slid
+from tribo_inverse.increment.carriers import Carrier, carriers_between
+from tribo_inverse.increment.course import pressed, stacked
+from tribo_inverse.increment.rate_stage import RateStage
+from tribo_inverse.increment.response import ASIDE, Arrays
+from tribo_inverse.recording.tape import Slid
 
 AT_ONCE = 1 << 18
 """Cells of which laws are asked at once, so that what they compute does not grow with a step."""
