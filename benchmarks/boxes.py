@@ -11,7 +11,7 @@ import scipy.fft
 
 from tribo import Array
 from tribo.contact.dcfft import DcFft
-from tribo.contact.half_space import HalfSpace
+from tribo.contact.padded_half_space import HalfSpace
 
 Shape = tuple[int, int]
 

@@ -26,7 +26,7 @@ from tribo.motion.averaging_error import groove_excess
 from tribo.simulation.march import march
 from tribo.stepping.first_contact import first_contact
 from tribo.verification.moving import to_and_fro
-from tribo.verification.problems import BALL, LOAD, RADIUS, WEAR_COEFFICIENT, on_flat
+from tribo.verification.paper_bodies import BALL, LOAD, RADIUS, WEAR_COEFFICIENT, on_flat
 from tribo.wear.archard import Archard
 
 K = WEAR_COEFFICIENT

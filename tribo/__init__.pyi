@@ -11,9 +11,9 @@ from tribo.component import Component as Component
 from tribo.config.load import load_case as load_case
 from tribo.contact.bounded_cg import solve_bounded as solve_bounded
 from tribo.contact.dcfft import DcFft as DcFft
-from tribo.contact.half_space import HalfSpace as HalfSpace
 from tribo.contact.love import nyquist_compliance as nyquist_compliance
 from tribo.contact.operator import Operator as Operator
+from tribo.contact.padded_half_space import HalfSpace as HalfSpace
 from tribo.contact.periodic import Periodic as Periodic
 from tribo.contact.residuals import residuals as residuals
 from tribo.contact.solver import ContactSolver as ContactSolver

@@ -9,7 +9,7 @@ import pytest
 from contact_problems import HARDNESS, MODULUS, ONSET, ball, dense
 
 from tribo.contact.bounded_cg import solve_bounded
-from tribo.contact.half_space import HalfSpace
+from tribo.contact.padded_half_space import HalfSpace
 from tribo.contact.projection import project
 from tribo.contact.residuals import residuals
 from tribo.core.arrays import Array

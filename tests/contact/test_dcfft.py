@@ -10,7 +10,7 @@ from contact_problems import HARDNESS, MODULUS, ONSET, RADIUS, ball, problem, so
 
 from tribo.contact import dcfft
 from tribo.contact.bounded_cg import solve_bounded
-from tribo.contact.half_space import HalfSpace
+from tribo.contact.padded_half_space import HalfSpace
 from tribo.core.box import around
 from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
 from tribo.core.grid import Grid

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from contact_problems import MODULUS, dense
 
-from tribo.contact.half_space import HalfSpace
 from tribo.contact.love import nyquist_compliance, wrapped_kernel
 from tribo.contact.operator import WornOperator
+from tribo.contact.padded_half_space import HalfSpace
 from tribo.core.contact import WearCompliance
 
 SHAPE, SPACING = (7, 10), (2e-6, 3e-6)

@@ -16,7 +16,7 @@ from paper_models import (
 )
 
 from tribo import CaseError, Effect, Field, Grid, Rotating, Unidirectional
-from tribo.verification.problems import Shape, drawn_radius
+from tribo.verification.paper_bodies import Shape, drawn_radius
 
 K, LOAD, RADIUS = 3e-16, 100.0, 2e-3
 GRID = Grid((0.75e-3, 1e-3), (20, 25))

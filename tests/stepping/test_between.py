@@ -15,7 +15,7 @@ from tribo.cli.show import show
 from tribo.core.errors import PluginError
 from tribo.core.fields import LOAD_SHARE
 from tribo.core.words import checked_name
-from tribo.evolution.memory import place
+from tribo.evolution.states import place
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tribo.contact import dcfft, half_space, love, periodic
+from tribo.contact import dcfft, love, padded_half_space, periodic
 from tribo.core.fields import WearRate
 from tribo.evolution import rates
 from tribo.guards.parts import GuardedSolver
@@ -94,7 +94,11 @@ MUTANTS = {
     "second modulus ignored": (MODULUS, lambda right: lambda each: right([each[0]] * 2), CASES),
     "second body rigid": (MODULUS, lambda right: lambda each: right(each[:1]), CASES),
     "Poisson's ratio left out": (MODULUS, without_poisson, CASES),
-    "sides of a cell swapped": ((half_space, "wrapped_kernel"), sides_swapped, "oblong cells"),
+    "sides of a cell swapped": (
+        (padded_half_space, "wrapped_kernel"),
+        sides_swapped,
+        "oblong cells",
+    ),
     "sides swapped, periodic": ((periodic, "_cached"), sides_swapped, "full contact"),
     "groove not drawn out": ((Track, "envelope"), given_back, "draws a groove"),
     "groove never settled": ((step, "settled"), given_back, "draws a groove"),

@@ -6,7 +6,7 @@ import pytest
 from tribo.contact.dcfft import DcFft
 from tribo.verification import strokes
 from tribo.verification.moving import to_and_fro
-from tribo.verification.problems import BALL, WEAR_COEFFICIENT, on_flat
+from tribo.verification.paper_bodies import BALL, WEAR_COEFFICIENT, on_flat
 
 K = WEAR_COEFFICIENT
 

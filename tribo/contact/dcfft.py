@@ -10,9 +10,9 @@ import numpy as np
 
 from tribo.contact.bounded_cg import solve_together
 from tribo.contact.elastic import ElasticSolver
-from tribo.contact.half_space import HalfSpace
 from tribo.contact.love import nyquist_compliance
 from tribo.contact.operator import Operator, WornOperator
+from tribo.contact.padded_half_space import HalfSpace
 from tribo.contact.projection import CELLS, over
 from tribo.contact.residuals import check_finite
 from tribo.core.arrays import Array, Mask

@@ -39,9 +39,9 @@ class Box:
         return self.shape == self.window
 
     def embed(self, values: Array) -> Array:
-        """Return `values`, on the box, in a window of zeros."""
-        full = np.zeros(self.window)
-        full[self.slices] = values
+        """Return `values`, on the box, shape (…, nx, ny), in a window of zeros."""
+        full = np.zeros((*values.shape[:-2], *self.window))
+        full[(..., *self.slices)] = values
         return full
 
 

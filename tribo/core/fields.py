@@ -125,14 +125,14 @@ PLACE_Y = Field(
 class LocalConditions:
     """The input of a wear law: conditions at each point of the contact, for one body.
 
-    Arrays have shape (nx, ny), are in the contact frame and must not be
-    written to.
+    Arrays have shape (positions, nx, ny), one position of an average, are in the contact
+    frame and must not be written to.
 
     Parameters
     ----------
     pressure : ndarray
         Contact pressure, in Pa.
-    speed : float
+    speed : ndarray, shape (positions, 1, 1)
         Sliding speed, in m/s: one of those that the motion has in a cycle, or
         its mean over the step.
     material : Material
@@ -144,7 +144,7 @@ class LocalConditions:
     """
 
     pressure: Array
-    speed: float
+    speed: Array | float
     material: Material
     fields: Mapping[str, Array] = field(default_factory=dict)
     state: Mapping[str, Array] = field(default_factory=dict)
@@ -172,6 +172,11 @@ class WearRate:
     # None only in the answer of a law; a run has found it by then.
     depth_slope: Array = None  # type: ignore[assignment]
     state_rates: Mapping[str, Array] = field(default_factory=dict)
+
+    def at(self, position: int) -> WearRate:
+        """Return the rate at one of several positions."""
+        states = {name: rate[position] for name, rate in self.state_rates.items()}
+        return WearRate(self.depth_rate[position], self.depth_slope[position], states)
 
 
 @dataclass(frozen=True)

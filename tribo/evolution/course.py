@@ -13,8 +13,8 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import WORN_DEPTH, WearRate
 from tribo.evolution.interval import Interval
-from tribo.evolution.memory import Memory, laid, place
 from tribo.evolution.rates import CycleRates, rates_at_each, wear_rates
+from tribo.evolution.states import Memory, laid, place
 from tribo.evolution.stripes import in_stripes
 from tribo.integration.division import Division, integrated
 from tribo.integration.kept import Kept, Sum, Values

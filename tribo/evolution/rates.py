@@ -6,11 +6,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import reduce
+from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tribo.core.arrays import Array, readonly
+from tribo.contact.projection import over
+from tribo.core.arrays import Array, readonly, union
 from tribo.core.box import around_region
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError
@@ -25,7 +27,7 @@ from tribo.core.fields import (
 )
 from tribo.core.state import State
 from tribo.evolution.interval import Moment
-from tribo.evolution.memory import Memory, fields_of, in_window, remembered, under
+from tribo.evolution.states import Memory, fields_of, in_window, remembered, under
 from tribo.motion.cycle import Speeds
 
 if TYPE_CHECKING:
@@ -70,9 +72,11 @@ def rates_at_each(
 
     At rest they are per second. Nobody knows at which position it rests; all have their shares.
     """
-    rates_at = _rates_at if moment.speed > 0 else _rates_at_rest
+    here = [under(model, memory, position) for position in range(len(contacts))]
+    if moment.speed > 0:
+        return _sliding(model, contacts, here, moment)
     return [
-        rates_at(model, position, contact, under(model, memory, position), moment)
+        _rates_at_rest(model, position, contact, here[position], moment)
         for position, contact in enumerate(contacts)
     ]
 
@@ -101,37 +105,43 @@ def _resting(
     return _changes(model, position, contact, moment, memory, fields, still)
 
 
-def _rates_at(
-    model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
-) -> Rates:
-    """Return the rates at a position per metre of the motion, with what changes at rest there."""
-    rates, rest = _sliding_at(model, position, contact, memory, moment), model.cycle[position].rest
-    if rest == 0 or not memory.between:
-        return rates
-    changes = _resting(model, position, contact, memory, replace(moment, speed=0.0))
-    between = {key: rate + rest * changes[key] for key, rate in rates.between.items()}
-    return replace(rates, between=between)
+def _sliding(
+    model: Model, contacts: Sequence[ContactSolution], memories: Sequence[Memory], moment: Moment
+) -> list[Rates]:
+    """Return the rates at each position per metre of the motion, with what changes at rest there.
+
+    They are the mean over the speeds of the position. Laws are asked of all positions at once.
+    """
+    speeds = [by_reach(place.speeds or [(moment.speed, 1.0)], place.reach) for place in model.cycle]
+    each = []
+    for of_positions in zip_longest(*speeds):
+        # One that has fewer speeds than others is asked again, and counts for nothing.
+        asked = [
+            one or (last[0], 0.0, 0.0) for one, (*_, last) in zip(of_positions, speeds, strict=True)
+        ]
+        moments = [replace(moment, speed=speed) for speed, _, _ in asked]
+        each.append((asked, _rates_of(model, contacts, memories, moments)))
+    found = []
+    for position, contact in enumerate(contacts):
+        parts = [(*asked[position][1:], rates[position]) for asked, rates in each]
+        rates, rest = _mean_rates(parts), model.cycle[position].rest
+        if rest > 0 and rates.between:
+            still = replace(moment, speed=0.0)
+            changes = _resting(model, position, contact, memories[position], still)
+            between = {key: rate + rest * changes[key] for key, rate in rates.between.items()}
+            rates = replace(rates, between=between)
+        found.append(rates)
+    return found
 
 
-def _sliding_at(
-    model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
-) -> Rates:
-    """Return the rates at a position per metre that is slid there: the mean over its speeds."""
-    place = model.cycle[position]
-    speeds = place.speeds or [(moment.speed, 1.0)]
-    weighed = by_reach(speeds, place.reach)
-    found = [
-        (part, time, _rates_of(model, position, contact, memory, replace(moment, speed=speed)))
-        for speed, part, time in weighed
-    ]
-    if len(found) == 1 and np.ndim(found[0][0]) == 0 and found[0][0] == 1:
-        return found[0][2]
-    first = found[0][2]
-    wear = {
-        name: _mean([(part, each.wear[name]) for part, _, each in found]) for name in first.wear
-    }
+def _mean_rates(parts: Sequence[tuple[float | Array, float | Array, Rates]]) -> Rates:
+    """Return the mean of rates, each with what those per metre and changes in time count for."""
+    (part, _, first), *others = parts
+    if not others and np.ndim(part) == 0 and part == 1:
+        return first
+    wear = {name: _mean([(of, each.wear[name]) for of, _, each in parts]) for name in first.wear}
     between = {
-        key: _sum((time, each.between[key]) for _, time, each in found) for key in first.between
+        key: _sum((time, each.between[key]) for _, time, each in parts) for key in first.between
     }
     return Rates(wear, between)
 
@@ -170,27 +180,81 @@ def _sum(parts: Iterable[tuple[float | Array, Array]]) -> Array:
 
 
 def _rates_of(
-    model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
-) -> Rates:
-    """Return the rate of each law and effect for the window, at the speed of `moment`."""
-    pressure = readonly(contact.pressure)
-    fields = local_fields(model, pressure, moment, position, memory)
-    near = around_region(contact.extent, model.grid.cells, MARGIN)
+    model: Model,
+    contacts: Sequence[ContactSolution],
+    memories: Sequence[Memory],
+    moments: Sequence[Moment],
+) -> list[Rates]:
+    """Return the rates of laws and effects for the window, at each position at its own speed."""
+    fields = [
+        local_fields(model, contact.pressure, moment, position, memory)
+        for position, (contact, moment, memory) in enumerate(
+            zip(contacts, moments, memories, strict=True)
+        )
+    ]
+    wear = _laws(model, contacts, memories, moments, fields)
+    of_positions = [
+        {name: rate.at(position) for name, rate in wear.items()}
+        for position in range(len(contacts))
+    ]
+    found = []
+    still = readonly(np.zeros(model.grid.cells))
+    for position, rates in enumerate(of_positions):
+        if not memories[position].between:
+            found.append(Rates(rates, {}))
+            continue
+        moment = moments[position]
+        depths = {
+            name: readonly(rates[name].depth_rate) if name in rates else still
+            for name in model.case.bodies
+        }
+        changes = _changes(
+            model,
+            position,
+            contacts[position],
+            moment,
+            memories[position],
+            fields[position],
+            depths,
+        )
+        slid = moment.speed if moment.speed > 0 else np.inf
+        found.append(Rates(rates, {key: change / slid for key, change in changes.items()}))
+    return found
+
+
+def _laws(
+    model: Model,
+    contacts: Sequence[ContactSolution],
+    memories: Sequence[Memory],
+    moments: Sequence[Moment],
+    fields: Sequence[Mapping[str, Mapping[str, Array]]],
+) -> dict[str, WearRate]:
+    """Return the rate of each law at all positions at once, arrays (positions, nx, ny)."""
+    # A law is pointwise, and leaves everything as it is where nothing touches.
+    touched = reduce(union, (contact.extent for contact in contacts))
+    near = around_region(touched, model.grid.cells, MARGIN)
+    cells = (len(contacts), *near.shape)
+
+    def stacked(arrays: Iterable[Array]) -> Array:
+        whole = (np.broadcast_to(values, model.grid.cells)[near.slices] for values in arrays)
+        return readonly(np.concatenate([*whole]).reshape(cells))
+
+    pressure = stacked(contact.pressure for contact in contacts)
+    speed = readonly(over(np.array([moment.speed for moment in moments])))
     rates = {}
-    shares = fields.get(LOAD_SHARE.name)
     for name, law in model.laws.wear.items():
-        # A law is pointwise, and leaves everything as it is where nothing touches.
-        part = near.slices
-        solid = None if shares is None else readonly(1.0 - shares[name][part])
+        solid = None
+        if LOAD_SHARE.name in fields[0]:
+            solid = readonly(1.0 - stacked(of[LOAD_SHARE.name][name] for of in fields))
         rate = law.rate(
             LocalConditions(
-                pressure=pressure[part] if solid is None else readonly(solid * pressure[part]),
-                speed=moment.speed,
+                pressure=pressure if solid is None else readonly(solid * pressure),
+                speed=speed,
                 material=law.material,
-                fields={field: fields[field][name][part] for field in law.requires},
+                fields={field: stacked(of[field][name] for of in fields) for field in law.requires},
                 state={
-                    field: np.broadcast_to(values, pressure.shape)[part]
-                    for field, values in memory.laws.get(name, {}).items()
+                    field: stacked(of.laws[name][field] for of in memories)
+                    for field in memories[0].laws.get(name, {})
                 },
             )
         )
@@ -200,14 +264,7 @@ def _rates_of(
             states = {key: near.embed(values) for key, values in rate.state_rates.items()}
             rate = WearRate(near.embed(rate.depth_rate), near.embed(rate.depth_slope), states)
         rates[name] = rate
-    if not memory.between:
-        return Rates(rates, {})
-    depths = {name: readonly(rate.depth_rate) for name, rate in rates.items()}
-    still = readonly(np.zeros(model.grid.cells))
-    depths = {name: depths.get(name, still) for name in model.case.bodies}
-    changes = _changes(model, position, contact, moment, memory, fields, depths)
-    slid = moment.speed if moment.speed > 0 else np.inf
-    return Rates(rates, {key: change / slid for key, change in changes.items()})
+    return rates
 
 
 def _changes(

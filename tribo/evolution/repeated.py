@@ -12,8 +12,8 @@ from tribo.core.errors import PluginError
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.evolution.interval import Moment
-from tribo.evolution.memory import remembered, under
 from tribo.evolution.rates import local_fields, rates_at_each
+from tribo.evolution.states import remembered, under
 
 if TYPE_CHECKING:
     from tribo.model.model import Model

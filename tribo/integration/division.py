@@ -10,10 +10,10 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import BadValues, PluginError
-from tribo.integration.euler_step import places_passing
 from tribo.integration.integrator import Part, apart, part_of, solved
 from tribo.integration.kept import Kept, Sum, Values
 from tribo.integration.relaxation import Rates
+from tribo.integration.step_to_break import places_passing
 
 ACCURACY = 3e-5
 """Error of an increment, summed over the cells, relative to what it integrates."""

@@ -10,9 +10,9 @@ from itertools import chain
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.integration.euler_step import Stretch, places_passing, stepped, stepped_back
 from tribo.integration.kept import Field, Kept, Sum, Values
 from tribo.integration.relaxation import Rates, moved, relaxation
+from tribo.integration.step_to_break import Stretch, places_passing, stepped, stepped_back
 
 EXACT = 1e-12
 """Relative difference, summed over the cells, of what is the same but for rounding."""

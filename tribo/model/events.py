@@ -11,7 +11,7 @@ from tribo.core.contact import ContactSolution
 
 if TYPE_CHECKING:
     from tribo.evolution.interval import Interval
-    from tribo.evolution.memory import Memory
+    from tribo.evolution.states import Memory
     from tribo.integration.division import Division
 
 

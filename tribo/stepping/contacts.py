@@ -12,7 +12,7 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactProblem, ContactSolution, CycleCompliance
 from tribo.core.loads import ByPosition
 from tribo.core.state import BodyState, State
-from tribo.evolution.memory import filling, remembered
+from tribo.evolution.states import filling, remembered
 from tribo.model.events import Solved
 from tribo.stepping.linear_wear import LinearWear
 from tribo.stepping.yielding import caps

@@ -18,8 +18,8 @@ from tribo.core.units import Quantity
 from tribo.evolution.course import Course, course
 from tribo.evolution.friction import with_friction_work
 from tribo.evolution.interval import Moment, interval_from
-from tribo.evolution.memory import remembered
 from tribo.evolution.rates import CycleRates, wear_rates
+from tribo.evolution.states import remembered
 from tribo.evolution.stripes import in_stripes
 from tribo.model.events import Solved, Worn
 from tribo.stepping.contacts import counted, solve_cycle, undeformed

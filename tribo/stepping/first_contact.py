@@ -13,7 +13,7 @@ from tribo.core.contact import ContactProblem, ContactSolution
 from tribo.core.errors import CaseError
 from tribo.core.measures import reaches_border
 from tribo.core.state import BodyState, State
-from tribo.evolution.memory import first_memory
+from tribo.evolution.states import first_memory
 from tribo.model.events import Solved
 from tribo.stepping.contacts import undeformed
 from tribo.stepping.plastic_groove import yielded

@@ -13,7 +13,7 @@ from tribo.core.errors import CaseError, NumericalError
 from tribo.core.state import State
 from tribo.evolution.course import course
 from tribo.evolution.interval import interval_from
-from tribo.evolution.memory import filling, remembered
+from tribo.evolution.states import filling, remembered
 from tribo.evolution.stripes import in_stripes
 from tribo.stepping.step import worn_depths
 

@@ -20,9 +20,9 @@ from tribo.core.units import Quantity
 from tribo.evolution.course import Course, course, sloped
 from tribo.evolution.friction import with_friction_work
 from tribo.evolution.interval import Moment, interval_from
-from tribo.evolution.memory import filling, remembered
 from tribo.evolution.rates import wear_rates
 from tribo.evolution.repeated import check_repeatable
+from tribo.evolution.states import filling, remembered
 from tribo.integration.division import Division
 from tribo.model.events import Worn
 from tribo.stepping.contacts import counted, extrapolated, solve_cycle, undeformed

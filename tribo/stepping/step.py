@@ -18,8 +18,8 @@ from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import BodyState, State
 from tribo.evolution.course import Course, course
 from tribo.evolution.interval import Interval, interval_from
-from tribo.evolution.memory import own, remembered
 from tribo.evolution.rates import CycleRates
+from tribo.evolution.states import own, remembered
 from tribo.model.events import Worn
 from tribo.stepping.contacts import solved_anew
 from tribo.stepping.invariants import ONE_LOAD, wear_balance

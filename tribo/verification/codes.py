@@ -13,7 +13,7 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, Residuals
 from tribo.core.grid import Grid
 from tribo.registry.registry import default_registry
-from tribo.verification import problems as paper
+from tribo.verification import paper_bodies as paper
 from tribo.verification.reference import Reference, Row, norm
 
 CELLS, WIDTH = 48, 0.7e-3

@@ -13,7 +13,7 @@ from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.measures import contact_area
 from tribo.stepping.first_contact import first_contact
-from tribo.verification import problems as paper
+from tribo.verification import paper_bodies as paper
 from tribo.verification.reference import Row, norm, reference
 
 PLACEMENTS = 5

@@ -16,7 +16,7 @@ from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.assembly import assemble, varied
 from tribo.stepping.first_contact import first_contact
 from tribo.stepping.step import start_sliding
-from tribo.verification import problems as paper
+from tribo.verification import paper_bodies as paper
 from tribo.verification.reference import Row, norm, reference
 
 SOURCE = "Tian & Bhushan (1996); Almqvist et al. (2007)"

@@ -10,7 +10,7 @@ from tribo.contact.periodic import Periodic
 from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.core.state import State
-from tribo.verification import problems as paper
+from tribo.verification import paper_bodies as paper
 from tribo.verification.reference import Row, reference
 
 RADIUS = 0.3e-3

@@ -15,7 +15,7 @@ from tribo.simulation.measure import measure
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 from tribo.verification.convergence import Convergence, convergence
-from tribo.verification.problems import run_to_end
+from tribo.verification.paper_bodies import run_to_end
 
 # Above the 1.3 that Celik et al. (2008) ask for, and mild on cases that are coarse already.
 RATIO = 1.5

@@ -26,7 +26,14 @@ from tribo.simulation.assembly import assemble, varied
 from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Implicit
 from tribo.verification.moving import round_a_ring, to_and_fro
-from tribo.verification.problems import BALL, SPEED, WEAR_COEFFICIENT, Shape, on_flat, run_to_end
+from tribo.verification.paper_bodies import (
+    BALL,
+    SPEED,
+    WEAR_COEFFICIENT,
+    Shape,
+    on_flat,
+    run_to_end,
+)
 from tribo.verification.reference import Row, norm, reference
 from tribo.wear.archard import Archard
 

@@ -21,8 +21,8 @@ from tribo.core.measures import Measures, contact_area
 from tribo.simulation.measure import measure
 from tribo.simulation.run import Simulation
 from tribo.templates import template
-from tribo.verification import problems as paper
-from tribo.verification.problems import BALL, LOAD, MODULUS, POISSON, RADIUS, YOUNG
+from tribo.verification import paper_bodies as paper
+from tribo.verification.paper_bodies import BALL, LOAD, MODULUS, POISSON, RADIUS, YOUNG
 from tribo.verification.reference import Reference, Row, reference
 from tribo.wear.archard import Archard
 from tribo.wear.law import WearLaw

@@ -51,7 +51,7 @@ from tribo.wear.running_in import RunningIn
 from tribo_inverse.adjoint import backwards, linear, parameters
 from tribo_inverse.adjoint.gradient import gradient
 from tribo_inverse.adjoint.objective import Deepest, Depth, EndDistance, EndTime, Pressure, Volume
-from tribo_inverse.increment import remembering, slopes
+from tribo_inverse.increment import carriers, remembering, slopes
 from tribo_inverse.recording import local
 
 
@@ -424,8 +424,8 @@ MUTANTS = [
     ("average", parameters.Chain, "by_wear", lambda _: lambda *given: ()),
     ("average", parameters.Chain, "by_rest", without("gap")),
     ("average", parameters.Chain, "by_rest", without("stiffness")),
-    ("average", linear.Carrier, "gathered", zero),
-    ("average", linear.Carrier, "seen", zero),
+    ("average", carriers.Carrier, "gathered", zero),
+    ("average", carriers.Carrier, "seen", zero),
     ("average", linear.StepSystem, "solve", without("given")),
     ("pressure", backwards.Backwards, "look", nothing),
     ("springs", local.WatchedLaw, "rate", lambda _: lambda of, *told: of._law.rate(*told)),
@@ -434,7 +434,7 @@ MUTANTS = [
     ("yields", backwards.Backwards, "spread_out", nothing),
     ("yields", backwards.Backwards, "_gave", zero),
     ("elastic layer", parameters.Chain, "by_spread", zero),
-    ("positions", linear.Carrier, "gathered", zero),
+    ("positions", carriers.Carrier, "gathered", zero),
     ("explicit", backwards.Backwards, "_wear", nothing),
     ("explicit", backwards.Backwards, "_wear", unpressed),
     ("remembers", slopes.Sloping, "_by_pressure", unfelt("own")),

@@ -30,10 +30,10 @@ from tribo.stepping.explicit import Explicit
 from tribo.wear.archard import Archard
 from tribo.wear.modified import times
 
-from tribo_inverse.adjoint import backwards, linear, parameters
+from tribo_inverse.adjoint import backwards, parameters
 from tribo_inverse.adjoint.gradient import gradient
 from tribo_inverse.adjoint.objective import Depth, Pressure, Volume
-from tribo_inverse.increment import remembering, response, slopes
+from tribo_inverse.increment import carriers, remembering, response, slopes
 from tribo_inverse.recording import tape
 
 
@@ -410,7 +410,7 @@ MUTANTS = [
     ("grains", parameters.Chain, "by_rest", without("gap")),
     ("heat", slopes.Sloping, "_by_pressure", unfelt("load")),
     ("heat", slopes.Sloping, "_by_pressure", unfelt("square")),
-    ("heat", linear.Uniform, "gathered", zero),
+    ("heat", carriers.Uniform, "gathered", zero),
     ("heat", remembering.Together, "is_pointwise", lambda _: property(lambda self: True)),
     ("layers", integrator, "stepped_back", unbroken),
     ("layers, pressure beside", integrator, "stepped_back", unbroken),

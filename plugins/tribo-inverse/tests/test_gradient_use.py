@@ -11,7 +11,7 @@ from paper_models import K, archard, motion, pair, states
 from scipy.optimize import minimize
 from tribo.case import Layer, Stop
 from tribo.config.load import validate_case
-from tribo.contact.half_space import HalfSpace
+from tribo.contact.padded_half_space import HalfSpace
 from tribo.contact.winkler import Winkler
 from tribo.core.box import whole
 from tribo.core.errors import CaseError
