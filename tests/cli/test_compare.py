@@ -74,8 +74,8 @@ def test_a_width_is_good_to_a_cell_and_its_percentage_to_what_a_cell_of_both_mak
 @pytest.mark.slow
 def test_results_and_pictures_stand_beside_the_case(folder, compared):
     names = {path.name for path in (folder / "my-compare").iterdir()}
-    assert {"contact.type=dcfft.h5", "contact.type=winkler.h5", "pressure_60s.png"} <= names
-    assert "ball_60s.png" in compared.stdout
+    assert {"contact.type=dcfft.h5", "contact.type=winkler.h5", "comparison_60s.png"} <= names
+    assert "comparison_60s.png" in compared.stdout
     assert "1 of 2, contact.type=dcfft" in compared.stderr
 
 

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import click
 
 from tribo.cli.options import PATH
-
-if TYPE_CHECKING:
-    from tribo.core.data_table import DataTable
-    from tribo.result.read import Result
 
 RESOLVED = ("kinematics.positions=33", "grid.cells=64")
 """What the resolved hour has of its own; 256² cells would take minutes."""
 AVERAGE = """\
 This is the paper's model: it averages the disk's wear over the stroke.
 The same hour follows, with the cycle resolved into 33 positions along the stroke,
-on 64² cells; it takes ten to thirty seconds."""
+on 64² cells; it takes ten to thirty seconds. docs/paper.md explains what differs
+("What the average costs")."""
 
 LIKE = {
     "ball_scar": "like the paper's figure 4, which was measured",
@@ -49,13 +45,19 @@ def demo(directory: Path, force: bool) -> None:
     Example:
       tribo demo -d somewhere
     """
+    from functools import partial
+
     from tribo.cli.console import Console
     from tribo.cli.lab_report import print_report
     from tribo.config.load import load_case
     from tribo.core.writing import check_new, make_folder, write_file
     from tribo.observers.progress import Progress
-    from tribo.plotting.figures import save_figures
+    from tribo.plotting.figures import save_figures, write_figures
+    from tribo.plotting.overlays import save_overlays
+    from tribo.plotting.profiles import along_track
     from tribo.simulation.run import Simulation
+    from tribo.study.comparison import Comparison
+    from tribo.study.side_by_side import comparison_table
     from tribo.templates import template
 
     case, output, followed = (
@@ -73,69 +75,14 @@ def demo(directory: Path, force: bool) -> None:
         pictures = save_figures(average, directory)
         click.echo(AVERAGE)
         with resolved.run(followed, observers=[Progress()], overwrite=force) as cycle:
-            Console().table(_table(average, cycle))
-            deep, shallow = (_end(result)["bodies"]["disk"] for result in (average, cycle))
-            excess = deep["max_wear_depth_m"] / shallow["max_wear_depth_m"] - 1
-            click.echo(
-                "With the paper's printed k over these 360 m, the average makes the\n"
-                f"groove {100 * excess:.0f} % too deep: "
-                'docs/paper.md ("What the average costs").'
-            )
-            pictures += _pictures(average, cycle, directory)
+            comparison = Comparison({"average": average, "resolved": cycle})
+            end = comparison.times[-1:]
+            Console().table(comparison_table(comparison, end))
+            along = {"disk_along_track": partial(along_track, cycle, "disk")}
+            pictures += write_figures(along, directory)
+            pictures += save_overlays(comparison.results, end, directory)
     click.echo(f"Case, results and {len(pictures)} pictures are in {directory}/:")
     for path in (case, output, followed, *pictures):
         like = LIKE.get(path.stem)
         click.echo(f"  {path.name:24}{like}" if like else f"  {path.name}")
     click.echo(f"To hand the result on: tribo report {output} (comes with tribo-report)")
-
-
-def _end(result: Result) -> dict[str, Any]:
-    return result.saves()[-1]
-
-
-def _table(average: Result, resolved: Result) -> DataTable:
-    """Set what is left at the end by the average against that of the resolved cycle."""
-    from tribo.core.data_table import DataTable, Heading, TableRow
-
-    ends = [_end(result) for result in (average, resolved)]
-    bodies = [end["bodies"] for end in ends]
-    row, turning = TableRow.scaled, list(map(_turning, (average, resolved)))
-    rows = (
-        row(
-            "groove, largest depth, µm", (b["disk"]["max_wear_depth_m"] for b in bodies), 1e6, ".2f"
-        ),
-        row("groove where sliding turns, µm", turning, 1e6, ".2f"),
-        row("ball, largest depth, µm", (b["ball"]["max_wear_depth_m"] for b in bodies), 1e6, ".2f"),
-        row("contact along, mm", (end["contact_half_width_x_m"] for end in ends), 2e3, ".2f"),
-        row("contact across, mm", (end["contact_half_width_y_m"] for end in ends), 2e3, ".2f"),
-        row("pressure at the centre, MPa", (e["centre_pressure_Pa"] for e in ends), 1e-6, ".0f"),
-        row("volume of the disk, mm³", (b["disk"]["wear_volume_m3"] for b in bodies), 1e9, ".3g"),
-    )
-    headings = list(map(Heading, ("", "average", "resolved")))
-    return DataTable(f"After {ends[1]['distance_m']:.4g} m", headings, rows)
-
-
-def _turning(result: Result) -> float:
-    """Return the depth of the groove where the contact turns round, in m."""
-    import numpy as np
-
-    from tribo.lab.running_in import worn_surfaces
-
-    track = worn_surfaces(result, "disk")[-1]
-    if "track_x_m" not in track:
-        return float(_end(result)["bodies"]["disk"]["max_wear_depth_m"])
-    half = 0.5 * result.case["kinematics"]["stroke"]
-    return float(np.interp(half, track["track_x_m"], track["track_depth_m"]))
-
-
-def _pictures(average: Result, resolved: Result, directory: Path) -> list[Path]:
-    """Draw the groove along the track, and sections of both results over each other."""
-    from functools import partial
-
-    from tribo.plotting.figures import write_figures
-    from tribo.plotting.overlays import save_overlays
-    from tribo.plotting.profiles import along_track
-
-    results, end = {"average": average, "resolved": resolved}, float(average.times[-1])
-    track = write_figures({"disk_along_track": partial(along_track, resolved, "disk")}, directory)
-    return track + save_overlays(results, [end], directory)

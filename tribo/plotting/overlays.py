@@ -16,7 +16,7 @@ from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.plotting.difference import difference_map
 from tribo.plotting.figures import write_figures
-from tribo.plotting.sections import draw_profiles, removed, scar_mask, through_centre
+from tribo.plotting.sections import removed, scar_mask, through_centre
 from tribo.plotting.style import WIDE, house_style, legend_below, new_figure, overlay_looks
 from tribo.plotting.units import fitting, height_unit
 from tribo.result.read import Result
@@ -27,47 +27,23 @@ Fields = Sequence[tuple[Grid, Array, Mask]]
 """What is drawn of each result: its grid, a field, and which cells are to be seen."""
 
 
-def pressure_overlay(results: Results, time: float) -> Figure:
-    """Draw the pressure of several results along and across the sliding direction.
+def comparison_picture(results: Results, time: float, parts: Sequence[str] | None = None) -> Figure:
+    """Draw several results as one figure: sections through the windows' centres, along and across.
 
-    The sections go through the windows' centres.
+    `parts` are the rows: the name of a body for its surface, ``""`` for the pressure; if left out,
+    the pressure and all worn bodies.
     """
-    return _rows(results, time, [""])
-
-
-def profile_overlay(results: Results, name: str, time: float) -> Figure:
-    """Draw a body's worn surface in several results, along and across the sliding direction.
-
-    A swept body has one section only, across.
-    """
-    saves = [(result, result.save_at(time)) for result in results.values()]
-    swept = all(result.body(name).swept for result, _ in saves)
-    fields = _surfaces(saves, name)
-    return draw_profiles(
-        through_centre(fields, (1,) if swept else (0, 1)),
-        overlay_looks(len(results)),
-        list(results),
-        f"{name}, t = {time:g} s",
-    )
-
-
-def comparison_picture(results: Results, time: float) -> Figure:
-    """Draw several results as one figure: pressure and each worn body, along and across."""
-    return _rows(results, time, ["", *_worn_in_all(results, time)])
-
-
-def _rows(results: Results, time: float, names: Sequence[str]) -> Figure:
-    """Draw a row of sections for each body, or the pressure where the name is empty."""
     looks, labels = overlay_looks(len(results)), list(results)
     saves = [(result, result.save_at(time)) for result in results.values()]
+    names = ["", *_worn_in_all(results, time)] if parts is None else list(parts)
     with house_style():
         figure = new_figure(16.0 + 40.0 * len(names), WIDE)
         rows = figure.subplots(len(names), 2, sharey="row", squeeze=False)
         for row, name in zip(rows, names, strict=True):
             fields = _surfaces(saves, name) if name else _pressures(saves)
             sections = through_centre(fields)
-            parts = [line for section in sections for line in section.in_sight()]
-            low, high = float(min(map(np.min, parts))), float(max(map(np.max, parts)))
+            shown = [line for section in sections for line in section.in_sight()]
+            low, high = float(min(map(np.min, shown))), float(max(map(np.max, shown)))
             # A flat has a range too, so that its height reads as a round number.
             margin = 0.05 * max(high - low, abs(high), 1e-8)
             up = (low - margin if name else 0.0, high + margin)
@@ -111,9 +87,8 @@ def save_overlays(
     Returns
     -------
     list of Path
-        For each time T: ``comparison_Ts``, ``pressure_Ts``, ``NAME_Ts`` of each worn body NAME, and
-        ``difference_N_Ts`` of the Nth result where it is on the first one's grid
-        and differs from it.
+        For each time T: ``comparison_Ts``, and ``difference_N_Ts`` of the Nth result where it is
+        on the first one's grid and differs from it.
 
     Raises
     ------
@@ -122,29 +97,18 @@ def save_overlays(
     OutputError
         If they cannot be written.
     """
+    first = next(iter(results.values()))
     pictures: dict[str, Callable[[], Figure]] = {}
     for time in times:
-        pictures |= _pictures(results, time)
+        pictures[f"comparison_{time:g}s"] = partial(comparison_picture, results, time)
+        pressure = first.field("pressure", first.save_at(time))
+        for number, (label, result) in enumerate(results.items(), start=1):
+            if (result.grid.size, result.grid.cells) != (first.grid.size, first.grid.cells):
+                continue
+            if np.any(result.field("pressure", result.save_at(time)) != pressure):
+                drawn = partial(difference_map, results, label, time)
+                pictures[f"difference_{number}_{time:g}s"] = drawn
     return write_figures(pictures, folder, suffix)
-
-
-def _pictures(results: Results, time: float) -> dict[str, Callable[[], Figure]]:
-    first = next(iter(results.values()))
-    pictures: dict[str, Callable[[], Figure]] = {
-        f"comparison_{time:g}s": partial(comparison_picture, results, time),
-        f"pressure_{time:g}s": partial(pressure_overlay, results, time),
-    }
-    for name in _worn_in_all(results, time):
-        pictures[f"{name}_{time:g}s"] = partial(profile_overlay, results, name, time)
-    pressure = first.field("pressure", first.save_at(time))
-    for number, (label, result) in enumerate(results.items(), start=1):
-        if (result.grid.size, result.grid.cells) != (first.grid.size, first.grid.cells):
-            continue
-        if np.any(result.field("pressure", result.save_at(time)) != pressure):
-            pictures[f"difference_{number}_{time:g}s"] = partial(
-                difference_map, results, label, time
-            )
-    return pictures
 
 
 def _worn_in_all(results: Results, time: float) -> list[str]:

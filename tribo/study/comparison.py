@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Self
@@ -40,16 +40,16 @@ class Comparison:
     ----------
     results : Mapping
         The open results by their labels; bodies go by their names in the first.
-    settings : Mapping
-        The settings of each, by label: values by path; empty if not known.
-    own_names : Mapping
+    settings : Mapping, optional
+        The settings of each, by label: values by path.
+    own_names : Mapping, optional
         What the bodies of each result are called in its file, by label: names
-        by those that they go by.
+        by those that they go by. The same if left out.
     """
 
     results: Mapping[str, Result]
-    settings: Mapping[str, Mapping[str, Any]]
-    own_names: Mapping[str, Mapping[str, str]]
+    settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    own_names: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if not self.times:
@@ -110,7 +110,7 @@ class Comparison:
         found = [findings.other_grid(apart, self.reference)] if apart else []
         of_runs: dict[str, tuple[Finding, list[str]]] = {}
         for label, result in self.results.items():
-            names = self.own_names[label].items()
+            names = self.own_names.get(label, {}).items()
             if paired := [(own, name) for name, own in names if own != name]:
                 found.append(findings.paired(label, paired))
             if result.save_at(last) != len(result.times) - 1:
@@ -167,7 +167,7 @@ class Comparison:
                     "file": result.name,
                     "settings": dict(self.settings.get(label, {})),
                     "status": result.status,
-                    "bodies": dict(self.own_names[label]),
+                    "bodies": dict(self.own_names.get(label, {})),
                     "uncertainty": self.cell_error(label),
                     "totals": dict(result.totals()),
                 }
