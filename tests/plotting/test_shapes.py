@@ -64,21 +64,6 @@ def test_the_scales_of_a_map_are_equal_or_the_axis_says_how_unequal(case):
             assert "enlarged" not in label
 
 
-def test_an_even_pressure_is_stated():
-    result = made(**SHAPES["flat pin"])
-    (axes,) = pressure_map(result).axes
-    mean = 100.0 / (2e-3 * 1.6e-3) * 1e-6
-    assert f"{mean:.3g} MPa, even within 1 %" in axes.get_title(loc="left")
-    assert not axes.texts
-
-
-def test_labels_on_a_map_stand_apart(case):
-    (axes,) = pressure_map(case, 1).axes
-    axes.figure.draw_without_rendering()
-    boxes = [text.get_window_extent() for text in axes.texts]
-    assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
-
-
 @pytest.mark.parametrize("worn", [(True, True), (True, False), (False, True)])
 def test_the_unworn_profile_of_each_worn_body_is_drawn_in_sight(worn):
     figure = worn_section(made(worn=worn))
