@@ -153,8 +153,7 @@ def test_the_swept_body_lies_below_and_depths_of_scars_are_stated():
 
 def test_volume_and_mass_are_the_histories(result):
     figure = wear_history(result)
-    (axes,) = figure.axes
-    (right,) = axes.child_axes
+    axes = figure.axes[0]
     history = result.table("history")
     shown = curves(axes)
     assert set(shown) == {"ball", "disk"} == names(figure.legends[0])
@@ -162,10 +161,6 @@ def test_volume_and_mass_are_the_histories(result):
     line = axes.lines[0]
     np.testing.assert_allclose(line.get_xdata()[line.get_markevery()], TIMES)
     np.testing.assert_allclose(shown["ball"][1], 1e9 * history["bodies.ball.wear_volume_m3"])
-    figure.draw_without_rendering()
-    # 7.85 mg to the mm³ of steel.
-    assert right.get_ylim()[1] == pytest.approx(7.85 * axes.get_ylim()[1])
-    assert right.get_ylabel().endswith("(mg)")
 
 
 def test_two_moments_are_not_joined():
@@ -178,14 +173,14 @@ def test_two_moments_are_not_joined():
 @pytest.mark.parametrize(
     ("densities", "masses"),
     [
+        ((7850.0, 7850.0), {"ball": 7.85, "disk": 7.85}),
         ((7850.0, 3200.0), {"ball": 7.85, "disk": 3.2}),
         ((7850.0, None), {"ball": 7.85}),
         ((None, None), {}),
     ],
 )
-def test_mass_has_its_own_panel_unless_all_densities_are_equal(densities, masses):
+def test_mass_has_a_panel_of_its_own(densities, masses):
     volume, *mass = wear_history(made(densities=densities)).axes
-    assert not volume.child_axes
     assert len(mass) == bool(masses)
     for axes in mass:
         assert axes.get_ylabel() == "Mass worn (mg)"
@@ -200,20 +195,9 @@ def test_contact_history_is_the_history(result):
     pressures, widths = curves(upper), curves(lower)
     np.testing.assert_allclose(pressures["largest"][1], 1e-6 * history["max_pressure_Pa"])
     np.testing.assert_allclose(pressures["centre"][1], 1e-6 * history["centre_pressure_Pa"])
-    for axis, label in enumerate(("along sliding", "across sliding")):
-        width = 1e6 * history[f"contact_half_width_{'xy'[axis]}_m"]
-        shown = np.interp(history["time_s"], *widths[label])
-        assert np.max(np.abs(shown - width)) <= 1e6 * GRID.spacing[axis] * (1 + 1e-9)
-        assert shown[[0, -1]] == pytest.approx(width[[0, -1]])
+    for axis, label in zip("xy", ("along sliding", "across sliding"), strict=True):
+        np.testing.assert_allclose(
+            widths[label], (history["time_s"], 1e6 * history[f"contact_half_width_{axis}_m"])
+        )
     assert lower.get_title(loc="right") == "± 1 cell, 40 µm"
     assert all(axes.get_legend() for axes in (upper, lower))
-
-
-def test_half_widths_that_grow_by_cells_are_drawn_without_stairs():
-    result = made(tuple(1.2 ** np.arange(32.0)))
-    _, lower = contact_history(result).axes
-    x, y = curves(lower)["along sliding"]
-    assert np.mean(np.diff(result.table("history")["contact_half_width_x_m"]) == 0) > 0.7
-    # But for the two ends, no piece is level.
-    assert np.all(np.diff(y)[1:-1] > 0)
-    assert np.all(np.diff(x) > 0)

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 
-from tribo.core.arrays import Array, Mask
+from tribo.core.arrays import Array
 from tribo.plotting.kept import kept_fields, steady
 from tribo.plotting.style import OVER, UNDER, Look, house_style, legend_below, new_figure, ticks
 from tribo.plotting.units import height_unit, shown_in, size, time_unit
@@ -34,8 +34,7 @@ def wear_history(result: Result) -> Figure:
     """Draw the volume and the mass that each body has lost against time.
 
     Markers are the saves; a line joins them where there are steps between, or
-    more than two. Mass is on the right where all densities are equal,
-    else in a panel of its own; it is left out without densities.
+    more than two. Mass has a panel of its own; it is left out without densities.
     """
     history, unit = result.table("history"), time_unit(result.times)
     time = history["time_s"]
@@ -44,9 +43,8 @@ def wear_history(result: Result) -> Figure:
     worn = [name for name in looks if np.any(volumes[name] > 0)] or list(looks)
     densities = {name: result.body(name).density for name in worn}
     masses = {name: volumes[name] * d for name, d in densities.items() if d is not None}
-    common = next(iter(densities.values())) if len(set(densities.values())) == 1 else None
     drawn = [("Volume worn", "mm³", {name: volumes[name] for name in worn})]
-    if masses and common is None:
+    if masses:
         drawn.append(("Mass worn", "mg", masses))
     marked: dict[str, object] = {
         "markevery": list(np.flatnonzero(np.isin(time, result.times))),
@@ -66,41 +64,25 @@ def wear_history(result: Result) -> Figure:
                 curves += axes.plot(time / size(unit), value / size(lost), **look)
             axes.set_ylabel(f"{what} ({lost})")
             _from_zero(axes)
-            # Volumes may need a power of ten; everything else has a fitting unit.
+            # These may need a power of ten; everything else has a fitting unit.
             axes.ticklabel_format(axis="y", useMathText=True)
-        if common is not None:
-            per_volume = common * size("mm³") / size("mg")
-            right = panels[0].secondary_yaxis(
-                "right", functions=(lambda v: v * per_volume, lambda m: m / per_volume)
-            )
-            right.ticklabel_format(axis="y", useMathText=True)
-            right.set_ylabel("Mass worn (mg)")
-            right.yaxis.set_major_locator(ticks(6))
         panels[-1].set_xlabel(f"Time ({unit})")
         legend_below(figure, curves[: len(worn)])
     return figure
 
 
 def contact_history(result: Result) -> Figure:
-    """Draw the largest and central pressure and both half-widths against time.
-
-    A half-width is known to a cell, so that it grows in steps; the line goes
-    from step to step.
-    """
+    """Draw the largest and central pressure and both half-widths, to a cell, against time."""
     history, spacing = with_rests(result), result.grid.spacing
-    time, resting = history["time_s"], np.diff(history["distance_m"]) == 0
+    time = history["time_s"]
     pressures = {
         label: (time, history[f"{name}_pressure_Pa"])
         for label, name in (("largest", "max"), ("centre", "centre"))
     }
-    widths = {}
-    for axis, cell, label in zip("xy", spacing, ("along", "across"), strict=True):
-        width = history[f"contact_half_width_{axis}_m"]
-        kept = _steps(width, cell)
-        # In a rest, a long step, nothing changes.
-        kept[1:] |= resting
-        kept[:-1] |= resting
-        widths[f"{label} sliding"] = time[kept], width[kept]
+    widths = {
+        f"{label} sliding": (time, history[f"contact_half_width_{axis}_m"])
+        for axis, label in zip("xy", ("along", "across"), strict=True)
+    }
     with house_style():
         figure = new_figure(88.0)
         upper, lower = figure.subplots(2, 1, sharex=True)
@@ -221,18 +203,6 @@ def _draw(
     if len(curves) > 1 or next(iter(curves)):
         axes.legend(loc="best")
     (scale or _fit_scale)(axes, every)
-
-
-def _steps(width: Array, cell: float) -> Mask:
-    """Return the moments between which a line is nowhere more than a cell from a width.
-
-    They are those at which it changes, the ends, and those before a change by
-    more than a cell.
-    """
-    change = np.abs(np.diff(width))
-    kept = np.ones(width.shape, dtype=bool)
-    kept[1:-1] = (change[:-1] > 0) | (change[1:] > 1.5 * cell)
-    return kept
 
 
 def _from_zero(axes: Axes, _: Array | None = None) -> None:
