@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,18 +14,10 @@ import click
 from tribo.cli.options import JSON, PATH, SET, echo_json
 
 if TYPE_CHECKING:
-    from rich.table import Table
-
+    from tribo.core.data_table import DataTable
     from tribo.verification.convergence import Convergence
     from tribo.verification.reference import Row
     from tribo.verification.refinement import Refinement
-
-NOTHING = "–"
-VERDICTS = {
-    "holds": "[green]holds[/]",
-    "fails": "[red]fails[/]",
-    "not installed": "[dim]absent[/]",
-}
 
 
 @click.command()
@@ -57,6 +50,7 @@ def verify(case: Path | None, overrides: tuple[str, ...], only: str | None, as_j
 
 
 def _verify_installation(only: str | None, as_json: bool) -> None:
+    from tribo.cli.console import Console
     from tribo.core.errors import CaseError, NumericalError
     from tribo.result.provenance import environment
     from tribo.verification.suite import references
@@ -77,7 +71,8 @@ def _verify_installation(only: str | None, as_json: bool) -> None:
         found = {**environment(), "holds": not failed, "rows": [asdict(row) for row in rows]}
         echo_json(found)
     else:
-        _print_suite(rows)
+        for table in _suite_tables(rows):
+            Console().table(table)
         held = sum(row.verdict == "holds" for row in rows)
         absent = len(rows) - held - len(failed)
         click.echo(f"{held} hold, {len(failed)} fail, {absent} need a code that is not installed.")
@@ -88,6 +83,7 @@ def _verify_installation(only: str | None, as_json: bool) -> None:
 
 
 def _verify_case(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
+    from tribo.cli.console import Console
     from tribo.config.load import load_case
     from tribo.simulation.run import Simulation
     from tribo.verification.refinement import refine
@@ -97,8 +93,8 @@ def _verify_case(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
         study = refine(model, tell)
     if as_json:
         echo_json(asdict(study))
-        return
-    _print_study(study)
+    else:
+        Console().table(_study_table(study))
 
 
 @contextmanager
@@ -111,76 +107,57 @@ def _progress(total: int) -> Iterator[Callable[[str], None]]:
         yield lambda what: progress.update(task, advance=1, description=what)
 
 
-def _print_suite(rows: Sequence[Row]) -> None:
-    from itertools import groupby
+def _suite_tables(rows: Sequence[Row]) -> Iterator[DataTable]:
+    """Yield a table for each case, with a row for each quantity."""
+    from tribo.core.data_table import DataTable, Heading, TableRow
 
-    from tribo.cli.console import Console
-
-    console = Console(highlight=False)
-    console.print(_suite_table([], header=True))
+    headings = (
+        *(Heading("quantity"), Heading("expected", form=".5g"), Heading("got", form=".5g")),
+        *(Heading("error", form=".1e"), Heading("order"), Heading("verdict")),
+    )
     for (case, source), group in groupby(rows, lambda row: (row.case, row.source)):
-        console.print(f"[bold]{case}[/]  [dim]{source}[/]")
-        console.print(_suite_table(list(group), header=False))
+        lines, notes = [], []
+        for row in group:
+            order = None if row.order is None else f"{row.order:.2f} ({row.theory:g})"
+            verdict = row.verdict.replace("not installed", "absent")
+            name = _named(row.quantity, row.unit)
+            lines.append(TableRow((name, row.expected, row.got, row.error, order, verdict)))
+            if row.verdict == "fails" and row.note:
+                notes.append(f"{row.quantity}: {row.note}")
+        yield DataTable(f"{case}, {source}", headings, lines, notes, dense=True)
 
 
-def _suite_table(rows: Sequence[Row], *, header: bool) -> Table:
-    table = _table(header=header, quantity=0, expected=10, got=10, error=7, order=11, verdict=7)
-    for row in rows:
-        table.add_row(
-            f"  {_named(row.quantity, row.unit)}",
-            _number(row.expected, ".5g"),
-            _number(row.got, ".5g"),
-            _number(row.error, ".1e"),
-            NOTHING if row.order is None else f"{row.order:.2f} ({row.theory:g})",
-            VERDICTS[row.verdict],
-        )
-        if row.verdict == "fails" and row.note:
-            table.add_row(f"    [dim]{row.note}[/]")
-    return table
+def _study_table(study: Refinement) -> DataTable:
+    """Return a row for each estimate, with the uncertainty to quote and where it is from."""
+    from tribo.core.data_table import DataTable, Heading, TableRow
 
-
-def _print_study(study: Refinement) -> None:
-    from tribo.cli.console import Console
-
-    widths = {"value": 10, "±": 7, "%": 6, "grid": 10, "GCI %": 6, "steps": 10}
-    table = _table(header=True, quantity=0, **widths)
-    for estimate in study.estimates:
-        quoted = estimate.uncertainty
-        table.add_row(
-            _named(estimate.name, estimate.unit),
-            f"{estimate.value:.5g}",
-            _number(quoted, ".1e"),
-            _percent(quoted, estimate.value),
-            _order(estimate.grid),
-            _percent(estimate.grid.gci),
-            _order(estimate.steps),
-        )
-    console = Console(highlight=False)
-    console.print(table)
+    headings = (
+        *(Heading("quantity"), Heading("value", form=".5g"), Heading("±", form=".1e")),
+        *(
+            Heading("%", form=".2f"),
+            Heading("grid"),
+            Heading("GCI %", form=".2f"),
+            Heading("steps"),
+        ),
+    )
+    rows = []
+    for each in study.estimates:
+        quoted, gci = each.uncertainty, each.grid.gci
+        percent = None if quoted is None or not each.value else 100 * quoted / abs(each.value)
+        orders = _order(each.grid), None if gci is None else 100 * gci, _order(each.steps)
+        rows.append(TableRow((_named(each.name, each.unit), each.value, quoted, percent, *orders)))
     cells = ", ".join(str(level.cells[0]) for level in study.grids)
     steps = ", ".join(str(level.steps) for level in study.steps)
-    console.print(
+    notes = [
         f"Grids of {cells} cells along x, and {steps} steps; under each, the observed order. "
         "±: the uncertainty to quote, of grid and steps together. GCI: grid convergence index of "
         "the finest grid (Celik et al. 2008)."
-    )
+    ]
     if any(estimate.uncertainty is None for estimate in study.estimates):
-        console.print(
+        notes.append(
             "Where values diverge no uncertainty can be quoted: use more cells, or shorter steps."
         )
-
-
-def _table(*, header: bool, **widths: int) -> Table:
-    """Return a table of which the first column takes what the others leave."""
-    from rich.table import Table
-
-    table = Table(box=None, expand=True, show_header=header, padding=(0, 0, 0, 1))
-    for name, width in widths.items():
-        if width:
-            table.add_column(name, justify="right", width=width)
-        else:
-            table.add_column(name, ratio=1, overflow="fold")
-    return table
+    return DataTable("", headings, rows, notes, dense=True)
 
 
 def _order(found: Convergence) -> str:
@@ -188,14 +165,6 @@ def _order(found: Convergence) -> str:
         return found.behaviour
     order = f"{found.order:.2f}"
     return order if found.behaviour == "converges" else f"{order}, {found.behaviour}"
-
-
-def _percent(part: float | None, of: float = 1.0) -> str:
-    return NOTHING if part is None or not of else f"{100 * part / abs(of):.2f}"
-
-
-def _number(value: float | None, form: str) -> str:
-    return NOTHING if value is None else format(value, form)
 
 
 def _named(name: str, unit: str) -> str:
