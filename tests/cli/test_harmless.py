@@ -30,10 +30,10 @@ def command(*arguments):
 @pytest.mark.parametrize(
     ("changes", "shown"),
     [
-        ({"notices": [EVIL]}, r"Note: \x1b]0;pwned"),
+        ({"findings": [{"kind": EVIL, "words": ""}]}, r"Note: \x1b]0;pwned"),
         ({"provenance": provenance({}) | MADE_WITH}, r"Made with Python \x1b]0;pwned"),
     ],
-    ids=["notices", "provenance"],
+    ids=["findings", "provenance"],
 )
 def test_a_result_is_shown_without_them(tmp_path, changes, shown):
     result = written(tmp_path / "x.h5")

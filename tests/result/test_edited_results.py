@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from edited import edited
 from made_results import written
 
-from tribo import CaseError, Result
+from tribo import CaseError
 from tribo.cli.main import tribo as command_line
 
 # Five saves, nine steps, 50 × 40 cells, two bodies.
@@ -125,7 +125,6 @@ EDITS = {
     "a window of one length": attribute("window_m", [1e-3]),
     "a curvature of inf": attribute("curvature_1_m", [np.inf, 1.0]),
     "a time spent that is text": attribute("wall_time_s", "long"),
-    "notices that are numbers": text("notices", [1]),
     "findings that are numbers": text("findings", [1]),
     "a finding without words": text("findings", [{"kind": "lap"}]),
     "layers that are numbers": text("case", {"bodies": {"ball": {"layers": [1]}, "disk": {}}}),
@@ -145,7 +144,11 @@ EDITS = {
     "bodies in a list": text("case", {"bodies": [1, 2]}),
     "a case without bodies": text("case", {}),
     "provenance that is a list": text("provenance", []),
-    "no notices": lambda file: file.attrs.pop("notices"),
+    "no findings": lambda file: file.attrs.pop("findings"),
+    "a layer of no body": text("findings", [{"kind": "layer", "words": "", "place": "ball"}]),
+    "a layer that wore through at no time": text(
+        "findings", [{"kind": "layer", "words": "", "place": "bodies.ball.layers.0"}]
+    ),
     "no status": lambda file: file.attrs.pop("status"),
     "no cells": dataset("x", np.zeros(0)),
     "other bodies": dataset("body", [b"ball", b"block"]),
@@ -186,14 +189,3 @@ def test_a_case_that_was_only_added_to_and_an_effect_that_failed_are_shown(folde
     assert shown.exception is None
     save = json.loads(shown.stdout)["saves"][0]
     assert save["bodies"]["ball"]["effects"] == {"film": {"min": None, "max": None}}
-
-
-def test_a_file_without_findings_as_older_ones_has_them_from_its_sentences(folder):
-    sentence = "averaging: at 3 s (0.3 m) the groove is too deep: make it longer"
-    with edited(folder / "x.h5") as file:
-        file.attrs.pop("findings")
-        text("notices", [sentence])(file)
-    with Result.open(folder / "x.h5") as result:
-        (found,) = result.findings
-        assert found.kind == "averaging"
-        assert result.notices == (sentence,)

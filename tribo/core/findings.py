@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 from tribo.core.words import readable
 
@@ -338,15 +339,19 @@ def damaged(damage: str) -> Finding:
     return Finding("checkpoint", f"{damage}; this is what the checkpoint before it holds")
 
 
-def worn_through(findings: Iterable[Finding]) -> list[dict[str, str | int | float | None]]:
+def worn_through(findings: Iterable[Finding]) -> list[dict[str, str | int | float]]:
     """Return which layers of which bodies were worn through, and when, as plain data."""
-    places = [(each, each.place.split(".")) for each in findings if each.kind == "layer"]
-    return [
-        {
-            "body": place[1],
-            "layer": int(place[3]) + 1,
-            "distance_m": each.distance,
-            "time_s": each.time,
-        }
-        for each, place in places
-    ]
+    passed: list[dict[str, str | int | float]] = []
+    for each in findings:
+        if each.kind == "layer":
+            _, body, _, layer = each.place.split(".")
+            assert each.distance is not None
+            assert each.time is not None
+            when = {"distance_m": each.distance, "time_s": each.time}
+            passed.append({"body": body, "layer": int(layer) + 1, **when})
+    return passed
+
+
+def as_json(findings: Iterable[Finding]) -> str:
+    """Return findings as a file has them."""
+    return json.dumps([asdict(each) for each in findings])

@@ -15,12 +15,12 @@ from typing import Any
 from pydantic import PrivateAttr
 
 from tribo.core.errors import CaseError, OutputError, TriboWarning
+from tribo.core.findings import as_json
 from tribo.core.measures import Measures
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.observers.observer import Observer
 from tribo.result.checkpoint import Checkpoint, RunFolder, fingerprint
 from tribo.result.hdf5 import empty_image, filled_image
-from tribo.result.header import findings_attributes
 from tribo.result.layout import EFFECT, Rows, Variable, part_of, save_row, step_row, variables
 from tribo.result.read import Result
 from tribo.result.sealed import write_sealed
@@ -145,7 +145,7 @@ class Recorder(Observer):
                     self._rows,
                     status=reason,
                     wall_time_s=self._spent(),
-                    **findings_attributes(found),
+                    findings=as_json(found),
                 )
                 if folder is not None:
                     self._write(self._image)

@@ -85,9 +85,12 @@ def renamed_image(image: BytesIO, names: Mapping[str, str]) -> BytesIO:
         case["bodies"] = {names[name]: body for name, body in case["bodies"].items()}
         file.attrs["case"] = json.dumps(case)
         file["body"][...] = list(case["bodies"])
-        passed = json.loads(file.attrs["worn_through"])
-        renamed = [{**each, "body": names[each["body"]]} for each in passed]
-        file.attrs["worn_through"] = json.dumps(renamed)
+        findings = json.loads(file.attrs["findings"])
+        for each in findings:
+            kind, *keys = each["place"].split(".")
+            if kind == "bodies":
+                each["place"] = ".".join([kind, *(names.get(key, key) for key in keys)])
+        file.attrs["findings"] = json.dumps(findings)
         for dataset in file.values():
             if "bodies" in dataset.attrs:
                 dataset.attrs["bodies"] = [names[name] for name in dataset.attrs["bodies"]]

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
-from dataclasses import asdict
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -14,7 +13,7 @@ from tribo.core.findings import Finding, worn_through
 from tribo.core.units import Quantity
 from tribo.core.words import checked_name
 
-_JSON = ("case", "provenance", "notices", "worn_through")
+_JSON = ("case", "provenance", "findings")
 _Positive = Annotated[float, Quantity("1", above=0)]
 _AtLeast0 = Annotated[float, Quantity("1", at_least=0)]
 _Name = Annotated[str, AfterValidator(checked_name)]
@@ -70,13 +69,6 @@ class _Provenance(_Made):
     resumed_with: list[_Made] = []
 
 
-class _WornThrough(BaseModel):
-    body: str
-    layer: int
-    distance_m: _AtLeast0
-    time_s: _AtLeast0
-
-
 class _Header(BaseModel):
     status: Literal["done", "running", "killed", "interrupted", "failed"]
     load: _Positive = Field(alias="load_N")
@@ -87,20 +79,7 @@ class _Header(BaseModel):
     wall_time: _AtLeast0 | None = Field(None, alias="wall_time_s")
     case: _Case
     provenance: _Provenance
-    findings: list[Finding] = []
-    notices: list[str]
-    worn_through: list[_WornThrough]
-
-
-def findings_attributes(findings: Iterable[Finding]) -> dict[str, str]:
-    """Return what a file has of the findings of a run: as data, as sentences, and layers alone."""
-    found = list(findings)
-    plain: dict[str, Any] = {
-        "findings": [asdict(each) for each in found],
-        "notices": [str(each) for each in found],
-        "worn_through": worn_through(found),
-    }
-    return {name: json.dumps(values) for name, values in plain.items()}
+    findings: list[Finding]
 
 
 def read_header(attributes: Mapping[str, Any]) -> dict[str, Any]:
@@ -110,15 +89,11 @@ def read_header(attributes: Mapping[str, Any]) -> dict[str, Any]:
         for name, value in attributes.items()
     }
     plain |= {name: json.loads(plain[name]) for name in _JSON}
-    if "findings" in plain:
-        plain["findings"] = json.loads(plain["findings"])
     try:
         read = _Header.model_validate(plain)
     except ValidationError as error:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"]))
         raise ValueError(f"{place!r} is {first['input']!r:.80}: {first['msg']}") from None
-    # Older files have the sentences alone.
-    older = (notice.partition(": ") for notice in read.notices)
-    found = read.findings or [Finding(kind, words) for kind, _, words in older]
-    return plain | {"findings": tuple(found)}
+    found = tuple(read.findings)
+    return plain | {"findings": found, "worn_through": worn_through(found)}

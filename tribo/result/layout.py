@@ -12,10 +12,10 @@ import numpy as np
 
 from tribo.core.arrays import Array, middle_rows
 from tribo.core.fields import Field
+from tribo.core.findings import as_json
 from tribo.core.measures import Measures
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
-from tribo.result.header import findings_attributes
 
 FORMAT = 2
 STATE, EFFECT, TRACK_STATE, BETWEEN = "state", "effect", "track_state", "between"
@@ -70,7 +70,7 @@ def attributes(run: RunInfo) -> dict[str, Any]:
         "curvature_1_m": None if system.curvature is None else list(system.curvature),
         "case": json.dumps(run.case),
         "provenance": json.dumps(run.provenance),
-        **findings_attributes(()),
+        "findings": as_json(()),
     }
     return {name: value for name, value in values.items() if value is not None}
 

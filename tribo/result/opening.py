@@ -10,12 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from tribo.core.errors import CaseError
-from tribo.core.findings import damaged
+from tribo.core.findings import as_json, damaged
 from tribo.core.hdf5 import open_hdf5
 from tribo.result.checkpoint import RunFolder
 from tribo.result.checks import check_contained, interpreting
 from tribo.result.hdf5 import filled_image
-from tribo.result.header import findings_attributes
 from tribo.result.layout import FORMAT
 from tribo.result.sealed import open_sealed
 
@@ -85,5 +84,5 @@ def _saved_so_far(path: Path, folder: RunFolder) -> BytesIO:
         kept.saves,
         kept.rows,
         status=status,
-        **findings_attributes(state.findings),
+        findings=as_json(state.findings),
     )
