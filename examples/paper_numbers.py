@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tribo.closed_forms.ball_on_track import BallOnTrack, ball_on_track
-from tribo.lab import conversion
 from tribo.lab.ball import ball_cap_depth, cap_diameter
 
 LOAD = 100.0  # N
@@ -162,16 +161,14 @@ def motion() -> Motion:
 def wear_coefficients() -> WearCoefficients:
     """Work out k from the weighed losses."""
     distance = motion().distance
-    ball = conversion.volume_from_mass(BALL_LOSS, DENSITY)
-    disk = conversion.volume_from_mass(DISK_LOSS, DENSITY)
+    ball = BALL_LOSS / DENSITY
+    disk = DISK_LOSS / DENSITY
     return WearCoefficients(
         volume=ball + disk,
-        from_distance=conversion.specific_wear_rate(ball + disk, LOAD, distance),
-        from_multiplied_distance=conversion.specific_wear_rate(
-            ball + disk, LOAD, FACTOR * distance
-        ),
-        ball=conversion.specific_wear_rate(ball, LOAD, distance),
-        disk=conversion.specific_wear_rate(disk, LOAD, distance),
+        from_distance=(ball + disk) / (LOAD * distance),
+        from_multiplied_distance=(ball + disk) / (LOAD * FACTOR * distance),
+        ball=ball / (LOAD * distance),
+        disk=disk / (LOAD * distance),
     )
 
 
@@ -217,7 +214,7 @@ def readings() -> tuple[Reading, Reading]:
 
 def flat_cap() -> Cap:
     """Take the ball's weighed loss for a flat cap."""
-    diameter = cap_diameter(conversion.volume_from_mass(BALL_LOSS, DENSITY), RADIUS)
+    diameter = cap_diameter(BALL_LOSS / DENSITY, RADIUS)
     return Cap(0.5 * diameter, ball_cap_depth(diameter, RADIUS))
 
 
@@ -349,7 +346,7 @@ def _prediction_text() -> str:
 
 
 def _k(value: float) -> str:
-    return f"{value:.3e} 1/Pa = {conversion.in_mm3_per_newton_metre(value):.3e} mm³/(N·m)"
+    return f"{value:.3e} 1/Pa = {1e9 * value:.3e} mm³/(N·m)"
 
 
 def _table(title: str, rows: list[tuple[str, str]]) -> str:

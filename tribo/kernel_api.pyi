@@ -76,8 +76,6 @@ from tribo.integration.kept import Kept as Kept
 from tribo.integration.kept import Sum as Sum
 from tribo.integration.kept import Values as Values
 from tribo.integration.step_to_break import Stretch as Stretch
-from tribo.lab.conversion import in_mm3_per_newton_metre as in_mm3_per_newton_metre
-from tribo.lab.conversion import mass_from_volume as mass_from_volume
 from tribo.lab.heights import BLUR as BLUR
 from tribo.lab.heights import interpolated as interpolated
 from tribo.lab.heights import nearest_filled as nearest_filled
@@ -98,7 +96,6 @@ from tribo.lab.scar import crown as crown
 from tribo.lab.scar import diameter as diameter
 from tribo.lab.tables import inferred_table as inferred_table
 from tribo.lab.track import circular_groove_area as circular_groove_area
-from tribo.lab.track import planimetric_volume as planimetric_volume
 from tribo.lab.track import reciprocating_track_volume as reciprocating_track_volume
 from tribo.model.events import Drawn as Drawn
 from tribo.model.events import Event as Event

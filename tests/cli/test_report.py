@@ -37,7 +37,7 @@ def test_no_number_is_cut_and_no_line_is_too_long(width, names):
     assert max(map(len, text.splitlines())) <= width
     # The last save: the time and both depths are never left out.
     cells = next(line for line in text.splitlines() if line.split()[:1] == ["3600"]).split()
-    assert cells[-2:] == ["27.95", "1.03"]
+    assert cells[-2:] == ["27.95", "1.026"]
 
 
 def test_a_narrow_terminal_is_told_what_it_misses():
@@ -118,9 +118,5 @@ def test_hertz_is_compared_in_percent_only_where_it_should_agree():
 
 def test_depths_of_some_nanometres_and_pressures_of_some_megapascals_keep_their_digits():
     text = printed(brief(grid=Grid(size=50e-6, cells=32), load=Load(normal=0.01)))
-    header, last = (
-        text.splitlines()[3],
-        next(line for line in text.splitlines() if line.split()[:1] == ["1"]),
-    )
-    assert header.split()[-2:] == ["nm", "nm"]
-    assert float(last.split()[-2]) > 1
+    last = next(line for line in text.splitlines() if line.split()[:1] == ["1"])
+    assert len(last.split()[-2].lstrip("0.")) == 4

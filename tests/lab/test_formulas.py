@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 
 from tribo.closed_forms.ball_on_track import ball_on_track
-from tribo.lab import ball, conversion, track
+from tribo.lab import ball, track
 
 R = 5e-3
 
@@ -35,10 +35,3 @@ def test_volume_of_a_scar_flat_along_the_track_in_the_rigid_limit(k_flat, low, w
 def test_a_section_is_the_mean_of_its_profiles_and_leaves_piled_up_material_out():
     profiles = [[-1e-6, 2e-6, 1e-6], [-9e-6, 3e-6, 0.0]]
     assert track.planimetric_area(profiles, 1e-5) == pytest.approx(3e-11, rel=1e-6, abs=0)
-
-
-def test_wear_rate_of_the_weighed_volume():
-    volume = conversion.volume_from_mass(2.2e-6, 7850.0)
-    assert conversion.mass_from_volume(volume, 7850.0) == pytest.approx(2.2e-6, rel=1e-12, abs=0)
-    k = conversion.specific_wear_rate(volume, 100.0, 9000.0)
-    assert conversion.in_mm3_per_newton_metre(k) == pytest.approx(3.1139e-7, rel=1e-4)

@@ -13,7 +13,6 @@ from tribo.lab.roughness import (
     profile_parameters,
     roughness,
     without_form,
-    without_waves,
 )
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.rough import Rough
@@ -59,30 +58,6 @@ def test_a_parabola_is_removed_exactly(masked):
     relief = without_form(height)
     np.testing.assert_array_equal(np.isnan(relief), np.isnan(height))
     assert np.nanmax(np.abs(relief)) == 0
-
-
-@pytest.mark.parametrize("axis", [0, 1])
-def test_the_gaussian_filter_passes_waves_as_iso_16610_says(axis):
-    grid = Grid(("4 mm", "1 mm") if axis == 0 else ("1 mm", "4 mm"), 200)
-    line = (grid.x, grid.y)[axis]
-    for length in (0.15e-3, 0.25e-3, 0.8e-3):
-        wave = np.expand_dims(A * np.cos(2 * np.pi * line / length), 1 - axis) + np.zeros(
-            grid.cells
-        )
-        filtered = without_waves(wave, grid.spacing, 0.25e-3)
-        kept = 1 - 2 ** -((0.25e-3 / length) ** 2)
-        # Away from the ends of the map, where the mean is one-sided.
-        inside = np.take(filtered - kept * wave, range(40, 160), axis)
-        assert np.max(np.abs(inside)) < 1e-3 * A
-
-
-def test_the_gaussian_filter_leaves_missing_cells_out():
-    height = random_waves()
-    height[40:60, 30:50] = np.nan
-    level = without_waves(np.where(np.isnan(height), np.nan, 3e-6), GRID.spacing, 0.1e-3)
-    np.testing.assert_array_equal(np.isnan(level), np.isnan(height))
-    assert np.nanmax(np.abs(level)) < 1e-18
-    assert np.nanstd(without_waves(height, GRID.spacing, 0.1e-3)) < np.nanstd(height)
 
 
 def test_one_line_is_levelled_too():

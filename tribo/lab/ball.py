@@ -33,14 +33,6 @@ def ball_cap_volume(diameter: float, radius: float) -> float:
     return math.pi * h * (0.75 * diameter**2 + h**2) / 6.0
 
 
-def shallow_cap_volume(diameter: float, radius: float) -> float:
-    """Volume of a flat scar's cap, small scars, V = πd⁴/64R (ASTM G99).
-
-    It is low by a part d²/12R²: 0.33 % at d = R/5, 1.35 % at d = 2R/5.
-    """
-    return math.pi * diameter**4 / (64.0 * radius)
-
-
 def cap_diameter(volume: float, radius: float) -> float:
     """Diameter of the flat scar that has lost this volume, exact.
 

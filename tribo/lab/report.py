@@ -12,7 +12,6 @@ from tribo.core.findings import Finding
 from tribo.core.measures import reaches_border
 from tribo.core.words import readable, signed
 from tribo.lab.against_hertz import computed_pressure, first_hertz, in_mpa, yield_words
-from tribo.lab.conversion import in_mm3_per_newton_metre, mass_from_volume, specific_wear_rate
 from tribo.lab.inferred import InferredVolume, inferred_volumes, track_section
 from tribo.lab.scar import scar
 from tribo.registry.hookspecs import LabRow
@@ -80,15 +79,6 @@ class LabReport:
     worn_through: tuple[Mapping[str, Any], ...] = ()
     findings: tuple[Finding, ...] = ()
 
-    def __str__(self) -> str:
-        """Return it in words, a line each."""
-        lines = [f"{name}: {_said(body)}" for name, body in self.bodies.items()]
-        for each in self.inferred:
-            volume = f"{1e9 * each.volume_m3:.3g} mm³ ({each.off} %)"
-            lines.append(f"{each.body}, {each.method}: {volume}")
-        lines += map(str, self.rows)
-        return "\n".join([*lines, self.first_contact_words])
-
     def as_json(self) -> dict[str, Any]:
         """Return the report as plain data."""
         return {
@@ -143,15 +133,6 @@ def run_sentences(result: Result) -> Iterator[str]:
     )
 
 
-def _said(body: BodyReport) -> str:
-    """Return the numbers of a body in a lab's units."""
-    return ", ".join(
-        f"{name} {readable(factor * value, form)} {unit}"
-        for name, unit, key, factor, form in MEASURES
-        if (value := getattr(body, key)) is not None
-    )
-
-
 def _body(result: Result, name: str) -> BodyReport:
     body, save = result.body(name), result.saves()[-1]
     volume, distance = save["bodies"][name]["wear_volume_m3"], save["distance_m"]
@@ -162,10 +143,10 @@ def _body(result: Result, name: str) -> BodyReport:
         if isnan(load):
             # Older files lack it; their load was constant.
             load = result.system.load
-        rate = in_mm3_per_newton_metre(specific_wear_rate(volume, load, distance))
+        rate = 1e9 * volume / (load * distance)
     return BodyReport(
         specific_wear_rate_mm3_per_Nm=rate,
-        mass_kg=None if body.density is None else mass_from_volume(volume, body.density),
+        mass_kg=None if body.density is None else volume * body.density,
         scar_along_m=None if body.swept else marks.along,
         scar_across_m=marks.across,
         track_section_m2=track_section(result, body),

@@ -6,21 +6,15 @@ not measured, or is masked. `without_form` comes first: the parameters take heig
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from tribo.core.arrays import Array
 
 ROUND_OFF = 1e-12
 """Part of the heights' range below which what a form leaves is 0."""
-GAUSSIAN = math.sqrt(math.log(2) / 2) / math.pi
-"""Standard deviation of the Gaussian weights of ISO 16610, in nesting indices."""
-FAR = 6.0
-"""Standard deviations beyond which its weights are left out."""
 FINE_FORM = 6
 """Order of the polynomial that leaves nothing of a ball or cylinder in a contact's window."""
 ROUGH = 1e-5
@@ -99,38 +93,6 @@ def without_form(height: Array, order: int = 2) -> Array:
     left[np.abs(left) <= ROUND_OFF * np.ptp(heights)] = 0.0
     relief[known] = left
     return relief
-
-
-def without_waves(height: Array, spacing: tuple[float, float], nesting_index: float) -> Array:
-    """Return heights less their Gaussian mean, the L-filter of ISO 16610-61.
-
-    Of a wave of length λ the part 1 − 2^(−(λc/λ)²) stays: half of it at the nesting index λc.
-
-    Parameters
-    ----------
-    height : ndarray, shape (nx, ny)
-        In m; NaN where missing, which the mean leaves out, as it does what lies beyond the map.
-    spacing : tuple of float
-        Edge lengths of a cell along x and y, in m.
-    nesting_index : float
-        λc, in m.
-
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        In m; NaN where `height` is.
-
-    References
-    ----------
-    ISO 16610-61:2015, Geometrical product specification, Filtration, Linear areal Gaussian filters.
-    """
-    known = np.isfinite(height)
-    widths = [GAUSSIAN * nesting_index / length for length in spacing]
-    heights, weights = (
-        scipy.ndimage.gaussian_filter(field, widths, mode="constant", truncate=FAR)
-        for field in (np.where(known, height, 0.0), known.astype(float))
-    )
-    return np.where(known, height - heights / np.where(known, weights, 1.0), np.nan)
 
 
 def areal_parameters(height: Array) -> tuple[float, float, float, float, float]:

@@ -15,8 +15,8 @@ COLUMNS = (
     (Heading("time", "s", "g", whole=True), "time_s", 1),
     (Heading("path", "m", ".4g", whole=True, spare=3), "distance_m", 1),
     (Heading("load", "N", ".4g", whole=True), "load_N", 1),
-    (Heading("p max", "MPa", ".0f", whole=True), "max_pressure_Pa", 1e-6),
-    (Heading("p centre", "MPa", ".0f", whole=True, spare=2), "centre_pressure_Pa", 1e-6),
+    (Heading("p max", "MPa", ".4g", whole=True), "max_pressure_Pa", 1e-6),
+    (Heading("p centre", "MPa", ".4g", whole=True, spare=2), "centre_pressure_Pa", 1e-6),
     (Heading("along", "µm", ".0f", whole=True, spare=4), "contact_half_width_x_m", 2e6),
     (Heading("across", "µm", ".0f", whole=True, spare=5), "contact_half_width_y_m", 2e6),
     (Heading("area", "mm²", ".3f", whole=True, spare=1), "contact_area_m2", 1e6),
@@ -33,10 +33,6 @@ ROUGHNESS = (
 )
 """Heading, key, and factor to nm of each column."""
 WHERE = {"scar": "scar", "unworn": "at first", "beside": "beside"}
-LOW = 20.0
-"""Largest pressure up to which those of a column have decimals, in MPa."""
-SHALLOW = 1e-7
-"""Depth below which the depths of a body are in nm."""
 
 
 def lab_tables(result: Result, lab: LabReport) -> Iterator[DataTable]:
@@ -60,18 +56,13 @@ def saves_table(result: Result) -> DataTable:
     headings, columns = [], []
     for heading, key, factor in COLUMNS:
         values = [factor * save[key] for save in saves]
-        # Of a flat contact whole MPa are too coarse.
-        if heading.unit == "MPa" and 0 < max(values) < LOW:
-            heading = heading._replace(form=".2f")
         # A load has a column only where it changes.
         if heading.label != "load" or along or len({readable(v, heading.form) for v in values}) > 1:
             headings.append(heading)
             columns.append(values)
     for body in result.body_names:
-        worn = [save["bodies"][body]["max_wear_depth_m"] for save in saves]
-        unit, factor = ("nm", 1e9) if 0 < max(worn) < SHALLOW else ("µm", 1e6)
-        headings.append(Heading(body, unit, ".2f"))
-        columns.append([factor * depth for depth in worn])
+        headings.append(Heading(body, "µm", ".4g"))
+        columns.append([1e6 * save["bodies"][body]["max_wear_depth_m"] for save in saves])
     title = "Contact, full widths along and across sliding; wear depth of each body"
     rows = list(map(TableRow, zip(*columns, strict=True)))
     return DataTable(title, headings, rows, notes)

@@ -47,15 +47,6 @@ def planimetric_area(depth: ArrayLike, spacing: float) -> float:
     return float(np.mean(np.sum(below, axis=-1))) * spacing
 
 
-def planimetric_volume(area: float, track_length: float) -> float:
-    """Volume of a track from one section, V = W_q ℓ (ASTM G133, D7755).
-
-    The length ℓ is the stroke, or 2πr of a circular track. The rounded ends of
-    a reciprocating track are not part of it.
-    """
-    return area * track_length
-
-
 def circular_groove_area(width: float, radius: float) -> float:
     """Section of a track with the shape of an unworn ball (ASTM G99).
 

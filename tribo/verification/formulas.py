@@ -42,7 +42,6 @@ def _ball(cells: int, placement: float) -> list[Row]:
         return float(np.sum(np.maximum(depth, 0.0))) * spacing**2
 
     cap = volume(np.sqrt(RADIUS**2 - squares) - math.sqrt(RADIUS**2 - half**2))
-    shallow = volume((half**2 - squares) / (2 * RADIUS))
     conforming = volume(0.5 * (half**2 - squares) * (1 / RADIUS - 1 / GROOVE))
     # Flat along x, half as long as it is wide: an ellipse worn off a cylinder along y.
     flat = volume((0.25 * length**2 * (1 - (y / half) ** 2) - x**2) / (2 * RADIUS))
@@ -50,7 +49,6 @@ def _ball(cells: int, placement: float) -> list[Row]:
     along = ball.flat_along_ball_volume(length, WIDTH, RADIUS)
     return _rows(
         ("flat scar, G99", "m^3", cap, ball.ball_cap_volume(WIDTH, RADIUS)),
-        ("flat scar, G99, shallow", "m^3", shallow, ball.shallow_cap_volume(WIDTH, RADIUS)),
         ("diameter of a flat scar", "m", WIDTH, ball.cap_diameter(cap, RADIUS)),
         ("scar in a groove, D7755", "m^3", conforming, groove),
         ("scar flat along sliding", "m^3", flat, along),
@@ -62,7 +60,6 @@ def _track(cells: int, placement: float) -> list[Row]:
     y, spacing = _middles(cells)
     parabola = (0.25 * WIDTH**2 - y**2) / (2 * GROOVE)
     area = track.planimetric_area(parabola, spacing)
-    summed = float(np.sum(parabola)) * spacing * LENGTH
     circle, ring = _segment(RADIUS, cells), 7 * RADIUS
     on_ring = LENGTH * _segment(0.5 * ring, cells)
     straight = LENGTH * circle + ball.ball_cap_volume(WIDTH, RADIUS)
@@ -73,7 +70,6 @@ def _track(cells: int, placement: float) -> list[Row]:
     return _rows(
         ("section of a groove, D7755", "m^2", WIDTH**3 / (12 * GROOVE), area),
         ("radius of a groove, D7755", "m", GROOVE, track.groove_radius(WIDTH, area)),
-        ("volume of a track, D7755", "m^3", summed, track.planimetric_volume(area, LENGTH)),
         ("groove of an unworn ball, G99", "m^2", circle, unworn),
         ("round track, G99", "m^3", 2 * math.pi * LENGTH * circle, disk),
         ("straight track, G133", "m^3", straight, to_and_fro),

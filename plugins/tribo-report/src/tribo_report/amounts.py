@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel
 from tribo import CaseError, Quantity, WearLaw
-from tribo.kernel_api import default_registry, in_mm3_per_newton_metre, parts, scale, time_labels
+from tribo.kernel_api import default_registry, parts, scale, time_labels
 
 _UNITS = {
     "m": ("m", "mm", "µm", "nm"),
@@ -98,7 +98,7 @@ def _values(config: Mapping[str, Any], table: type[BaseModel] | None) -> Iterato
         words = _stage_words(value, key, _unit(marks)) if staged else _value(value, marks)
         of_law = table is not None and issubclass(table, WearLaw)
         if of_law and _unit(marks) == "1/Pa" and isinstance(value, int | float):
-            words += f" = {in_mm3_per_newton_metre(value):.4g} mm³/(N·m)"
+            words += f" = {1e9 * value:.4g} mm³/(N·m)"
         yield f"{name} {words}"
 
 

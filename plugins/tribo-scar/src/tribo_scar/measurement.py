@@ -20,7 +20,6 @@ from tribo.kernel_api import (
     circular_groove_area,
     inferred,
     outliers,
-    planimetric_volume,
     reciprocating_track_volume,
     without_form,
 )
@@ -322,7 +321,7 @@ def _sizes(
                 "within the map alone; give the length of all of it",
                 "track_length",
             )
-        whole = planimetric_volume(section, length)
+        whole = section * length
         formulas = _track_volumes(whole, worn.track.value, length, radius)
         ends = (WidthReading(math.inf, 0.0), worn.track)
         along, across = ends if worn.is_open[0] else ends[::-1]

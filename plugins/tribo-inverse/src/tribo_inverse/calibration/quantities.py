@@ -18,7 +18,6 @@ from tribo.kernel_api import (
     between_cells,
     crown,
     diameter,
-    mass_from_volume,
     profile,
     track_section,
 )
@@ -158,7 +157,7 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
     if name in PROFILES:
         return _on_line(depth, AXES[name], asked.position_m, result)
     volume = float(result.table("saves")[f"bodies.{body.name}.wear_volume_m3"][save])
-    return mass_from_volume(volume, body.density or 0.0) if name == "mass" else volume, 0.0
+    return volume * (body.density or 0.0) if name == "mass" else volume, 0.0
 
 
 def edge_sigma(depth: Array, part: float) -> Array:
