@@ -7,7 +7,6 @@ from made_results import SHAPES, made
 from tribo.plotting import (
     body_profiles,
     contact_history,
-    groove,
     pressure_map,
     pressure_sections,
     scar_map,
@@ -90,7 +89,7 @@ def test_a_layer_that_wear_comes_near_ends_at_its_depth_in_both_sections():
 
 
 def test_a_picometre_is_not_a_thousandth_of_a_nanometre():
-    (axes,) = groove(made((0.0, 1e-2)), "disk").axes
+    (axes,) = body_profiles(made((0.0, 1e-2)), "disk").axes
     axes.figure.draw_without_rendering()
     assert axes.get_ylabel() == "Height (pm)"
     assert not axes.yaxis.get_offset_text().get_text()

@@ -9,7 +9,7 @@ from tribo.plotting.history import (
     wear_history,
 )
 from tribo.plotting.pressure import pressure_map, pressure_sections
-from tribo.plotting.profiles import body_profiles, groove, worn_section
+from tribo.plotting.profiles import body_profiles, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
 from tribo.plotting.scar import scar_map
 
@@ -17,7 +17,6 @@ __all__ = [
     "body_profiles",
     "contact_history",
     "friction_history",
-    "groove",
     "height_map",
     "material_ratio_curves",
     "pressure_map",

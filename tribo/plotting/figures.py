@@ -25,7 +25,7 @@ from tribo.plotting.history import (
 )
 from tribo.plotting.kept import field_map, kept_fields, steady
 from tribo.plotting.pressure import pressure_map, pressure_sections
-from tribo.plotting.profiles import along_track, body_profiles, groove, worn_section
+from tribo.plotting.profiles import along_track, body_profiles, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
 from tribo.plotting.scar import scar_map
 from tribo.plotting.sections import removed
@@ -110,7 +110,7 @@ def result_pictures(result: Result) -> dict[str, Callable[[], Figure]]:
     for name in worn:
         pictures[f"{name}_scar"] = partial(scar_map, result, name)
         if result.body(name).swept:
-            pictures[f"{name}_groove"] = partial(groove, result, name)
+            pictures[f"{name}_groove"] = partial(body_profiles, result, name)
             if "track_depth" in result.dataset:
                 pictures[f"{name}_along_track"] = partial(along_track, result, name)
         else:

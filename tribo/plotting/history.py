@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -64,8 +65,6 @@ def wear_history(result: Result) -> Figure:
                 curves += axes.plot(time / size(unit), value / size(lost), **look)
             axes.set_ylabel(f"{what} ({lost})")
             _from_zero(axes)
-            # These may need a power of ten; everything else has a fitting unit.
-            axes.ticklabel_format(axis="y", useMathText=True)
         panels[-1].set_xlabel(f"Time ({unit})")
         legend_below(figure, curves[: len(worn)])
     return figure
@@ -83,16 +82,14 @@ def contact_history(result: Result) -> Figure:
         f"{label} sliding": (time, history[f"contact_half_width_{axis}_m"])
         for axis, label in zip("xy", ("along", "across"), strict=True)
     }
-    with house_style():
-        figure = new_figure(88.0)
-        upper, lower = figure.subplots(2, 1, sharex=True)
-        _draw(upper, result, "Pressure", "Pa", pressures, (LARGEST, OVER))
-        upper.set_xlabel("")
-        _draw(lower, result, "Contact half-width", "m", widths)
-        cell_unit = height_unit(max(spacing))
-        cells = dict.fromkeys(f"{cell / size(cell_unit):.3g}" for cell in spacing)
-        cells_words = f"± 1 cell, {' × '.join(cells)} {cell_unit}"
-        lower.set_title(cells_words, loc="right", fontsize=7.0)
+    figure = _over_time(
+        result,
+        ("Pressure", "Pa", pressures, (LARGEST, OVER)),
+        ("Contact half-width", "m", widths),
+    )
+    unit = height_unit(max(spacing))
+    cells = dict.fromkeys(f"{cell / size(unit):.3g}" for cell in spacing)
+    figure.axes[1].set_title(f"± 1 cell, {' × '.join(cells)} {unit}", loc="right", fontsize=7.0)
     return figure
 
 
@@ -118,19 +115,16 @@ def with_rests(result: Result) -> dict[str, Array]:
 
 def friction_history(result: Result) -> Figure:
     """Draw the friction force and its work against time."""
-    history = with_rests(result)
-    with house_style():
-        figure = new_figure(88.0)
-        upper, lower = figure.subplots(2, 1, sharex=True)
-        for axes, what, unit, name in (
-            (upper, "Friction force", "N", "friction_force_N"),
-            (lower, "Work of friction", "J", "friction_energy_J"),
-        ):
-            curves = {"": (history["time_s"], history[name])}
-            _draw(axes, result, what, unit, curves, ({"color": OVER["color"]},), _from_zero)
-            axes.ticklabel_format(axis="y", useMathText=True)
-            axes.label_outer()
-    return figure
+    history, looks = with_rests(result), [{"color": OVER["color"]}]
+    force, work = (
+        {"": (history["time_s"], history[name])}
+        for name in ("friction_force_N", "friction_energy_J")
+    )
+    return _over_time(
+        result,
+        ("Friction force", "N", force, looks, _from_zero),
+        ("Work of friction", "J", work, looks, _from_zero),
+    )
 
 
 def real_contact(result: Result) -> Figure:
@@ -138,10 +132,7 @@ def real_contact(result: Result) -> Figure:
     history = result.table("history")
     areas = {"all": history["contact_area_m2"], "at the hardness": history["plastic_area_m2"]}
     curves = {label: (history["time_s"], area) for label, area in areas.items() if np.any(area > 0)}
-    with house_style():
-        figure = new_figure(55.0)
-        _draw(figure.subplots(), result, "Real contact area", "m^2", curves, scale=_from_zero)
-    return figure
+    return _over_time(result, ("Real contact area", "m^2", curves, (UNDER, OVER), _from_zero))
 
 
 def roughness_history(result: Result) -> Figure:
@@ -153,10 +144,7 @@ def roughness_history(result: Result) -> Figure:
         for name, label in labels.items()
         if label in history
     }
-    with house_style():
-        figure = new_figure(55.0)
-        _draw(figure.subplots(), result, "Sq in the contact", "m", curves)
-    return figure
+    return _over_time(result, ("Sq in the contact", "m", curves))
 
 
 def fields_history(result: Result) -> Figure:
@@ -164,20 +152,28 @@ def fields_history(result: Result) -> Figure:
 
     Of a field it is the largest value and the mean in the contact, with a mark at each save.
     """
-    kept = kept_fields(result)
     looks = [
         {**look, **AT_SAVES, "marker": mark, "markersize": size}
         for look, mark, size in ((LARGEST, "o", 6.0), (OVER, "s", 3.0))
     ]
+    panels = []
+    for field in kept_fields(result):
+        values = field.over_time(result).items()
+        curves = {label: (result.times, each) for label, each in values}
+        panels.append((field.name.capitalize(), field.unit, curves, looks, _around))
+    figure = _over_time(result, *panels)
+    figure.axes[0].set_title("at the saves; not known between", loc="right", fontsize=7.0)
+    return figure
+
+
+def _over_time(result: Result, *panels: tuple[Any, ...]) -> Figure:
+    """Draw panels below each other, each of what `_draw` takes of it."""
     with house_style():
-        figure = new_figure(12.0 + 40.0 * len(kept))
-        panels = figure.subplots(len(kept), 1, sharex=True, squeeze=False)[:, 0]
-        for axes, field in zip(panels, kept, strict=True):
-            found = field.over_time(result)
-            curves = {label: (result.times, values) for label, values in found.items()}
-            _draw(axes, result, field.name.capitalize(), field.unit, curves, looks, _around)
+        figure = new_figure(12.0 + 40.0 * len(panels))
+        rows = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+        for axes, panel in zip(rows, panels, strict=True):
+            _draw(axes, result, *panel)
             axes.label_outer()
-        panels[0].set_title("at the saves; not known between", loc="right", fontsize=7.0)
     return figure
 
 
@@ -208,6 +204,7 @@ def _draw(
 def _from_zero(axes: Axes, _: Array | None = None) -> None:
     axes.set_ylim(bottom=0.0)
     axes.yaxis.set_major_locator(ticks(6))
+    axes.ticklabel_format(axis="y", useMathText=True)
     axes.set_xlim(left=0.0)
 
 

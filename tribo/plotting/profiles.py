@@ -35,7 +35,7 @@ def body_profiles(result: Result, name: str, axis: int | None = None) -> Figure:
     """Draw a body's surface through the window's centre at every save.
 
     It runs along axis 0, the sliding direction, or across it, along axis 1; without one, both are
-    drawn side by side, on one scale of heights.
+    drawn side by side, on one scale of heights, and of a swept body the section of its groove.
 
     The height points out of the body, so that material goes downwards: the
     unworn profile lies on top. Plastic displacement is part of it; elastic
@@ -47,17 +47,9 @@ def body_profiles(result: Result, name: str, axis: int | None = None) -> Figure:
     body = result.body(name)
     scar = scar_mask(removed(result, name)[-1])
     fields = [(result.grid, body.surface(i), scar) for i in range(count)]
-    sections = through_centre(fields, (0, 1) if axis is None else (axis,))
+    axes = ((1,) if body.swept else (0, 1)) if axis is None else (axis,)
+    sections = through_centre(fields, axes)
     return draw_profiles(sections, save_looks(count), time_labels(result.times), name)
-
-
-def groove(result: Result, name: str) -> Figure:
-    """Draw the section of the groove in a swept body at every save."""
-    if not result.body(name).swept:
-        raise CaseError(
-            f"{name} is not swept in {result.name}, so that it has no groove; draw body_profiles"
-        )
-    return body_profiles(result, name, 1)
 
 
 def along_track(result: Result, name: str) -> Figure:
@@ -66,7 +58,7 @@ def along_track(result: Result, name: str) -> Figure:
     It is by how much its height has changed: what it was at first is left out.
     """
     if "track_depth" not in result.dataset:
-        raise CaseError(f"the cycle is not resolved in {result.name}; draw the groove instead")
+        raise CaseError(f"the cycle is not resolved in {result.name}; draw its profiles instead")
     count = len(result.times)
     track = result.track_depth.sel(body=name)
     rows, columns = track.sizes["track_x"], track.sizes["y"]
