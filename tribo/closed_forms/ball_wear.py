@@ -61,7 +61,8 @@ def elastic_ball_half_width(
 ) -> Array:
     """Contact radius of a ball that wears from its Hertzian contact (Argatov 2011).
 
-    a⁴ = a0⁴ + 4kFRs/π. It is exact on a Winkler foundation; an elastic
+    a⁴ = a0⁴ + 4kFRs/π. It is exact on a Winkler foundation, for δ − h = w + p/K_w integrates to
+    πa⁴/4R = kFs + F/K_w over a contact whose border is unworn and free of pressure; an elastic
     half-space stays within 1 % of it once a has grown by half.
 
     Parameters

@@ -109,22 +109,6 @@ def line(modulus: float, load_per_length: float, curvature: float) -> LineContac
     )
 
 
-def load_at_peak(modulus: float, peak_pressure: float, curvature: float) -> float:
-    """Return the load, in N, at which a ball reaches a peak pressure.
-
-    Parameters
-    ----------
-    modulus, peak_pressure, curvature : float
-        Contact modulus E* and p0, in Pa; 1/R of the gap along both axes, in 1/m.
-
-    Notes
-    -----
-    F = π³ p0³ R²/6E*² (Johnson 1985, equation 4.24).
-    """
-    _require_positive(modulus=modulus, peak_pressure=peak_pressure, curvature=curvature)
-    return pi**3 * peak_pressure**3 / (6 * modulus**2 * curvature**2)
-
-
 def first_yield_pressure(hardness: float, *, line: bool = False) -> float:
     """Return the Hertzian peak pressure, in Pa, at which yield begins below the surface.
 

@@ -50,36 +50,6 @@ def sphere(load: float, radius: float, stiffness: float) -> WinklerContact:
     return WinklerContact(a, stiffness * approach, approach)
 
 
-def worn_sphere_half_width(
-    distance: ArrayLike, *, load: float, radius: float, stiffness: float, wear_coefficient: float
-) -> Array:
-    """Contact radius of a sphere that alone wears, by Archard's law.
-
-    a = [4RF(ks + 1/K_w)/π]^¼.
-
-    Parameters
-    ----------
-    distance : array_like
-        Sliding distance s, in m.
-    load, radius, stiffness : float
-        As for `sphere`.
-    wear_coefficient : float
-        Archard's k, in 1/Pa.
-
-    Returns
-    -------
-    ndarray
-        Contact radius, in m, shaped like `distance`.
-
-    Notes
-    -----
-    In contact δ − h = w + p/K_w. Over the contact, whose border is unworn and
-    free of pressure, that integrates to πa⁴/4R = kFs + F/K_w, exactly.
-    """
-    compliance = wear_coefficient * np.asarray(distance, dtype=float) + 1.0 / stiffness
-    return np.asarray((4.0 * radius * load * compliance / np.pi) ** 0.25)
-
-
 def worn_sphere_pressure(
     r: ArrayLike,
     distance: ArrayLike,
@@ -102,8 +72,10 @@ def worn_sphere_pressure(
     ----------
     r, distance : array_like
         Distance from the axis, and sliding distance s, in m; broadcast against each other.
-    load, radius, stiffness, wear_coefficient : float
-        As for `worn_sphere_half_width`.
+    load, radius, stiffness : float
+        As for `sphere`.
+    wear_coefficient : float
+        Archard's k, in 1/Pa.
 
     Returns
     -------
@@ -112,6 +84,7 @@ def worn_sphere_pressure(
 
     Notes
     -----
+    The contact radius a(s) is that of `tribo.closed_forms.ball_wear.elastic_ball_half_width`.
     A point in contact obeys dp/ds = K_w (dδ/ds − k p), from p(r, 0) or, where
     the contact comes later, from p = 0 at a(s) = r. With δ = δ0 √z the integral
     of √z exp(z) is Dawson's.

@@ -37,7 +37,7 @@ LOAD = 100.0
 WEAR_COEFFICIENT = 3.11e-16
 STEEL = Material(young=YOUNG, poisson=POISSON)
 MODULUS = contact_modulus([STEEL, STEEL])
-ONSET = hertz.load_at_peak(MODULUS, HARDNESS, 1 / RADIUS)
+ONSET = LOAD * (HARDNESS / hertz.point(MODULUS, LOAD, 1 / RADIUS, 1 / RADIUS).peak_pressure) ** 3
 """Load at which the ball's peak pressure is the hardness, in N."""
 
 SPEED = 0.1

@@ -46,9 +46,10 @@ def _foundation(steps: int, placement: float) -> list[Row]:
     stiffness = 16 * MODULUS / (3 * math.pi * 148.837e-6)
     model = paper.on_flat(BALL, paper.square(0.7e-3, 129), Winkler(modulus=stiffness))
     contact = paper.slide(model, distance, steps)[1].contact
-    given = {"load": LOAD, "radius": RADIUS, "stiffness": stiffness, "wear_coefficient": K}
-    exact = float(winkler.worn_sphere_pressure(0.0, distance, **given))
-    radius = float(winkler.worn_sphere_half_width(distance, **given))
+    given = {"load": LOAD, "radius": RADIUS, "wear_coefficient": K}
+    exact = float(winkler.worn_sphere_pressure(0.0, distance, stiffness=stiffness, **given))
+    first = winkler.sphere(LOAD, RADIUS, stiffness).half_width
+    radius = float(ball_wear.elastic_ball_half_width(distance, **given, initial_half_width=first))
     counted = math.sqrt(contact_area(contact.pressure, model.grid) / math.pi)
     by_volume = "follows from the volume, exact in the steps"
     cells = "exact in the steps; cells at its edge"
