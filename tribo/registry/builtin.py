@@ -11,8 +11,7 @@ from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.progress import Progress
-from tribo.registry.hookspecs import CaseTemplate, ExportFormat, hookimpl
-from tribo.result.export import export_csv
+from tribo.registry.hookspecs import hookimpl
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.height_map import HeightMap
@@ -22,7 +21,6 @@ from tribo.surfaces.rough import Rough
 from tribo.surfaces.sphere import Sphere
 from tribo.surfaces.texture import Texture
 from tribo.surfaces.waves import Waves
-from tribo.templates import TEMPLATES, template
 from tribo.wear.archard import Archard
 from tribo.wear.modified import Scaled
 from tribo.wear.power import Power
@@ -39,15 +37,3 @@ def tribo_components() -> tuple[type[Component], ...]:
         *(Sphere, Paraboloid, Cylinder, Flat, Pin, HeightMap, Rough, Texture, Waves),
         Progress,
     )
-
-
-@hookimpl
-def tribo_export_formats() -> tuple[ExportFormat, ...]:
-    """Offer CSV."""
-    return (ExportFormat("csv", "history, saves and profiles as tables", export_csv),)
-
-
-@hookimpl
-def tribo_templates() -> list[CaseTemplate]:
-    """Offer a case for each kind of test, a study and measurements."""
-    return [CaseTemplate(name, summary, template(name)) for name, summary in TEMPLATES.items()]
