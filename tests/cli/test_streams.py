@@ -10,7 +10,7 @@ import pytest
 from made_results import written
 
 from tribo import Result
-from tribo.cli.streams import GuardedStream, over
+from tribo.cli.streams import over
 from tribo.templates import template
 
 QUICK = ["--set", "grid.cells=24", "--set", "kinematics.duration=20"]
@@ -116,7 +116,7 @@ def test_what_is_not_buffered_stays_so():
     with (
         open(read, "rb", 0) as reader,
         io.TextIOWrapper(io.FileIO(write, "w"), write_through=True) as plain,
-        over(plain, GuardedStream) as out,
+        over(plain, 1) as out,
     ):
         print("now", file=out)
         assert reader.read(4) == b"now\n"

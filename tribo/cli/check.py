@@ -58,11 +58,6 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     from tribo.simulation.validity import findings_of
 
     read = load_case(case, overrides=overrides)
-    doubts = unusual(read)
-    if doubts and not as_json:
-        # Before the trials, which may take long with such a value.
-        Console().print(f"Is this meant in {case}?", markup=False, soft_wrap=True)
-        Console().print(_rows(("  -", doubt.words) for doubt in doubts))
     with waiting_for("composing the case"):
         model = Simulation(read).model
     with waiting_for(f"first contact and a trial run of {TRIAL_TIME:g} s at most"):
@@ -71,8 +66,8 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
         found = findings_of(model, prediction.first.half_width_x)
     # What has a limit is beyond it; else a finding is a fact.
     facts = [each for each in found if each.limit is None]
-    problems = [*doubts, *prediction.problems, *(each for each in found if each not in facts)]
-    problems = list(dict.fromkeys(problems))
+    beyond = [each for each in found if each not in facts]
+    problems = list(dict.fromkeys([*unusual(read), *prediction.problems, *beyond]))
     if as_json:
         averaging = (each.words for each in problems if each.kind == "averaging")
         echo_json(
@@ -84,8 +79,7 @@ def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
             }
         )
     else:
-        problems = [each for each in problems if each not in doubts]
-        _print(case, model, prediction, problems, facts, asked=bool(doubts))
+        _print(case, model, prediction, problems, facts)
     for kind in (CaseError, NumericalError):
         if prediction.exit_code == kind.exit_code:
             raise kind(f"a run of {case} would stop on its way: {prediction.stops}")
@@ -97,13 +91,9 @@ def _print(
     prediction: Prediction,
     problems: Sequence[Finding],
     found: Sequence[Finding],
-    *,
-    asked: bool,
 ) -> None:
     console = Console()
-    verdict = "is valid, if that is meant." if asked else "is valid."
-    if problems:
-        verdict = "is valid, but:"
+    verdict = "is valid, but:" if problems else "is valid."
     if prediction.exit_code:
         verdict = "would stop on its way:"
     console.print(f"{case} {verdict}", markup=False, soft_wrap=True)

@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 import click
 
 from tribo.cli.commands import OWN, imported, offered, own_command
-from tribo.cli.streams import GuardedStream, Remarks, over, say
+from tribo.cli.streams import STDERR, STDOUT, over, say
 from tribo.core.errors import CaseError, Interrupted, ReaderGone, TriboError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
 from tribo.packages import COMMANDS, how_to_install
@@ -111,7 +111,7 @@ def main() -> None:
     """Run the command; every expected error becomes one message and an exit code."""
     # pydantic fails on any malformed distribution while it looks for its own plugins.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-    sys.stdout, sys.stderr = over(sys.stdout, GuardedStream), over(sys.stderr, Remarks)
+    sys.stdout, sys.stderr = over(sys.stdout, STDOUT), over(sys.stderr, STDERR)
     try:
         with _warnings_on_stderr():
             tribo.main(standalone_mode=False)

@@ -18,38 +18,26 @@ from tribo.core.errors import OutputError, ReaderGone
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
 
+STDOUT, STDERR = 1, 2
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
 """All but tab and line feed, and the marks that change the direction of text."""
 
 
 class GuardedStream(io.FileIO):
-    """Standard output; the command ends where it cannot be written."""
-
-    number = 1
+    """Standard output, at which the command ends if it cannot be written, or standard error."""
 
     def write(self, data: ReadableBuffer) -> int:
-        """Write, or raise `OutputError` or `ReaderGone`."""
+        """Write, or raise `OutputError` or `ReaderGone`; leave out what standard error lacks."""
         try:
             return super().write(data)
         except OSError as error:
+            if self.fileno() == STDERR:
+                return memoryview(data).nbytes
             # Otherwise Python writes again as it exits, and reports the failure.
             os.dup2(os.open(os.devnull, os.O_WRONLY), self.fileno())
             if isinstance(error, BrokenPipeError):
                 raise ReaderGone("nobody reads standard output any more") from error
             raise OutputError(f"cannot write to standard output: {error.strerror}") from error
-
-
-class Remarks(io.FileIO):
-    """Standard error; what cannot be written is left out."""
-
-    number = 2
-
-    def write(self, data: ReadableBuffer) -> int:
-        """Write, ignoring failures."""
-        try:
-            return super().write(data)
-        except OSError:
-            return memoryview(data).nbytes
 
 
 @contextmanager
@@ -74,15 +62,15 @@ def say(what: str, colour: str, text: str) -> None:
     click.echo(label + harmless(text), file=sys.stderr)
 
 
-def over(stream: TextIO | None, kind: type[GuardedStream | Remarks]) -> TextIO:
-    """Return a stream to the same file that fails as `kind` does and escapes signs it lacks.
+def over(stream: TextIO | None, number: int) -> TextIO:
+    """Return a guarded stream to the file of a standard stream, which escapes signs it lacks.
 
     None stands for one that is closed.
     """
     if stream is None:
         # Otherwise the next file that is opened has its number.
-        os.dup2(os.open(os.devnull, os.O_RDONLY), kind.number)
-        stream = io.TextIOWrapper(io.FileIO(kind.number, "w", closefd=False), encoding="utf-8")
+        os.dup2(os.open(os.devnull, os.O_RDONLY), number)
+        stream = io.TextIOWrapper(io.FileIO(number, "w", closefd=False), encoding="utf-8")
     try:
         number = stream.fileno()
     except (AttributeError, OSError, ValueError):
@@ -94,7 +82,7 @@ def over(stream: TextIO | None, kind: type[GuardedStream | Remarks]) -> TextIO:
     # `python -u` asks for no buffer.
     size = 1 if stream.write_through else io.DEFAULT_BUFFER_SIZE
     return io.TextIOWrapper(
-        io.BufferedWriter(kind(number, "w", closefd=False), size),
+        io.BufferedWriter(GuardedStream(number, "w", closefd=False), size),
         encoding=stream.encoding,
         errors="backslashreplace",
         # A single byte stays in a buffer of one.
