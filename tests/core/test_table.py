@@ -6,7 +6,7 @@ import pytest
 from pydantic import Field
 from pydantic.json_schema import SkipJsonSchema
 
-from tribo import Archard, Body, Flat, Grid, Load, Material, Output, Sphere
+from tribo import Archard, Body, Flat, Material, Sphere
 from tribo.core.table import Table, descriptions
 from tribo.core.units import parse, stated
 
@@ -21,23 +21,6 @@ def test_repr_shows_what_is_inside():
     body = Body(surface=Flat(), material=STEEL)
     material = "Material(young=207000000000.0, poisson=0.3)"
     assert repr(body) == f"Body(surface=Flat(), material={material})"
-
-
-def test_a_notebook_shows_keys_with_units():
-    shown = Body(surface=Flat(), material=STEEL, wear=Archard(k=1e-15))._repr_html_()
-    assert "<caption>Body</caption>" in shown
-    assert "<td>young</td><td>207 GPa</td>" in shown
-    assert "<td>k</td><td>1e-15 1/Pa</td>" in shown
-
-
-def test_a_notebook_shows_pairs():
-    assert "<td>2 mm × 1 mm</td>" in Grid(("2 mm", "1 mm"), 8)._repr_html_()
-
-
-def test_a_notebook_shows_lists():
-    assert "<td>500 s, 1500 s, 0 s</td>" in Output(save_times=(500, 1500, 0))._repr_html_()
-    stages = ({"normal": 5, "until": 9}, {"normal": 6, "until": 12})
-    assert "</table>, <table>" in Load(normal=stages)._repr_html_()
 
 
 @pytest.mark.parametrize(

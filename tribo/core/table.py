@@ -5,9 +5,8 @@ from __future__ import annotations
 import ast
 import inspect
 import linecache
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import cache
-from html import escape
 from itertools import pairwise
 from textwrap import dedent
 from typing import TYPE_CHECKING, Any, Self
@@ -25,7 +24,6 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
 from tribo.core.explain import explained
-from tribo.core.units import parts, quantities, stated
 
 
 class Table(BaseModel):
@@ -68,18 +66,6 @@ class Table(BaseModel):
         """Yield the fields that are not at their defaults."""
         fields = type(self).model_fields
         return ((name, value) for name, value in self if value != fields[name].default)
-
-    def _repr_html_(self) -> str:
-        """Show the table, its keys and their units in a notebook."""
-        rows = []
-        for name, field in type(self).model_fields.items():
-            value = getattr(self, name)
-            unit = next((mark.unit for mark in quantities(field)), "1")
-            between = ", " if Ellipsis in parts(field) else " × "
-            if value != field.default:
-                shown = _html(value, unit, between)
-                rows.append(f"<tr><td>{escape(name)}</td><td>{shown}</td></tr>")
-        return f"<table><caption>{escape(type(self).__name__)}</caption>{''.join(rows)}</table>"
 
 
 def descriptions(table: type[BaseModel]) -> dict[str, str]:
@@ -124,13 +110,3 @@ def _declaration(cls: type) -> ast.ClassDef:
         text = "".join(linecache.getlines(method.__code__.co_filename))
     found = ast.walk(ast.parse(text))
     return next(n for n in found if isinstance(n, ast.ClassDef) and n.name == cls.__name__)
-
-
-def _html(value: object, unit: str = "1", between: str = ", ") -> str:
-    if isinstance(value, Table):
-        return value._repr_html_()
-    if isinstance(value, Mapping):
-        return "".join(f"{escape(str(key))}: {_html(inside)}" for key, inside in value.items())
-    if isinstance(value, tuple):
-        return between.join(_html(part, unit) for part in value)
-    return escape(stated(value, unit) if isinstance(value, float) else str(value))
