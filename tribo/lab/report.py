@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from math import isnan
 from typing import Any, NamedTuple
 
 from tribo.closed_forms.hertz import first_yield_pressure
@@ -139,11 +138,7 @@ def _body(result: Result, name: str) -> BodyReport:
     marks = scar(body.wear_depth[-1], result.grid)
     rate = None
     if distance > 0:
-        load = save["load_distance_N_m"] / distance
-        if isnan(load):
-            # Older files lack it; their load was constant.
-            load = result.system.load
-        rate = 1e9 * volume / (load * distance)
+        rate = 1e9 * volume / save["load_distance_N_m"]
     return BodyReport(
         specific_wear_rate_mm3_per_Nm=rate,
         mass_kg=None if body.density is None else volume * body.density,
