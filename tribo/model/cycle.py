@@ -56,15 +56,20 @@ class Cycle:
     def shares_points(self) -> bool:
         """Whether positions wear the same points: none of a body is an average along a track."""
         along = self.grid.cells[0]
-        alone = (each.starts is not None or each.rows == along for each in self.maps.values())
-        return len(self) > 1 and all(alone)
+        return len(self) > 1 and all(each.rows >= along for each in self.maps.values())
+
+    @cached_property
+    def offsets(self) -> Array:
+        """Where the body that passes is at each position, in cells from the middle one."""
+        starts = ([each.first_row(i) for i in range(len(self))] for each in self.maps.values())
+        rows = np.array(max(starts, key=np.ptp), dtype=float)
+        # The window's place on the body moves against the body itself.
+        return readonly(rows[self.middle] - rows)
 
     @cached_property
     def apart(self) -> float:
         """Largest distance between neighbouring positions, in m; 0 of an average."""
-        steps = [np.diff(e.starts) for e in self.maps.values() if e.starts is not None]
-        widest = max((float(np.max(np.abs(s), initial=0)) for s in steps), default=0.0)
-        return widest * self.grid.spacing[0]
+        return float(np.max(np.abs(np.diff(self.offsets)), initial=0)) * self.grid.spacing[0]
 
     @cached_property
     def missed_shares(self) -> Array | None:
@@ -72,11 +77,9 @@ class Cycle:
 
         None where the cycle is not resolved, or into every cell.
         """
-        starts = [each.starts for each in self.maps.values() if each.starts is not None]
-        if not starts or self.apart <= self.grid.spacing[0]:
+        if self.apart <= self.grid.spacing[0]:
             return None
-        nodes = -np.array(starts[0], dtype=float)
-        return missed_shares(nodes, np.array([position.share for position in self]))
+        return missed_shares(self.offsets, np.array([position.share for position in self]))
 
     def places(self, position: int) -> dict[str, dict[str, Array]]:
         """Return where each body's own surface lies in the window at a position, in m.

@@ -44,7 +44,19 @@ class Exposure(ABC):
 
     def first_row(self, position: int) -> int:
         """Return the row of the body's own surface at which the window begins at a position."""
-        return 0
+        return 0 if self.starts is None else self.starts[position]
+
+    @property
+    def track(self) -> float:
+        """Mean length of the track that its points pass along, in m; 0 if they stay."""
+        return 0.0
+
+    def own_grid(self, window: Grid) -> Grid:
+        """Return the grid of the body's first surface: the window, or its rows along the path."""
+        if self.starts is None:
+            return window
+        size = self.rows * window.spacing[0], window.size[1]
+        return Grid(size=size, cells=(self.rows, window.cells[1]))
 
     def see(self, field: Array, position: int) -> Array:
         """Return what lies in the window of a field on the body's own surface, at a position.
@@ -162,6 +174,11 @@ class Track(Exposure):
         self.length = length
         self.shape_stays = shape_stays
 
+    @property
+    def track(self) -> float:
+        """Mean length of the rows' tracks, in m."""
+        return float(np.mean(self.length))
+
     def average(self, rate: Array) -> Array:
         """Return the track average, shape (1, ny)."""
         line = np.sum(rate, axis=0, keepdims=True)
@@ -216,9 +233,10 @@ class Passing(Stationary):
         self.rows = grid.period or grid.cells[0] + max(starts)
         self._length = length if grid.period is None else min(length, grid.size[0])
 
-    def first_row(self, position: int) -> int:
-        """Return the start of the position."""
-        return self.starts[position]
+    @property
+    def track(self) -> float:
+        """Length of the path in whole cells, in m."""
+        return (max(self.starts) - min(self.starts)) * self._grid.spacing[0]
 
     def see(self, field: Array, position: int) -> Array:
         """Return the rows of the window, from the start of the position on."""

@@ -55,16 +55,12 @@ def assemble(case: Case) -> Model:
         cycle = Cycle(grid, positions, exposures)
     cap, share, hardness = yielding(bodies, case.contact)
     # Before the first array is made.
-    check_memory(grid, memory_needed(case, exposures, plastic=cap is not None))
+    check_memory(grid, memory_needed(case, cycle, plastic=cap is not None))
     surfaces, laws = {}, {}
     for name, body in bodies.items():
-        exposure, own = exposures[name], grid
-        if exposure.starts is not None:
-            # The cells of the window, and of the body's path beyond it.
-            along, across = exposure.rows * grid.spacing[0], grid.size[1]
-            own = Grid(size=(along, across), cells=(exposure.rows, grid.cells[1]))
+        exposure = exposures[name]
         with located(f"bodies.{name}.surface"):
-            surfaces[name] = GuardedSurface(body.surface, name, own)
+            surfaces[name] = GuardedSurface(body.surface, name, exposure.own_grid(grid))
             _check_sliding(surfaces[name], exposure)
             if isinstance(case.kinematics, Unidirectional) and case.kinematics.turns:
                 _check_ring(surfaces[name], exposure, case.kinematics.lap, grid)
@@ -79,7 +75,8 @@ def assemble(case: Case) -> Model:
                 "repeat",
                 "load.along",
             )
-        shares = case.load.shares_at(_places(grid, len(cycle), exposures), grid.spacing[0])
+        dx = grid.spacing[0]
+        shares = case.load.shares_at(dx * cycle.offsets, dx)
     loads = Loads(case.load.pieces, shares, tuple(position.share for position in cycle))
     known = [each.curvature for each in surfaces.values() if each.curvature is not None]
     system = ContactSystem(
@@ -192,13 +189,6 @@ def _coatings(
     return coatings
 
 
-def _places(grid: Grid, positions: int, exposures: Mapping[str, Exposure]) -> Array:
-    """Return where the body that passes is at each position, from the middle, in m."""
-    starts = next((e.starts for e in exposures.values() if e.starts is not None), [0] * positions)
-    # The window's place on the body moves against the body itself.
-    return np.asarray(grid.spacing[0] * (starts[positions // 2] - np.array(starts)))
-
-
 def _gaps(cycle: Cycle, surfaces: Mapping[str, GuardedSurface]) -> tuple[Array, ...]:
     """Return the initial gap at each position, 0 at the least in the middle of the cycle."""
 
@@ -209,19 +199,14 @@ def _gaps(cycle: Cycle, surfaces: Mapping[str, GuardedSurface]) -> tuple[Array, 
         return gap
 
     lowest = float(np.min(gap_at(cycle.middle)))
-    moving = any(
-        cycle.maps[name].starts is not None and _varies_along_x(surface.height)
-        for name, surface in surfaces.items()
-    )
-    if not moving:
+    if not any(_varies_along_x(surfaces[name].height) for name in cycle.swept):
         return (readonly(gap_at(cycle.middle) - lowest),) * len(cycle)
     return tuple(readonly(gap_at(position) - lowest) for position in range(len(cycle)))
 
 
 def _check_sliding(surface: GuardedSurface, exposure: Exposure) -> None:
     """Raise `CaseError` if the motion moves a shape that would not stay as it is."""
-    stays = exposure.shape_stays or exposure.starts is not None
-    if not stays and _varies_along_x(surface.height):
+    if not exposure.shape_stays and _varies_along_x(surface.height):
         raise CaseError(
             f"body {surface.body!r} is swept along x, so its surface must not vary along x, as "
             f"{surface.component.type!r} does; resolve the cycle (kinematics.positions, for "

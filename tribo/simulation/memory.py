@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 
 from tribo.case import Case
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.motion.exposure import Exposure
-
-Exposures = Mapping[str, Exposure]
+from tribo.stepping.cycle import Cycle
 
 FIELDS = 88
 """Arrays of the window's size that a run holds at its peak.
@@ -27,7 +24,7 @@ BESIDES = 24 * 2.0**20
 """What does not grow with the grid, in bytes; 18 MiB were measured."""
 
 
-def memory_needed(case: Case, exposures: Exposures, *, plastic: bool) -> float:
+def memory_needed(case: Case, cycle: Cycle, *, plastic: bool) -> float:
     """Return the most memory that a run takes beyond what the process has, in bytes.
 
     `plastic` is whether a body may yield.
@@ -36,15 +33,14 @@ def memory_needed(case: Case, exposures: Exposures, *, plastic: bool) -> float:
     fields += len(case.bodies) * sum(len(effect.provides) for effect in case.effects)
     fields += sum(len(effect.state_fields) for effect in case.effects)
     arrays = FIELDS + FIELDS_IF_PLASTIC * plastic + FIELDS_PER_FIELD * fields
-    positions = max(len(exposure.starts or (0,)) for exposure in exposures.values())
-    if positions > 1:
-        arrays += FIELDS_PER_POSITION * positions
+    if len(cycle) > 1:
+        arrays += FIELDS_PER_POSITION * len(cycle)
     window = 8.0 * case.grid.cells[0] * case.grid.cells[1]
     # At its end a run makes its file in memory.
-    return BESIDES + window * arrays + size_of_fields(case, exposures)
+    return BESIDES + window * arrays + size_of_fields(case, cycle)
 
 
-def size_of_fields(case: Case, exposures: Exposures) -> float:
+def size_of_fields(case: Case, cycle: Cycle) -> float:
     """Return the size of all fields that a result keeps, before they are compressed, in bytes."""
     bodies = case.bodies.values()
     states = {field for body in bodies if body.wear for field in body.wear.state_fields}
@@ -56,7 +52,7 @@ def size_of_fields(case: Case, exposures: Exposures) -> float:
     nx, ny = case.grid.cells
     # And all bodies' rows along a track that is longer than the window: wear, what
     # has yielded and what laws remember.
-    longest = max(exposure.rows for exposure in exposures.values())
+    longest = max(exposure.rows for exposure in cycle.maps.values())
     kept = 1 + any(body.material.hardness is not None for body in bodies) + len(states)
     track = kept * len(bodies) * longest if longest > nx else 0
     return 8.0 * ny * (nx * len(bodies) + saves * (nx * each + track))

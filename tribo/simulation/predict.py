@@ -135,10 +135,8 @@ def predict(model: Model) -> Prediction:
         window_holds=holds,
         positions=len(model.cycle),
         positions_for_1_percent=positions_for(model, state.contact),
-        memory=memory_needed(
-            model.case, model.cycle.maps, plastic=model.contact.system.cap is not None
-        ),
-        file_size=BARE_FILE + size_of_fields(model.case, model.cycle.maps),
+        memory=memory_needed(model.case, model.cycle, plastic=model.contact.system.cap is not None),
+        file_size=BARE_FILE + size_of_fields(model.case, model.cycle),
         run_time=coarse.run_time,
         facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problem for problem in problems if problem is not None),

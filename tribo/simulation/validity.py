@@ -100,19 +100,10 @@ def short_of_a_lap(model: Model) -> Finding | None:
     """Return a finding if the whole run slides over a part of a body's track only."""
     distance = model.end_distance
     for name in [name for name in model.laws.wear if name in model.cycle.swept]:
-        length = _track_length(model, name)
+        length = model.cycle.maps[name].track
         if distance < (1 - ROUND_OFF) * length:
             return findings.short_of_a_lap(name, distance, length)
     return None
-
-
-def _track_length(model: Model, name: str) -> float:
-    starts = model.cycle.maps[name].starts
-    if starts is not None:
-        return (max(starts) - min(starts)) * model.grid.spacing[0]
-    # What one metre of depth all along the track takes, over the breadth of the window.
-    depth = np.ones((1, model.grid.cells[1]))
-    return model.cycle.maps[name].volume(depth) / model.grid.size[1]
 
 
 def check_stroke(model: Model, state: State) -> None:
@@ -121,8 +112,7 @@ def check_stroke(model: Model, state: State) -> None:
         return
     half_width = half_widths(state.contact, model.grid)[0]
     with located("kinematics"):
-        passes = any(e.starts is not None for e in model.cycle.maps.values())
-        if not model.case.contact.periodic or not passes:
+        if not model.case.contact.periodic or len(model.cycle) == 1:
             model.motion.check_contact(half_width)
         elif not is_endless(model, half_width) and model.cycle.apart > model.grid.spacing[0]:
             gaps = len(model.cycle) - 1
@@ -141,11 +131,11 @@ def limitation(model: Model, state: State) -> Finding | None:
 def _unlike_the_period(model: Model) -> Finding | None:
     """Return a finding if a body of an endless contact is averaged over another length."""
     period = model.grid.size[0]
-    averaged = [name for name in model.changing if model.cycle.maps[name].starts is None]
-    for name in averaged:
-        length = _track_length(model, name)
-        if name in model.laws.wear and abs(length - period) > findings.UNLIKE * period:
-            return findings.unlike_the_period(name, length, period)
+    for name in model.changing:
+        track = model.cycle.maps[name]
+        unlike = track.averaged and abs(track.track - period) > findings.UNLIKE * period
+        if unlike and name in model.laws.wear:
+            return findings.unlike_the_period(name, track.track, period)
     return None
 
 
@@ -197,9 +187,8 @@ def positions_for(model: Model, first: ContactSolution) -> int | None:
 
     None where the cycle is not resolved.
     """
-    starts = [e.starts for e in model.cycle.maps.values() if e.starts is not None]
-    if not starts:
+    if len(model.cycle) == 1:
         return None
-    path = max(starts[0]) - min(starts[0])
+    path = float(np.ptp(model.cycle.offsets))
     spacing = spacing_for(first.pressure, findings.FINE, repeats=model.case.contact.periodic)
     return 2 * math.ceil(0.5 * path / spacing) + 1
