@@ -27,12 +27,8 @@ if TYPE_CHECKING:
 
 DEPTHS = ".npy"
 """Suffix of a depth map."""
-LARGEST_PITCH = 1e-3
-"""That between two pixels, in m."""
 MOST_DIGITS = 6
 """Digits of a size in the table, as of maps without noise."""
-UNITS = ("m", "mm", "um", "µm", "nm")
-"""Words that are parts of a length without quotes."""
 
 
 @click.command()
@@ -74,23 +70,21 @@ def scar(
       tribo scar after.npy --pitch '1 um' --ideal '{ type = "sphere", radius = "5 mm" }'
     """
     from tribo import Quantity, read_heights
-    from tribo.kernel_api import Console
+    from tribo.kernel_api import Console, picture_format
 
     from tribo_scar.measurement import measured_scar
 
-    def length(option: str, text: str | None) -> float | None:
+    def length(option: str, text: str | None, most: float | None = None) -> float | None:
         with located(option):
-            return None if text is None else Quantity("m", above=0).read(text)
+            return None if text is None else Quantity("m", above=0, at_most=most).read(text)
 
-    for path in files:
-        if str(path) in UNITS and not path.exists():
-            raise CaseError(f"'{path}' is no file: quote a length, as --radius '5 {path}'")
     for path in output:
         check_output(path)
         if path.resolve() in {each.resolve() for each in files}:
             raise CaseError(f"{path} is a measured map; give another name", "--output")
         if path.suffix.lower() != DEPTHS:
-            _check_picture(path)
+            with located("--output"):
+                picture_format(path.suffix or ".png")
     if len(files) != (1 if ideal else 2):
         count = "1 file is" if len(files) == 1 else f"{len(files)} files are"
         raise CaseError(
@@ -99,13 +93,8 @@ def scar(
         )
     if len(pitch) > 2:
         raise CaseError("give one --pitch, or two, along x and along y")
-    steps = [length("--pitch", text) or 0.0 for text in pitch]
-    if steps and max(steps) > LARGEST_PITCH:
-        raise CaseError(
-            f"{1e3 * max(steps):g} mm is too much between two pixels, 1 mm at most; give it as "
-            "'1 um'",
-            "--pitch",
-        )
+    # Beyond 1 mm between two pixels the unit is a wrong one.
+    steps = [length("--pitch", text, 1e-3) or 0.0 for text in pitch]
     maps = [read_heights(path, (steps[0], steps[-1]) if steps else None) for path in files]
     before, lengths = _surface(ideal) if ideal else maps[0], (radius, track_length)
     ball, track = map(length, ("--radius", "--track-length"), lengths)
@@ -118,16 +107,6 @@ def scar(
     _print(found)
     for path in written:
         click.echo(f"Wrote {path}")
-
-
-def _check_picture(path: Path) -> None:
-    """Check that pictures are written in the format that a name ends in."""
-    from tribo.kernel_api import picture_format
-
-    try:
-        picture_format(path.suffix or ".png")
-    except CaseError as error:
-        raise CaseError(f"{error}, or {DEPTHS} for the depth map", "--output") from None
 
 
 def _write(found: MeasuredScar, path: Path, shape: tuple[int, ...]) -> Path:
@@ -156,21 +135,10 @@ def _write(found: MeasuredScar, path: Path, shape: tuple[int, ...]) -> Path:
 
 def _surface(text: str) -> Surface:
     """Return the surface that an option gives as a case does."""
-    import tomllib
-
     from pydantic import TypeAdapter, ValidationError
     from tribo import Surface
     from tribo.kernel_api import case_error, parse_value
 
-    if text.lstrip().startswith("{"):
-        try:
-            tomllib.loads(f"ideal = {text}")
-        except ValueError as error:
-            reason = str(error).partition(" (at")[0]
-            raise CaseError(
-                f"--ideal {text} is no TOML: {reason}; quote texts, and put commas between "
-                'entries, as in \'{ type = "sphere", radius = "5 mm" }\''
-            ) from None
     try:
         surface: Surface = TypeAdapter(Surface).validate_python(parse_value(text))
     except ValidationError as error:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-import warnings
 
 import numpy as np
 import scipy.ndimage as ndimage
-from tribo import Array, CaseError, TriboWarning
+from tribo import Array, CaseError
 from tribo.kernel_api import Mask, smoothed
 
+from tribo_scar.findings import warn
 from tribo_scar.registration import Registration, quadratic
 
 MOSTLY = 0.8
@@ -43,10 +43,8 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
     if np.count_nonzero(holes) > MISSED * np.count_nonzero(bottom):
         # The deepest may lie in them, and what is known ends at the bottom's edge.
         of_holes = (1 - BOTTOM) * float(np.max(worn))
-        warnings.warn(
-            "pixels are missing where the scar is deepest: its depth there follows from the others",
-            TriboWarning,
-            stacklevel=3,
+        warn(
+            "pixels are missing where the scar is deepest: its depth there follows from the others"
         )
     if np.count_nonzero(bottom & ~missing) < FEWEST_OF_BOTTOM:
         raise CaseError(

@@ -10,7 +10,6 @@ import scipy.ndimage as ndimage
 from tribo import Array, CaseError, Heights, Sphere, TriboWarning
 from tribo.kernel_api import Mask, without_form
 
-from tribo_scar.alignment import same_pitch
 from tribo_scar.registration import variance_inflation
 
 ZEROS = 10
@@ -32,6 +31,11 @@ RADIUS_OFF = 0.05
 """Relative difference of a radius beyond which the surface is not the ball's."""
 
 
+def warn(words: str) -> None:
+    """Warn whoever has a scar measured."""
+    warnings.warn(words, TriboWarning, stacklevel=4)
+
+
 def warn_of_zeros(heights: Heights, which: str) -> None:
     """Warn of many heights of exactly 0, which may stand for missing values."""
     known = heights.heights[np.isfinite(heights.heights)]
@@ -40,39 +44,20 @@ def warn_of_zeros(heights: Heights, which: str) -> None:
         words = f"every height of the map {which} is {known[0]:g} m"
         if which == "after":
             raise CaseError(f"{words}: nothing was measured; save it again")
-        warnings.warn(
-            f"{words}, an ideal flat; if it was measured, save it again", TriboWarning, stacklevel=3
-        )
+        warn(f"{words}, an ideal flat; if it was measured, save it again")
     zeros, others = (int(np.max(counts[each], initial=0)) for each in (values == 0, values != 0))
     if zeros > ZEROS * others and 2 * zeros < known.size:
-        warnings.warn(
-            f"{zeros} heights of the map {which} are exactly 0; put NaN where nothing was measured",
-            TriboWarning,
-            stacklevel=3,
+        warn(
+            f"{zeros} heights of the map {which} are exactly 0; put NaN where nothing was measured"
         )
 
 
 def warn_of_outliers(count: int, which: str) -> None:
     """Warn that pixels of a map were left out."""
-    warnings.warn(
+    warn(
         f"{count} pixels of the map {which} are outliers: they lie far from all but one of their "
-        "neighbours, and are taken as missing",
-        TriboWarning,
-        stacklevel=4,
+        "neighbours, and are taken as missing"
     )
-
-
-def check_scales(before: Heights, after: Heights) -> None:
-    """Refuse maps of which one has a whole part of the other's pixels along both axes."""
-    ratios = np.divide(before.heights.shape, after.heights.shape)
-    for ratio in (ratios, 1 / ratios):
-        whole = round(float(ratio[0]))
-        if whole > 1 and np.all(ratio == whole) and same_pitch(before.pitch, after.pitch):
-            raise CaseError(
-                f"one map has {whole} times as many pixels along both axes as the other, and the "
-                "same pitch: if both show the same area, average the finer one over blocks, or "
-                "state each pitch in its file; else cut the larger one"
-            )
 
 
 def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
@@ -82,11 +67,9 @@ def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
     A form of the order `form` was taken off.
     """
     if _is_covered(unworn):
-        warnings.warn(
+        warn(
             f"fewer than {FEWEST} pixels lie beside the scar, which its depths are measured "
-            "against; measure a larger area, or with smaller pixels",
-            TriboWarning,
-            stacklevel=3,
+            "against; measure a larger area, or with smaller pixels"
         )
         return
     rest = without_form(unworn, ORDER)
@@ -101,11 +84,9 @@ def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
         what, off = (
             ("tilt", ", or take a curvature off with form 2") if form == 1 else ("curvature", "")
         )
-        warnings.warn(
+        warn(
             f"the unworn surfaces differ by more than a {what}: {doubt}{off}; volume and depth are "
-            "off by more than their uncertainties",
-            TriboWarning,
-            stacklevel=3,
+            "off by more than their uncertainties"
         )
 
 
@@ -127,12 +108,10 @@ def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
         return True
     found *= radius / _of_ball(after, scar, radius)
     if abs(math.log(found / radius)) > RADIUS_OFF:
-        warnings.warn(
+        warn(
             f"the unworn surface has a radius of {1e3 * found:.4g} mm, and the ball one of "
             f"{1e3 * radius:.4g} mm: the formulas for a scar on a ball are left out; check radius "
-            "and pitch",
-            TriboWarning,
-            stacklevel=3,
+            "and pitch"
         )
         return False
     return True
@@ -154,43 +133,35 @@ def warn_of_gap(scar: Mask, known: Mask, depth: Array) -> None:
     volumes = ndimage.sum(depth, gaps, np.arange(1, count + 1))
     part = float(np.max(volumes, initial=0.0) / np.sum(depth[scar]))
     if part > GAP:
-        warnings.warn(
+        warn(
             f"{100 * part:.0f} % of the volume lie in one gap of what was measured, by the depths "
-            "around it: too much if it is not worn there, as in the middle of a circular track",
-            TriboWarning,
-            stacklevel=3,
+            "around it: too much if it is not worn there, as in the middle of a circular track"
         )
 
 
 def warn_of_edge(*, within: bool) -> None:
     """Warn that an edge cuts a scar off, that of the map, or of a gap, or `within` it."""
-    warnings.warn(
+    warn(
         f"the edge of {'the area common to both maps' if within else 'what was measured'} cuts the "
         "scar off: volume and depth are those of the part within, widths and formulas are left "
-        f"out; measure a larger area{', the same before and after' if within else ''}",
-        TriboWarning,
-        stacklevel=3,
+        f"out; measure a larger area{', the same before and after' if within else ''}"
     )
 
 
 def warn_of_several(count: int) -> None:
     """Warn that several areas are worn."""
-    warnings.warn(
+    warn(
         f"{count} areas are worn: volume is that of all, depth that of the deepest, and widths and "
-        "formulas are left out; cut the maps to one of them for these",
-        TriboWarning,
-        stacklevel=3,
+        "formulas are left out; cut the maps to one of them for these"
     )
 
 
 def warn_of_ring() -> None:
     """Warn that a scar encloses what is not worn."""
-    warnings.warn(
+    warn(
         "the scar encloses what is not worn, as a whole circular track does: widths are those of "
         "its outline, the largest depth is rough, and formulas are left out; cut the maps to a "
-        "part of the track for these",
-        TriboWarning,
-        stacklevel=3,
+        "part of the track for these"
     )
 
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.ndimage as ndimage
-from tribo import Array, CaseError, Heights, Sphere, Surface, TriboWarning
+from tribo import Array, CaseError, Heights, Sphere, Surface
 from tribo.kernel_api import (
     UNWORN,
     InferredVolume,
@@ -26,9 +25,9 @@ from tribo.kernel_api import (
 
 from tribo_scar.depth import deepest, sum_uncertainty
 from tribo_scar.findings import (
-    check_scales,
     may_be_ball,
     radius_across,
+    warn,
     warn_of_edge,
     warn_of_form,
     warn_of_gap,
@@ -43,8 +42,6 @@ from tribo_scar.worn_area import MARGIN, WornArea, worn_area
 
 MOST = 0.65
 """Part of the map that a scar may cover, with its margin."""
-FEW_PIXELS = 64
-"""Pixels along an edge of a map below which the margin of a scar is much of it."""
 PIT = 0.03
 """Part of the map below which what differs beside the scar is a pit or a scratch."""
 LITTLE = 2e-3
@@ -207,7 +204,6 @@ def measured_scar(
     else:
         if np.array_equal(before.heights, after.heights, equal_nan=True):
             raise CaseError("the maps before and after are the same; give two that differ")
-        check_scales(before, after)
         warn_of_zeros(before, "before")
         before, count_of_outliers = _without_outliers(before, "before")
     warn_of_zeros(after, "after")
@@ -217,11 +213,10 @@ def measured_scar(
     after = Heights(after.heights[found.part], after.pitch)
     covered = float(np.mean(found.worn))
     if covered > MOST:
-        few = ", or with smaller pixels" if min(shape) < FEW_PIXELS else ""
         raise CaseError(
             f"{100 * covered:.0f} % of the {shape[0]} × {shape[1]} pixels differ, or lie within a "
             "few of those that do, too much to register the maps by the rest; measure a larger "
-            f"area, half of it unworn{few}"
+            "area, half of it unworn, or with smaller pixels"
         )
     worn = worn_area(found, after.pitch, ideal=ideal)
     smooth, depth, known, scar = worn.smooth, worn.depth, worn.known, worn.scar
@@ -246,11 +241,7 @@ def measured_scar(
         ball = own_radius if radius is None and not worn.track else radius
         sizes = _sizes(found, worn, after, volume, ball, track_length)
     if track_length is not None and sizes.track_volume is None:
-        warnings.warn(
-            "track_length: no track from edge to edge of the map was found",
-            TriboWarning,
-            stacklevel=2,
-        )
+        warn("track_length: no track from edge to edge of the map was found")
     largest, largest_uncertainty = deepest(found, smooth, worn.core, worn.noise)
     (along, along_uncertainty), (across, across_uncertainty) = sizes.along, sizes.across
     return MeasuredScar(

@@ -113,11 +113,9 @@ def register(before: Heights, after: Heights, form: int = 1) -> Registration:
         first, second = (
             " × ".join(f"{1e6 * each:.6g}" for each in m.pitch) + " µm" for m in (before, after)
         )
-        swapped = same_pitch(before.pitch, after.pitch[::-1])
         raise CaseError(
-            f"the map before has a pixel every {first}, and that after every {second}; "
-            + ("swap the axes of one, or " if swapped else "")
-            + "measure or resample them alike"
+            f"the map before has a pixel every {first}, and that after every {second}; measure or "
+            "resample them alike"
         )
     start = align(before, after)
     fit = _Fit(before, after, form, start.shift, start.rotation)
