@@ -288,9 +288,9 @@ def test_a_load_along_the_stroke_cannot_go_on_from_averaged_bodies(tmp_path):
         composed(given.model_copy(update=changes))
 
 
-def test_more_positions_than_cells_are_told():
+def test_more_positions_than_cells_are_every_cell():
     model = composed(case(grid=GRID, kinematics=motion(stroke="0.58 mm", positions=501)))
-    assert model.chosen.words.endswith("at 21 positions, every cell of it, in place of 501")
+    assert (len(model.cycle), model.chosen) == (21, None)
 
 
 class Placed(WearLaw):

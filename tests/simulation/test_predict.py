@@ -67,14 +67,6 @@ def test_cells_of_a_contact_that_yields_are_counted_as_wide_as_it_is():
     assert "resolution" not in [problem.kind for problem in predict(model).problems]
 
 
-def test_a_wear_coefficient_in_the_wrong_unit_is_suspected():
-    # 1e-6 mm^3/(N m), forgotten its unit: 1e9 times too much.
-    problems = predict(small(bodies=bodies(k=1e-6))).problems
-    deep = [problem for problem in problems if problem.kind == "depth"]
-    assert {problem.place for problem in deep} == {"bodies.ball", "bodies.disk"}
-    assert all(problem.value > problem.limit for problem in deep)
-
-
 def test_the_largest_stable_step_is_the_one_the_run_takes():
     def model(time_step):
         stepping = Explicit(type="explicit", time_step=time_step)

@@ -14,8 +14,6 @@ FEW_CELLS = 8
 """Cells across a first contact, below which its pressure is inaccurate."""
 STEEP = 0.3
 """Half-width of a contact over the radius of a body, above which the half-space is doubted."""
-DEEP = 0.1
-"""Wear depth over the radius of curvature, above which a wear coefficient is doubted."""
 SHARP = 1.2
 """Largest pressure at the edge of a contact over that inside, above which it is an artefact."""
 COARSE, FINE = 0.05, 0.01
@@ -107,19 +105,6 @@ def too_wide(body: str, ratio: float, radius: float, time: float) -> Finding:
         limit=STEEP,
         place=f"bodies.{body}",
         time=time,
-    )
-
-
-def too_deep(body: str, depth: float, radius: float) -> Finding:
-    """Word a wear depth that is implausible for a radius of curvature, both in m."""
-    return Finding(
-        "depth",
-        f"{body} would wear about {1e3 * depth:.3g} mm deep, which is {depth / radius:.3g} "
-        f"times the radius of curvature of {1e3 * radius:.3g} mm: is its wear coefficient in "
-        "the unit that was meant? A bare k is in 1/Pa; write '1e-6 mm^3/(N m)' for that unit",
-        value=depth / radius,
-        limit=DEEP,
-        place=f"bodies.{body}",
     )
 
 
@@ -249,13 +234,6 @@ def positions_chosen(count: int, reason: str, *, optional: bool = False) -> Find
     """Word the positions at which a cycle is resolved, and why."""
     remedy = '; kinematics.positions = "average" is faster and less accurate' if optional else ""
     return _positions(f"the cycle is resolved at {count} positions, as {reason}{remedy}", count)
-
-
-def fewer_positions(count: int, asked: int) -> Finding:
-    """Word a cycle that has fewer cells than it was to have positions."""
-    return _positions(
-        f"the cycle is resolved at {count} positions, every cell of it, in place of {asked}", count
-    )
 
 
 def averaged_although(reason: str, refused: object) -> Finding:

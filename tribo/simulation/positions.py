@@ -10,7 +10,7 @@ from typing import Any
 
 from tribo.case import Begin, Case
 from tribo.core.errors import CaseError, NumericalError
-from tribo.core.findings import averaged_although, fewer_positions, positions_chosen
+from tribo.core.findings import averaged_although, positions_chosen
 from tribo.core.measures import half_widths
 from tribo.core.words import readable
 from tribo.lab.against_hertz import hertz_half_width
@@ -60,7 +60,7 @@ def composed(case: Case) -> Model:
     """
     motion = case.kinematics
     if not isinstance(motion, Reciprocating) or motion.positions != "auto":
-        return _taken(assemble(case))
+        return assemble(case)
     if case.begin is not None:
         return assemble(_as_begun(case, case.begin))
     # The first contact is that in the middle of the stroke.
@@ -96,14 +96,6 @@ def composed(case: Case) -> Model:
         return replace(averaged, chosen=averaged_although(words, error))
     chosen = positions_chosen(len(resolved.cycle), words, optional=not must)
     return replace(resolved, chosen=chosen)
-
-
-def _taken(model: Model) -> Model:
-    """Return a model with a finding where it has fewer cells than it was to have positions."""
-    asked, taken = getattr(model.case.kinematics, "positions", None), len(model.cycle)
-    if not isinstance(asked, int) or taken >= asked:
-        return model
-    return replace(model, chosen=fewer_positions(taken, asked))
 
 
 def is_open(case: Case) -> bool:

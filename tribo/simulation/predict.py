@@ -22,7 +22,7 @@ from tribo.model.model import Model
 from tribo.result.provenance import stated_facts
 from tribo.simulation.beginning import first_state
 from tribo.simulation.coarse import MARGINS, coarsened
-from tribo.simulation.doubt import doubting, too_deep, unusual
+from tribo.simulation.doubt import doubting, unusual
 from tribo.simulation.march import begin, march
 from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed, size_of_fields
@@ -119,7 +119,6 @@ def predict(model: Model) -> Prediction:
         few_cells(model, state.contact),
         warned,
         *(too_wide(model, first) or too_wide(model, last or first)),
-        *(too_deep(model.contact.system, last.bodies) if last else ()),
         coarse.limitation,
     )
     facts = {place: Guard(c).ask(stated_facts, c) for place, c in components(model.case)}
