@@ -18,23 +18,15 @@ def groove_excess(
 ) -> float:
     """Return by how much of its depth the stroke average makes a groove too deep at mid-stroke.
 
-    Two things add to it. Where the stroke is shorter than the contact, not all of the contact
-    passes over mid-stroke, but the average spreads all of its wear over the stroke: the share that
-    passes is that of Hertz's pressure. And once the groove is deeper than the elastic approach, the
-    ball meets a shallower groove near the ends of the stroke and wears to fit all positions: fitted
-    to runs of a moving contact with strokes of 4 to 20 half-widths and grooves of 0.4 to 10 times
-    the approach. A ball that wears faster than the flat gives way less elastically, which makes a
-    shallow groove count as a deeper one.
+    Where the stroke is shorter than the contact, the average spreads all of the wear over the
+    stroke, but only a part of the contact, by Hertz's pressure, passes over mid-stroke. Once the
+    groove is deeper than the elastic approach, the ball wears to fit the shallower ends as well:
+    a fit to runs of a moving contact with strokes of 4 to 20 half-widths and grooves of 0.4 to 10
+    times the approach. A groove that is straight across costs exponentially less with the stroke.
 
-    Where both bodies wear alike it is within a point of the runs, and within two where the ball
-    wears ten times faster. Where the flat wears ten times faster it states half to one and a half
-    times what is found. Below 4 half-widths it is an estimate: 68 % where 63 % is found at 1, and
-    twice too much at 0.25. Of flat pins it states too much: 7 % where 3 % is found at 11.
-
-    A groove that is straight across is as deep at mid-stroke as the average makes it once none of
-    the contacts over that place touch its ends: what it costs falls off exponentially. Beside
-    cylinders resolved along strokes of 4 to 33 half-widths the smaller of the two states 0.8 to 3
-    times what is found where that is over 1 %.
+    Within a point of the runs where both bodies wear alike, within two where the ball wears ten
+    times faster, half to one and a half times where the flat does; an estimate below 4 half-widths,
+    too much for flat pins, and 0.8 to 3 times what cylinders show.
 
     Parameters
     ----------

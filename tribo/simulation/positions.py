@@ -44,19 +44,13 @@ FEWEST, MOST = 9, 1001
 def composed(case: Case) -> Model:
     """Return the model of a case, the positions of its cycle chosen if they are ``"auto"``.
 
-    The average is taken where the stroke is 20 lengths of the first contact or longer; else the
-    cycle is resolved, at positions less than half the half-width of the first contact apart, and at
-    9 at least. A flat pin has them as close as its first contact needs for 1 %. A swept body that
-    varies along x is resolved at each cell. The average is taken where stepping is explicit, and
-    where the case cannot be resolved. A load that changes along the stroke is resolved always, and
-    worn bodies of a result as they were.
+    The average is taken where the stroke is 20 lengths of the first contact or longer, where
+    stepping is explicit, and where the case cannot be resolved. Else positions are less than half
+    the half-width of the first contact apart, 9 at least; a flat pin has them as close as its first
+    contact needs for 1 %, a swept body that varies along x at each cell. A load that changes along
+    the stroke is resolved always, and worn bodies of a result as they were.
 
     The choice follows from the case alone. The model's case states it.
-
-    Raises
-    ------
-    CaseError
-        What `assemble` raises.
     """
     motion = case.kinematics
     if not isinstance(motion, Reciprocating) or motion.positions != "auto":

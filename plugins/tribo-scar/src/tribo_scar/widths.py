@@ -41,21 +41,8 @@ def scar_width(
 ) -> WidthReading:
     """Return the width along an axis of a scar that ends within the map, through its middle.
 
-    It is read off the mean of five lines, of smoothed depths where noise needs it.
-
-    Parameters
-    ----------
-    depth, smooth : ndarray, shape (nx, ny)
-        Depths, NaN where missing, and smoothed depths, in m.
-    scar : ndarray of bool, shape (nx, ny)
-        The pixels of the scar.
-    noise : tuple of float
-        Standard deviation beside it of the mean of five pixels' depths, and of smoothed depths, in
-        m.
-    axis : int
-        Along which the width is.
-    pitch : float
-        Distance between pixels along it, in m.
+    It is read off the mean of five lines, of smoothed depths where noise needs it. `noise` is the
+    standard deviation beside the scar of such a mean, and of smoothed depths, in m.
     """
     clear = DEEP * noise[0] < CLEAR * np.max(smooth[scar])
     sources = ((depth, noise[0], 0.0), (smooth, noise[1], BLUR))
@@ -83,22 +70,9 @@ def track_across(
     """Return the band of a track, straight or an arc, along an axis, its width and length in m.
 
     The mean profile along the track has less noise than single depths, and shows how far it is
-    worn beyond the pixels that do by themselves.
-
-    Parameters
-    ----------
-    depth : ndarray, shape (nx, ny)
-        Depths, in m.
-    core : ndarray of bool, shape (nx, ny)
-        Pixels that are worn beyond doubt.
-    worn : ndarray of bool, shape (nx, ny)
-        Pixels beside which noise is looked for.
-    noise : float
-        Standard deviation of smoothed depths, in m, where hardly any line is beside the track.
-    axis : int
-        Along which it runs.
-    pitch : tuple of float
-        Distance between pixels along x and y, in m.
+    worn beyond the pixels that do by themselves. `core` are the pixels that are worn beyond doubt,
+    `worn` those beside which noise is looked for. Where hardly any line is beside the track `noise`
+    is taken, that of smoothed depths in m.
     """
     lines, inside, touched = (np.moveaxis(each, 1 - axis, 0) for each in (depth, core, worn))
     deep = np.where(inside, np.maximum(lines, 0.0), 0.0)
