@@ -61,5 +61,5 @@ def test_the_last_body_is_swept_unless_named():
 
 def test_a_disk_track_is_a_circumference():
     motion = Unidirectional(speed="0.1 m/s", track_radius="16 mm", revolutions=10)
-    assert motion.lap == pytest.approx(2 * math.pi * 16e-3)
-    assert motion.distance_at(motion.end_time) == pytest.approx(10 * motion.lap)
+    assert motion.track_extent == pytest.approx(2 * math.pi * 16e-3)
+    assert motion.distance_at(motion.end_time) == pytest.approx(10 * motion.track_extent)

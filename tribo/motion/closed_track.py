@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Annotated, Self
 
 from pydantic import Tag, field_validator, model_validator
@@ -13,7 +12,6 @@ from tribo.core.grid import Grid
 from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.motion.exposure import Exposure, Track, one_swept_body
 from tribo.motion.held import Held, held
 from tribo.motion.kinematics import Kinematics
 
@@ -84,16 +82,6 @@ class ClosedTrack(Kinematics):
         return self._held.ends[:-1]
 
     @property
-    @abstractmethod
-    def lap(self) -> float:
-        """Length of the closed track, in m."""
-
-    @property
-    def track_extent(self) -> float:
-        """Length of the closed track, in m."""
-        return self.lap
-
-    @property
     def _given(self) -> str:
         """Key that the length of the track was given by."""
         return "track_radius"
@@ -107,7 +95,7 @@ class ClosedTrack(Kinematics):
         CaseError
             If the stages of the speed end before.
         """
-        far = self.distance if self.revolutions is None else self.revolutions * self.lap
+        far = self.distance if self.revolutions is None else self.revolutions * self.track_extent
         return self._held.end("speed", "m", self.duration, far)
 
     def distance_at(self, time: float) -> float:
@@ -118,28 +106,24 @@ class ClosedTrack(Kinematics):
         """Return the first time at which `distance` is reached, in s."""
         return self._held.reached(distance)
 
-    def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
-        """Return the closed track for the swept body."""
-        return one_swept_body(grid, bodies, self.swept, Track(grid, self.lap))
-
     def limitation(
         self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
     ) -> str | None:
         """Return a warning once the contact is longer than the track."""
-        if 2 * half_width_x <= self.lap:
+        if 2 * half_width_x <= self.track_extent:
             return None
         return (
             f"the contact is {2e3 * half_width_x:.3g} mm long, longer than the track of "
-            f"{1e3 * self.lap:.3g} mm: it would meet itself, and the track average no "
+            f"{1e3 * self.track_extent:.3g} mm: it would meet itself, and the track average no "
             "longer holds"
         )
 
     def check_contact(self, half_width_x: float) -> None:
         """Refuse a track that is shorter than the half-width, unless the case allows it."""
-        if self.lap >= half_width_x or self.allow_short_track:
+        if self.track_extent >= half_width_x or self.allow_short_track:
             return
         raise CaseError(
-            f"the track is {1e3 * self.lap:.3g} mm long, less than the half-width of the "
+            f"the track is {1e3 * self.track_extent:.3g} mm long, less than the half-width of the "
             f"first contact, {1e3 * half_width_x:.3g} mm: give one of at least the contact's "
             f"length, {2e3 * half_width_x:.3g} mm, or set kinematics.allow_short_track = true",
             f"kinematics.{self._given}",

@@ -38,7 +38,7 @@ class Rotating(ClosedTrack):
     """Radius R of the track in the middle of the window; the axis lies towards negative y."""
 
     @property
-    def lap(self) -> float:
+    def track_extent(self) -> float:
         """Length of the closed track in the middle of the window, in m."""
         return 2 * math.pi * self.track_radius
 

@@ -62,7 +62,7 @@ class Unidirectional(ClosedTrack):
         return self
 
     @property
-    def lap(self) -> float:
+    def track_extent(self) -> float:
         """Length of the closed track, in m."""
         if self.track_length is not None:
             return self.track_length
@@ -80,9 +80,9 @@ class Unidirectional(ClosedTrack):
         if self.track_radius is not None and not self.turns:
             check_axis(self.track_radius, grid)
         if self.positions == "average":
-            track = Track(grid, self.lap, shape_stays=self.turns)
+            track = Track(grid, self.track_extent, shape_stays=self.turns)
             return one_swept_body(grid, bodies, self.swept, track)
-        passing = Passing(grid, self._stroke(grid).starts, self.lap)
+        passing = Passing(grid, self._stroke(grid).starts, self.track_extent)
         return one_swept_body(grid, bodies, self.swept, passing)
 
     def limitation(
@@ -106,10 +106,10 @@ class Unidirectional(ClosedTrack):
                 '(contact.type = "periodic"); use positions = "average"',
                 "kinematics.positions",
             )
-        if self.lap < grid.size[0] * (1 - WHOLE):
+        if self.track_extent < grid.size[0] * (1 - WHOLE):
             raise CaseError(
-                f"{1e3 * self.lap:.4g} mm is shorter than the window of {1e3 * grid.size[0]:.4g} "
-                "mm, after which the contact repeats",
+                f"{1e3 * self.track_extent:.4g} mm is shorter than the window of "
+                f"{1e3 * grid.size[0]:.4g} mm, after which the contact repeats",
                 f"kinematics.{self._given}",
             )
         return Stroke(grid.size[0], grid.spacing[0], self.positions, grid.period)
