@@ -155,7 +155,6 @@ from tribo.study.sweeping.summary import column_heading as column_heading
 from tribo.study.sweeping.summary import is_text as is_text
 from tribo.study.sweeping.summary import labelled as labelled
 from tribo.study.sweeping.summary import varied_paths as varied_paths
-from tribo.study.variation import short_labels as short_labels
 from tribo.study.variation import unknown_body as unknown_body
 from tribo.study.variation import valid_case as valid_case
 from tribo.wear.modified import times as times

@@ -107,16 +107,12 @@ def _value(value: Any, marks: Sequence[Any]) -> str:
         # By the names of bodies, say.
         return ", ".join(f"{key} {_value(each, marks)}" for key, each in value.items())
     if isinstance(value, Sequence) and not isinstance(value, str):
-        return _listed(value, _unit(marks))
+        if len(value) > _LONG or not all(isinstance(each, int | float) for each in value):
+            return f"({len(value)} values)"
+        return ", ".join(amount(float(each), _unit(marks)) for each in value)
     if isinstance(value, int | float):
         return amount(float(value), _unit(marks))
     return str(value).replace("_", " ")
-
-
-def _listed(values: Sequence[Any], unit: str) -> str:
-    if len(values) > _LONG or not all(isinstance(value, int | float) for value in values):
-        return f"({len(values)} values)"
-    return ", ".join(amount(float(value), unit) for value in values)
 
 
 def _marks(table: type[BaseModel] | None, key: str) -> list[Any]:

@@ -10,7 +10,6 @@ from tribo import Comparison
 from tribo.kernel_api import (
     comparison_picture,
     comparison_table,
-    short_labels,
     signed,
     time_labels,
     to_toml,
@@ -21,21 +20,6 @@ from tribo_report.fields import pressure_maps
 from tribo_report.page import render, stills
 from tribo_report.result import cited, facts
 from tribo_report.sentence import DEPTHS, VOLUMES, quoted
-
-
-def readable(comparison: Comparison) -> Comparison:
-    """Return a comparison of the files of ``tribo compare`` by what varied, not by file names."""
-    stems = [label.split(",_") for label in comparison.results]
-    points = [dict(part.partition("=")[::2] for part in parts) for parts in stems]
-    if comparison.settings or not all("=" in part for parts in stems for part in parts):
-        return comparison
-    points = [{path: value.replace("_", " ") for path, value in p.items()} for p in points]
-    names = dict(zip(comparison.results, short_labels(points), strict=True))
-    return Comparison(
-        {names[label]: result for label, result in comparison.results.items()},
-        {names[label]: point for label, point in zip(names, points, strict=True)},
-        {names[label]: own for label, own in comparison.own_names.items()},
-    )
 
 
 def comparison_page(comparison: Comparison) -> str:

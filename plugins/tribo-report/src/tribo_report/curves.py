@@ -179,9 +179,12 @@ def history(results: Results) -> dict[str, Any]:
                     "note": note,
                     "dotted": note == AT_SAVES,
                     "curves": [
-                        {"name": called, "x": plain(x / size(shown)), "y": each_plain(y / factor)}
-                        for called, (*xs, y) in curves.items()
-                        for x in xs[across : across + 1]
+                        {
+                            "name": called,
+                            "x": plain(curve[across] / size(shown)),
+                            "y": each_plain(curve[-1] / factor),
+                        }
+                        for called, curve in curves.items()
                     ],
                 }
             )

@@ -78,9 +78,13 @@ def cited(result: Result) -> str:
 def made_here() -> dict[str, Any]:
     """Return the packages that make a report, and how to cite it."""
     packages: Any = environment()["packages"]
-    words = ", ".join(f"{name} {version}" for name, version in packages.items())
     citation = CITATION.format(version=packages.get("tribo", ""))
-    return {"provenance": [("report made with", words)], "citation": citation}
+    return {"provenance": [("report made with", versions(packages))], "citation": citation}
+
+
+def versions(packages: Mapping[str, str]) -> str:
+    """Return packages and their versions in words."""
+    return ", ".join(f"{name} {version}" for name, version in packages.items())
 
 
 def _tables(result: Result, lab: LabReport, estimates: Sequence[Estimate]) -> list[DataTable]:
@@ -142,11 +146,10 @@ def facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 def _provenance(result: Result) -> list[tuple[str, str]]:
     made = result.provenance
-    packages = ", ".join(f"{name} {version}" for name, version in made["packages"].items())
-    rows = [("made with", f"Python {made['python']}, {packages}")]
+    rows = [("made with", f"Python {made['python']}, {versions(made['packages'])}")]
     for again in made.get("resumed_with", ()):
-        later = ", ".join(f"{name} {version}" for name, version in again["packages"].items())
-        rows.append(("gone on with", f"Python {again['python']}, {later}"))
+        words = f"Python {again['python']}, {versions(again['packages'])}"
+        rows.append(("gone on with", words))
     if begun := made.get("begun_with"):
         rows.append(("begun with", f"{begun['result']}, SHA-256 {begun['sha256']}"))
     for place, origin in made["components"].items():

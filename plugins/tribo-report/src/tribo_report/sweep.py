@@ -24,7 +24,7 @@ from tribo.kernel_api import (
 
 from tribo_report.page import render, stills
 from tribo_report.reduced import each_plain
-from tribo_report.result import case_text, cited, facts
+from tribo_report.result import case_text, cited, facts, versions
 from tribo_report.sentence import DEPTHS, VOLUMES, quoted
 
 RUNS, RESULTS = "runs.csv", "results"
@@ -53,7 +53,7 @@ def sweep_page(folder: Path) -> str:
         raise CaseError(f"{folder / RUNS} is not the table of a sweep: {error}") from error
     with Result.open(folder / RESULTS / str(first)) as result:
         bodies, citation, case = result.body_names, cited(result), result.case
-        made = ", ".join(f"{name} {v}" for name, v in result.provenance["packages"].items())
+        made = versions(result.provenance["packages"])
     measures = [
         column
         for column in (*(f"bodies.{b}.{m}" for m in MEASURES for b in bodies), "max_pressure_Pa")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from tribo import CaseError, Comparison, Result, Sweep, compare
 from tribo.kernel_api import check_output
 
-from tribo_report.comparison import comparison_page, readable
+from tribo_report.comparison import comparison_page
 from tribo_report.page import write_page
 from tribo_report.result import result_page
 from tribo_report.sweep import RUNS, sweep_page
@@ -87,7 +87,7 @@ def _page(what: What, verified: Path | None) -> str:
     if not isinstance(found, Sequence):
         return str(_calibrations().calibration_page(found, "Calibration"))
     with compare(found) as comparison:
-        return comparison_page(readable(comparison))
+        return comparison_page(comparison)
 
 
 def _calibrations() -> Any:

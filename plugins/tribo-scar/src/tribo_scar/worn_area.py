@@ -37,45 +37,31 @@ MARGIN = 4
 
 @dataclass(frozen=True)
 class WornArea:
-    """The scar of a registered pair of maps.
-
-    Parameters
-    ----------
-    smooth : ndarray, shape (nx, ny)
-        Smoothed depths, in m.
-    depth : ndarray, shape (nx, ny)
-        Depths, with missing pixels interpolated, in m.
-    known, core, scar, piled : ndarray of bool, shape (nx, ny)
-        Pixels that were measured; that are worn beyond doubt; the whole scar; what stands up.
-    noise : float
-        Standard deviation of the smoothed depths of what is unworn, in m.
-    count : int
-        Number of areas apart from each other.
-    is_open : list of bool
-        Whether it reaches both edges of the map, along x and along y.
-    cut_off : bool
-        Whether it goes on beyond the edge, other than at the ends of a track.
-    is_ring : bool
-        Whether it encloses what is not worn, as a whole circular track does.
-    track : WidthReading or None
-        The width of a track, across its direction; None for a scar that ends within the map.
-    length : float or None
-        The length of a track within the map, along its direction, in m.
-    """
+    """The scar of a registered pair of maps; arrays have the shape (nx, ny), lengths are in m."""
 
     smooth: Array
+    """Smoothed depths."""
     depth: Array
+    """Depths, with missing pixels interpolated."""
     known: Mask
     core: Mask
+    """Pixels that are worn beyond doubt."""
     scar: Mask
     piled: Mask
     noise: float
+    """Standard deviation of the smoothed depths of what is unworn."""
     count: int
+    """Number of areas apart from each other."""
     is_open: list[bool]
+    """Whether it reaches both edges of the map, along x and along y."""
     cut_off: bool
+    """Whether it goes on beyond the edge, other than at the ends of a track."""
     is_ring: bool
+    """Whether it encloses what is not worn, as a whole circular track does."""
     track: WidthReading | None
+    """Width across a track; None for a scar that ends within the map."""
     length: float | None
+    """Length of a track within the map, along its direction."""
 
 
 def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -> WornArea:
