@@ -107,13 +107,7 @@ class Winkler(ContactSolver):
         self.foundation_modulus(system)
 
     def foundation_modulus(self, system: ContactSystem) -> float:
-        """Return K_w, in Pa/m.
-
-        Raises
-        ------
-        CaseError
-            If it is to match Hertz's contact and `system` has no such contact.
-        """
+        """Return K_w, in Pa/m; `CaseError` if it is to match Hertz's contact, and there is none."""
         if self.modulus is not None:
             return self.modulus
         if self.layer is not None:

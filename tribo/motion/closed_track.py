@@ -88,13 +88,7 @@ class ClosedTrack(Kinematics):
 
     @property
     def end_time(self) -> float:
-        """Time at which the motion ends, in s.
-
-        Raises
-        ------
-        CaseError
-            If the stages of the speed end before.
-        """
+        """Time at which the motion ends, in s; `CaseError` if its stages end before."""
         far = self.distance if self.revolutions is None else self.revolutions * self.track_extent
         return self._held.end("speed", "m", self.duration, far)
 

@@ -56,10 +56,7 @@ class Held:
     def end(self, what: str, unit: str, time: float | None, amount: float | None) -> float:
         """Return when it ends that lasts a time (s) or, without one, until it has come so far.
 
-        Raises
-        ------
-        CaseError
-            If the last rate, called `what`, ends before; `unit` is that of the amount.
+        `CaseError` if the last rate, called `what`, ends before; `unit` is that of the amount.
         """
         last, most = self.ends[-1], self.by(self.ends[-1])
         if time is None:
@@ -80,10 +77,7 @@ class Held:
 def held(what: str, given: float | tuple[Any, ...]) -> Held:
     """Return what a case gives: a number, or stages with `until` and a rate by the name `what`.
 
-    Raises
-    ------
-    ValueError
-        If the times do not increase, or all are rests.
+    ValueError if the times do not increase, or all are rests.
     """
     if isinstance(given, float):
         return Held((given,))

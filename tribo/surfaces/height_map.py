@@ -62,13 +62,7 @@ class HeightMap(Laid):
         return self
 
     def relief(self, grid: Grid) -> Array:
-        """Return the heights between those given, on lines; the map must reach over the window.
-
-        Raises
-        ------
-        CaseError
-            If it does not.
-        """
+        """Return the heights between those given, on lines; the map must reach over the window."""
         sizes = zip(self.size, grid.size, strict=True)
         if any(own < asked * (1 - ROUND_OFF) for own, asked in sizes):
             raise CaseError(

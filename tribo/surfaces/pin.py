@@ -46,13 +46,7 @@ class Pin(Surface):
         return self
 
     def height(self, grid: Grid) -> Array:
-        """Return the height of the end; the edge must be at least four cells wide.
-
-        Raises
-        ------
-        CaseError
-            If it is not.
-        """
+        """Return the height of the end; the edge must be at least four cells wide."""
         for spacing in grid.spacing:
             check_resolved(self.edge, spacing, "edge")
         beyond = np.maximum(np.hypot(*grid.mesh) - (self.radius - self.edge), 0.0)

@@ -68,13 +68,7 @@ class Rough(Laid):
         return self
 
     def relief(self, grid: Grid) -> Array:
-        """Return the waves; the shortest must be at least four cells long.
-
-        Raises
-        ------
-        CaseError
-            If they are not.
-        """
+        """Return the waves; the shortest must be at least four cells long."""
         # Waves are longer by the root of the stretch along x, and shorter by it along y.
         root = math.sqrt(self.stretch)
         shortest = self.cut_off * root, self.cut_off / root

@@ -34,13 +34,7 @@ from tribo_report.result import facts, made_here
 
 
 def calibration_file_page(path: Path) -> str:
-    """Return the report of what ``tribo calibrate --json`` printed.
-
-    Raises
-    ------
-    CaseError
-        If there is no such file, or it is not one.
-    """
+    """Return the report of a file that ``tribo calibrate --json`` printed."""
     with printed_by("tribo calibrate --json", path):
         found = json.loads(path.read_text(encoding="utf-8"))
         read = read_maps(found) if "maps" in found else _read(found)

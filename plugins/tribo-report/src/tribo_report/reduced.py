@@ -13,18 +13,12 @@ DIGITS = 4
 
 @dataclass(frozen=True)
 class Blocks:
-    """Neighbouring cells taken together along an axis.
-
-    Parameters
-    ----------
-    position : ndarray, shape (n,)
-        Of the cells, in m.
-    size : int
-        Cells in a block; the last may have fewer.
-    """
+    """Neighbouring cells taken together along an axis."""
 
     position: Array
+    """Of the cells, in m."""
     size: int
+    """Cells in a block; the last may have fewer."""
 
     @classmethod
     def of(cls, position: Array, most: int) -> Blocks:

@@ -32,14 +32,7 @@ Estimate = Mapping[str, Any]
 
 
 def read_verified(path: Path, result: Result) -> Sequence[Estimate]:
-    """Return the estimates of a study that ``tribo verify CASE --json`` printed.
-
-    Raises
-    ------
-    CaseError
-        If there is no such file, it is not such a study, or one of another case than that
-        of `result`.
-    """
+    """Return the estimates that ``tribo verify CASE --json`` printed of the case of `result`."""
     with printed_by("tribo verify CASE --json", path, "--verified"):
         estimates = json.loads(path.read_text(encoding="utf-8"))["estimates"]
         read = [

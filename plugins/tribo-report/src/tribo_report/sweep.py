@@ -34,13 +34,7 @@ MEASURES = ("wear_volume_m3", "max_wear_depth_m", "scar_across_m")
 
 
 def sweep_page(folder: Path) -> str:
-    """Return the report of the sweep in a folder as HTML; see `tribo_report.write_report`.
-
-    Raises
-    ------
-    CaseError
-        If there is no table of its runs, or none of them is done.
-    """
+    """Return the report of the sweep in a folder as HTML; see `tribo_report.write_report`."""
     try:
         runs = pd.read_csv(folder / RUNS)
         done = runs[runs["status"] == "done"]
