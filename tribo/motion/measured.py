@@ -88,7 +88,7 @@ class Measured(Kinematics):
         first, last = self.path[0][1], self.path[-1][1]
         if (
             self.end_time > self._period * (1 + ROUND_OFF)
-            and abs(last - first) > CLOSED * self._range
+            and abs(last - first) > CLOSED * self.track_extent
         ):
             raise ValueError(
                 f"the path begins at {1e3 * first:.4g} mm and ends at {1e3 * last:.4g} mm; to "
@@ -108,14 +108,10 @@ class Measured(Kinematics):
         return float(self._samples[0][-1])
 
     @property
-    def _range(self) -> float:
-        places = self._samples[1]
-        return float(np.max(places) - np.min(places))
-
-    @property
     def track_extent(self) -> float:
         """Range of the path, in m."""
-        return self._range
+        places = self._samples[1]
+        return float(np.max(places) - np.min(places))
 
     @property
     def end_time(self) -> float:
@@ -152,19 +148,19 @@ class Measured(Kinematics):
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return its rows along the path for the swept body."""
-        passing = Passing(grid, self._stroke(grid).starts, self._range)
+        passing = Passing(grid, self._stroke(grid).starts, self.track_extent)
         return one_swept_body(grid, bodies, self.swept, passing)
 
     def check_contact(self, half_width_x: float) -> None:
         """Refuse positions further apart than half the half-width."""
-        check_spacing(self._range, self.positions, half_width_x)
+        check_spacing(self.track_extent, self.positions, half_width_x)
 
     def coarsened(self, half_width_x: float) -> Kinematics:
         """Return back and forth sliding over the range of the path at its mean speed."""
         slid = float(self._samples[2][-1])
         strokes = Reciprocating(
-            stroke=self._range,
-            frequency=slid / (2 * self._range * self._period),
+            stroke=self.track_extent,
+            frequency=slid / (2 * self.track_extent * self._period),
             duration=self.end_time,
             positions="cells",
             swept=self.swept,
@@ -172,6 +168,6 @@ class Measured(Kinematics):
         return strokes.coarsened(half_width_x)
 
     def _stroke(self, grid: Grid) -> Stroke:
-        stroke = Stroke(self._range, grid.spacing[0], self.positions, grid.period)
+        stroke = Stroke(self.track_extent, grid.spacing[0], self.positions, grid.period)
         stroke.check_cells("kinematics.path")
         return stroke

@@ -114,11 +114,6 @@ class Reciprocating(Kinematics):
         return held("frequency", self.frequency)
 
     @property
-    def _steady(self) -> float:
-        """The one frequency of a sinusoidal motion, in Hz."""
-        return self._held.rates[0]
-
-    @property
     def edges(self) -> Sequence[float]:
         """Times at which one stage of the frequency ends and another begins, in s."""
         return self._held.ends[:-1]
@@ -163,7 +158,7 @@ class Reciprocating(Kinematics):
         # From a reversal to mid-stroke; distance goes as the integral of the speed over the phase.
         sines = np.sin(0.25 * math.pi * (nodes + 1))
         shares = weights * sines / np.sum(weights * sines)
-        largest = math.pi * self.stroke * self._steady
+        largest = math.pi * self.stroke * self._held.rates[0]
         return [(largest * float(s), float(w)) for s, w in zip(sines, shares, strict=True)]
 
     def cycle(self, grid: Grid) -> Sequence[Position]:
@@ -179,7 +174,7 @@ class Reciprocating(Kinematics):
         last = len(at) - 1
         right = np.interp(np.linspace(0, last, SAMPLES * last + 1), np.arange(last + 1), at)
         phases = np.concatenate([-right[:0:-1], right])
-        times = phases / (2 * math.pi * self._steady)
+        times = phases / (2 * math.pi * self._held.rates[0])
         return stroke.passed(times, 0.5 * self.stroke * np.sin(phases))
 
     def coarsened(self, half_width_x: float) -> Reciprocating:

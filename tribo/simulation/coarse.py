@@ -7,6 +7,7 @@ from tribo.core.grid import Grid
 from tribo.model.model import Model
 from tribo.simulation.assembly import as_it_repeats, assemble, varied
 from tribo.stepping.implicit import Implicit
+from tribo.wear.law import WearLaw
 
 MARGINS = (1.5, 1.0)
 """Edges of the windows to try, in those of the case: the contact may outgrow its own."""
@@ -33,19 +34,13 @@ def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) 
 
 def smoothed(case: Case) -> Case:
     """Return a case without the relief of its surfaces and of its wear laws."""
-    bodies = {
-        name: body.model_copy(
-            update={
-                "surface": body.surface.smoothed(),
-                "wear": None if body.wear is None else body.wear.smoothed(),
-                "layers": tuple(
-                    layer.model_copy(update={"wear": layer.wear.smoothed()})
-                    if layer.wear
-                    else layer
-                    for layer in body.layers
-                ),
-            }
-        )
-        for name, body in case.bodies.items()
-    }
+
+    def smooth(law: WearLaw | None) -> WearLaw | None:
+        return None if law is None else law.smoothed()
+
+    bodies = {}
+    for name, body in case.bodies.items():
+        layers = (each.model_copy(update={"wear": smooth(each.wear)}) for each in body.layers)
+        form = {"surface": body.surface.smoothed(), "wear": smooth(body.wear)}
+        bodies[name] = body.model_copy(update={**form, "layers": tuple(layers)})
     return case.model_copy(update={"bodies": bodies})

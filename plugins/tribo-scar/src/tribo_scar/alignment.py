@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -13,8 +12,6 @@ from scipy.stats import median_abs_deviation
 from tribo import Array, Heights
 from tribo.kernel_api import nearest_filled, smoothed
 
-SAME = 1e-3
-"""Relative difference up to which two pitches are the same."""
 OVERLAP = 0.2
 """Smallest overlap of the maps."""
 COARSE = 192
@@ -24,11 +21,6 @@ FINE = 4.0
 LARGEST_ROTATION = math.radians(3.0)
 SIGNIFICANT = 8.0
 """Correlation, in standard deviations, that is not chance."""
-
-
-def same_pitch(one: Sequence[float], other: Sequence[float]) -> bool:
-    """Whether maps of these distances between pixels may be laid on each other."""
-    return np.allclose(one, other, rtol=SAME, atol=0)
 
 
 class Alignment(NamedTuple):

@@ -9,8 +9,10 @@ import scipy.ndimage as ndimage
 from tribo import Array, CaseError, Heights
 from tribo.kernel_api import Mask, nearest_filled, smoothed
 
-from tribo_scar.alignment import OVERLAP, align, robust_deviation, rotation, same_pitch
+from tribo_scar.alignment import OVERLAP, align, robust_deviation, rotation
 
+SAME = 1e-3
+"""Relative difference up to which two pitches are the same."""
 TEXTURE = 3.0
 """Eigenvalue of the normal matrix, relative to that of noise, above which a direction of shift and
 rotation is determined."""
@@ -109,7 +111,7 @@ def register(before: Heights, after: Heights, form: int = 1) -> Registration:
     Comput. Vis. 56, 221-255. White, H. (1980), A heteroskedasticity-consistent covariance matrix
     estimator, Econometrica 48, 817-838.
     """
-    if not same_pitch(before.pitch, after.pitch):
+    if not np.allclose(before.pitch, after.pitch, rtol=SAME, atol=0):
         first, second = (
             " × ".join(f"{1e6 * each:.6g}" for each in m.pitch) + " µm" for m in (before, after)
         )
