@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import math
 
-NOTICED = 0.05
-"""Excess from which on a run says so."""
-
 
 def groove_excess(
     stroke: float,

@@ -10,11 +10,12 @@ import numpy as np
 from pydantic import ConfigDict, Field, Tag, field_validator, model_validator
 
 from tribo.core.errors import CaseError
+from tribo.core.findings import COARSE
 from tribo.core.grid import Grid
 from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.motion.averaging_error import NOTICED, groove_excess, too_deep
+from tribo.motion.averaging_error import groove_excess, too_deep
 from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
 from tribo.motion.held import Held, held
@@ -206,7 +207,7 @@ class Reciprocating(Kinematics):
         """Return what the stroke average costs, once that is more than 5 % of the depth."""
         stroke, widths = self.stroke, self.stroke / half_width_x
         excess = groove_excess(stroke, half_width_x, depth, approach, volume_ratio, line)
-        if depth <= 0 or excess < NOTICED or not self._averages:
+        if depth <= 0 or excess < COARSE or not self._averages:
             return None
         many = f"{widths:.2g} half-width" + ("" if f"{widths:.2g}" == "1" else "s")
         return (

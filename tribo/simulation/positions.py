@@ -10,7 +10,7 @@ from typing import Any
 
 from tribo.case import Begin, Case
 from tribo.core.errors import CaseError, NumericalError
-from tribo.core.findings import averaged_although, positions_chosen
+from tribo.core.findings import FINE, UNLIKE, averaged_although, positions_chosen
 from tribo.core.measures import half_widths
 from tribo.core.words import readable
 from tribo.lab.against_hertz import hertz_half_width
@@ -29,14 +29,12 @@ LENGTHS = 20.0
 
 That makes the groove of the paper's load and path 3 % too deep, beside 97 positions.
 """
-EVEN, SAME = 0.01, 0.01
-"""Unevenness of a groove that positions may leave; strokes that are as long as the window."""
 NEARLY = 2 / 3
 """Of the cells of a stroke, from which on all of them are taken."""
 SPARE = 0.85
 """Of half a half-width, between two positions: coarser grids still take as many."""
 MUST = "the load changes along the stroke"
-UNLIKE = "what passes is not the same all along"
+UNEVEN = "what passes is not the same all along"
 FEWEST, MOST = 9, 1001
 """Positions that are chosen: with fewer, strokes of one or two half-widths are 1 % off."""
 
@@ -63,7 +61,7 @@ def composed(case: Case) -> Model:
         averaged = assemble(_fixed(even, "average"))
     except CaseError:
         model = assemble(_fixed(case, _cells(case, motion.stroke)))
-        return replace(model, chosen=positions_chosen(len(model.cycle), UNLIKE))
+        return replace(model, chosen=positions_chosen(len(model.cycle), UNEVEN))
     must = bool(case.load.along)
     if not must and not (_resolvable(case) and averaged.changing):
         return averaged
@@ -187,13 +185,13 @@ def _spacing(model: Model, stroke: float, half_width: float) -> float:
     with suppress(NumericalError):
         form = assemble(varied(smoothed(model.case)))
         if form.contact.system.curvature is None:
-            return min(apart, spacing_for(first_contact(form).contact.pressure, EVEN) * dx)
+            return min(apart, spacing_for(first_contact(form).contact.pressure, FINE) * dx)
     return apart
 
 
 def _goes_round(model: Model, stroke: float, half_width: float) -> bool:
     """Whether a contact that repeats meets what passed its neighbour."""
-    beyond = stroke > (1 + SAME) * model.grid.size[0]
+    beyond = stroke > (1 + UNLIKE) * model.grid.size[0]
     return is_endless(model, half_width) or (model.case.contact.periodic and beyond)
 
 
@@ -201,7 +199,7 @@ def _why(model: Model, stroke: float, half_width: float) -> str | None:
     """Return why a cycle that can be averaged is to be resolved; None if it is not."""
     window = model.grid.size[0]
     if _goes_round(model, stroke, half_width):
-        if abs(stroke - window) <= SAME * window:
+        if abs(stroke - window) <= UNLIKE * window:
             return None
         return (
             f"the contact repeats every {1e3 * window:.3g} mm, and the average would spread what "
