@@ -7,7 +7,7 @@ import math
 from tribo.case import Case
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.stepping.cycle import Cycle
+from tribo.model.cycle import Cycle
 
 FIELDS = 88
 """Arrays of the window's size that a run holds at its peak.
