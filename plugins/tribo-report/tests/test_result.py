@@ -21,6 +21,7 @@ from tribo.plotting.figures import result_pictures
 from tribo.templates import template
 
 from tribo_report.amounts import component_words, value_words
+from tribo_report.drawing import drawing
 from tribo_report.fields import charts
 from tribo_report.reduced import Blocks, block_means, each_plain
 from tribo_report.result import result_page
@@ -187,9 +188,11 @@ def test_what_effects_provide_and_models_keep_has_maps_and_curves():
     assert not data["history"]["axes"][0]["panels"][0]["dotted"]
 
 
-def test_a_coating_is_told_and_its_end_is_a_line_in_the_sections():
+def test_a_coating_is_drawn_and_told():
     layers = [{"thickness": 1e-5}, {"thickness": 1e-3}]
     with made(layers=layers) as result:
+        case = result.case | {"load": {"normal": 100.0}, "kinematics": {}}
+        assert "coated ball on disk, pressed by 100 N" in drawing(case, "disk")
         told = "The coating (2 layers) of the ball is nowhere worn through."
         assert told in sentence(result, result.report(), [])
         charted = {each["name"]: each["curves"] for each in charts(result)["sections"]}
@@ -260,6 +263,7 @@ def test_a_duty_cycle_is_told_and_drawn_with_its_pause_and_its_friction(tmp_path
     assert "normal 50 N to 15 min, 100 N to 30 min" in page
     assert "coefficient 0.5" in page
     assert f"Friction: 50 N at the end, {work['friction_energy_J']:.4g} J dissipated." in page
+    assert "with pauses" in page
     assert panels["Work of friction"]["y"][-1] == pytest.approx(work["friction_energy_J"], rel=1e-3)
     drawn = [panels["Friction force"][axis] for axis in "xy"]
     for time, newton in ((9.9, 25), (10.1, 0), (19.9, 0), (20.1, 50)):

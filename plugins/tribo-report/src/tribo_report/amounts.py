@@ -51,16 +51,22 @@ def value_words(config: Mapping[str, Any], table: type[BaseModel] | None) -> str
     return ", ".join(_values(config, table))
 
 
-def _range_words(values: Sequence[float], unit: str) -> str:
-    """Return the range of a value over its stages."""
-    low, high = min(filter(None, values), default=0.0), max(values)
+def range_words(table: Mapping[str, Any], key: str, unit: str) -> str:
+    """Return a number of a table of the case, or its range over stages; "" if it is neither."""
+    value: Any = table.get(key)
+    numbers = [float(stage[key]) for stage in value] if in_stages(value, key) else []
+    if isinstance(value, int | float):
+        numbers = [float(value)]
+    if not numbers:
+        return ""
+    low, high = min(filter(None, numbers), default=0.0), max(numbers)
     words = amount(low, unit)
     if high > low:
         words += f" to {amount(high, unit)}"
-    return words + (" with pauses" if min(values) < low else "")
+    return words + (" with pauses" if min(numbers) < low else "")
 
 
-def _in_stages(value: Any, key: str) -> bool:
+def in_stages(value: Any, key: str) -> bool:
     """Return whether a value is given in stages, as tables with its own key."""
     listed = isinstance(value, list | tuple) and len(value) > 0
     return listed and all(isinstance(stage, Mapping) and key in stage for stage in value)
@@ -74,7 +80,7 @@ def _stage_words(stages: Sequence[Mapping[str, Any]], key: str, unit: str) -> st
         # A load is held to a time, or reached at a time in a straight line.
         told.append(f"{level} {'to' if stage.get('until') else 'at'} {time}")
     if len(told) > _LONG:
-        over = _range_words([float(stage[key]) for stage in stages], unit)
+        over = range_words({key: stages}, key, unit)
         return f"{told[0]}, …, {told[-1]} ({len(told)} stages, {over})"
     return ", ".join(told)
 
@@ -88,7 +94,7 @@ def _values(config: Mapping[str, Any], table: type[BaseModel] | None) -> Iterato
             yield name
             continue
         marks = _marks(table, key)
-        staged = _in_stages(value, key)
+        staged = in_stages(value, key)
         words = _stage_words(value, key, _unit(marks)) if staged else _value(value, marks)
         of_law = table is not None and issubclass(table, WearLaw)
         if of_law and _unit(marks) == "1/Pa" and isinstance(value, int | float):

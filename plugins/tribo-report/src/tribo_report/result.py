@@ -23,6 +23,7 @@ from tribo.kernel_api import (
 )
 
 from tribo_report.amounts import amount, component_words, value_words
+from tribo_report.drawing import drawing
 from tribo_report.fields import charts
 from tribo_report.page import render, stills
 from tribo_report.sentence import Estimate, read_verified, sentence, trust
@@ -51,6 +52,7 @@ def result_page(result: Result, verified: Path | None = None) -> str:
     """Return the report of a result as HTML; see `tribo_report.write_report`."""
     lab, case = lab_report(result), result.case
     estimates = [] if verified is None else read_verified(verified, result)
+    swept = next((name for name in result.body_names if result.body(name).swept), None)
     return render(
         "result.html.j2",
         title=Path(result.name).stem,
@@ -59,6 +61,7 @@ def result_page(result: Result, verified: Path | None = None) -> str:
         tables=_tables(result, lab, estimates),
         remarks=list(lab_sentences(result, lab)),
         notes=list(map(str, lab.findings)),
+        drawing=drawing(case, swept) if _is_whole(case) else "",
         facts=facts(case),
         data=charts(result),
         stills=stills(result_pictures(result)),
@@ -124,6 +127,10 @@ def _uncertainty(row: Estimate) -> str:
         return "diverges"
     percent = f" ({100 * found / abs(value):.2g} %)" if value else ""
     return f"{amount(found, row['unit'])}{percent}"
+
+
+def _is_whole(case: Mapping[str, Any]) -> bool:
+    return len(case["bodies"]) == 2 and {"load", "kinematics"} <= case.keys()
 
 
 def facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:

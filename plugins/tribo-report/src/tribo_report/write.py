@@ -69,6 +69,10 @@ def write_report(
 
 
 def _page(what: What, verified: Path | None) -> str:
+    if isinstance(what, str | Path) and Path(what).suffix == ".json":
+        if verified is not None:
+            raise _not_one_result()
+        return str(_calibrations().calibration_file_page(Path(what)))
     found = _found(what) if isinstance(what, str | Path) else what
     if isinstance(found, Result):
         return result_page(found, verified)
@@ -76,12 +80,11 @@ def _page(what: What, verified: Path | None) -> str:
         with Result.open(found[0]) as result:
             return result_page(result, verified)
     if verified is not None:
-        raise CaseError("a study of one case goes with one result", "--verified")
+        raise _not_one_result()
     if isinstance(found, Sweep):
         return sweep_page(found.folder)
     if isinstance(found, Path):
-        is_fit = found.suffix == ".json"
-        return str(_calibrations().calibration_file_page(found)) if is_fit else sweep_page(found)
+        return sweep_page(found)
     if isinstance(found, Comparison):
         return comparison_page(found)
     if not isinstance(found, Sequence):
@@ -100,13 +103,17 @@ def _calibrations() -> Any:
         ) from error
 
 
+def _not_one_result() -> CaseError:
+    return CaseError("a study of one case goes with one result", "--verified")
+
+
 def _found(what: str | Path) -> Path | list[Path]:
-    """Return what a path stands for: a fit or the folder of a sweep, or result files."""
+    """Return what a path stands for: the folder of a sweep, or result files."""
     place = Path(what)
-    if place.suffix == ".json" or (place / RUNS).exists():
-        return place
     if not place.is_dir():
         return [place]
+    if (place / RUNS).exists():
+        return place
     results = sorted(place.glob("*.h5"))
     if not results:
         raise CaseError(f"{place} holds no result file (.h5)")
