@@ -18,7 +18,8 @@ from tribo.motion.exposure import Exposure, Passing, Stationary, Track
 from tribo.motion.kinematics import Kinematics
 
 SAMPLES = 8
-INVERSE = 1e-6
+SAME = 1e-6
+"""Part by which what must be the same may differ."""
 
 
 class GuardedMotion(Guard[Kinematics]):
@@ -66,25 +67,25 @@ class GuardedMotion(Guard[Kinematics]):
             where = f" for body {body!r}"
             length = np.asarray(getattr(exposure, "length", 1.0))
             self.array("length", length, length.shape, where)
-            if type(exposure) not in (Stationary, Track, Passing):
-                self._try(exposure, where, grid)
             if exposure.starts is not None:
                 self._check_starts(exposure, exposure.starts, positions, grid)
+            if type(exposure) not in (Stationary, Track, Passing):
+                self._try(exposure, where, grid, positions // 2)
         return {body: answer[body] for body in bodies}
 
-    def _try(self, exposure: Exposure, where: str, grid: Grid) -> None:
+    def _try(self, exposure: Exposure, where: str, grid: Grid, position: int) -> None:
         """Hold an exposure to its contract, which is the same at each call."""
         rate = readonly(np.ones(grid.cells))
         own = self.ask(getattr, exposure, "rows"), grid.cells[1]
-        mean = self.ask(exposure.average, rate)
-        if exposure.starts is None:
-            mean = self.array("average", mean, own, where)
-        elif not np.array_equal(mean, rate):
-            rule = "of a body with rows of its own it must be the rate itself"
-            raise self.bad("average", "not the rate itself", where, rule)
-        passing = rate if exposure.starts is None else readonly(np.ones(own))
-        self.array("envelope", self.ask(exposure.envelope, passing), own, where)
-        self.number("volume", self.ask(exposure.volume, readonly(mean)), where)
+        passing = self.ask(exposure.lay, rate, position)
+        mean = self.ask(exposure.lay, self.ask(exposure.average, rate), position)
+        mean = self.array("average", mean, own, where)
+        self.array("envelope", self.ask(exposure.envelope, readonly(passing)), own, where)
+        volume = self.number("volume", self.ask(exposure.volume, mean), where)
+        worn = rate.size * grid.cell_area
+        if abs(volume - worn) > SAME * worn:
+            rule = f"it must be {worn:.6g} m³, as of the rate"
+            raise self.bad("volume", f"{volume:.6g} m³ of an average", where, rule)
         given = self.ask(exposure.compliance, rate, rate)
         if given is not None:
             self.typed(given, WearCompliance, f"a compliance{where}")
@@ -146,7 +147,7 @@ class GuardedMotion(Guard[Kinematics]):
             distance = total * part / SAMPLES
             time = self.time_at(distance)
             reached = self.distance_at(time)
-            if not (time >= 0 and abs(reached - distance) <= INVERSE * total):
+            if not (time >= 0 and abs(reached - distance) <= SAME * total):
                 raise PluginError(
                     f"{self} puts {distance:g} m at {time:g} s, but has slid {reached:g} m by "
                     "then: its time is not the inverse of its distance"
