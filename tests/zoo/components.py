@@ -107,8 +107,7 @@ for name, words, height in (
     ("no_scan", "FileNotFoundError: scan.opd", raising(FileNotFoundError("scan.opd"))),
 ):
     ZOO.bad(name, Ball, words, height=height)
-for name, words, curvature in (("one_curvature", "'curvature' that is 3", lambda self: 3),):
-    ZOO.bad(name, Ball, words, curvature=property(curvature))
+ZOO.bad("one_curvature", Ball, "'curvature' that is 3", curvature=property(lambda self: 3))
 
 # Effects.
 

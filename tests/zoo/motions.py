@@ -74,28 +74,24 @@ def doubled(self, rate):
     return rate
 
 
-for name, words, average in (
-    ("average_none", "'average' for body 'ball' that", lambda self, rate: None),
-    ("average_negative", "'average' for body 'ball' that", lambda self, rate: -np.abs(rate)),
-    ("average_writes", "read-only", doubled),
-    ("average_raises", "raised IndexError: out", staticmethod(raising(IndexError("out")))),
-):
-    exposed(name, words, average=average)
+AVERAGE = "'average' for body 'ball' that"
+exposed("average_none", AVERAGE, average=lambda self, rate: None)
+exposed("average_negative", AVERAGE, average=lambda self, rate: -np.abs(rate))
+exposed("average_writes", "read-only", average=doubled)
+exposed("average_raises", "raised IndexError: out", average=raising(IndexError("out")))
 exposed("volume_nan", "'volume' for body 'ball' that is nan", volume=lambda self, depth: np.nan)
-for name, words, envelope in (
-    (
-        "envelope_short",
-        "'envelope' for body 'ball' that is float64 of shape (23, 24)",
-        lambda self, field: field[1:],
-    ),
-):
-    exposed(name, words, envelope=envelope)
-for name, words, compliance in (
-    ("compliance_array", "ndarray as a compliance for body 'ball'", lambda self, k, p: k),
-    (
-        "compliance_below_0",
-        "'local' for body 'ball' that is -",
-        lambda self, k, p: WearCompliance(-k, np.zeros(24)),
-    ),
-):
-    exposed(name, words, compliance=compliance)
+exposed(
+    "envelope_short",
+    "'envelope' for body 'ball' that is float64 of shape (23, 24)",
+    envelope=lambda self, field: field[1:],
+)
+exposed(
+    "compliance_array",
+    "ndarray as a compliance for body 'ball'",
+    compliance=lambda self, k, p: k,
+)
+exposed(
+    "compliance_below_0",
+    "'local' for body 'ball' that is -",
+    compliance=lambda self, k, p: WearCompliance(-k, np.zeros(24)),
+)
