@@ -68,10 +68,11 @@ class Checks(ABC):
         self._fields = dict(fields)
         self._others = [*others]
         self._lost = ""
+        self._kept: dict[int, Any] = {}
 
     @abstractmethod
     def _inputs(self, component: Any, number: int) -> Any:
-        """Return new inputs for a call, by number."""
+        """Return inputs for a call, by number."""
 
     @abstractmethod
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
@@ -85,8 +86,14 @@ class Checks(ABC):
         """Return a new component with the configuration."""
         return self._cls.model_validate(self._config.model_dump())
 
-    def _answers(self, component: Any, number: int = 0) -> Mapping[str, Any]:
-        return self._call(component, locked(self._inputs(component, number)))
+    def _sample(self, number: int = 0) -> Any:
+        """Return the inputs of a number, which cannot be written to."""
+        if number not in self._kept:
+            self._kept[number] = locked(self._inputs(self._make(), number))
+        return self._kept[number]
+
+    def _samples(self) -> list[Any]:
+        return [self._sample(number) for number in self._numbers]
 
     def _refused(self, error: CaseError) -> Exception:
         """Return what bodies of other names come to, which a component refused."""
@@ -100,19 +107,17 @@ class Checks(ABC):
             given = self._cls.model_config.get(option)
             require(given == needed, f"model_config has {option}={given!r}; keep {needed!r}")
 
-    def quantities_have_units(self) -> None:
-        """Every real number in the configuration declares its unit."""
-        bare = [name for name, schema in _properties(self._cls) if _is_bare(schema)]
+    def configuration_is_described(self) -> None:
+        """Each field of the configuration has a description, and each real number its unit."""
+        properties = list(_properties(self._cls))
+        silent = [name for name, schema in properties if not schema.get("description")]
+        require(not silent, f"{', '.join(silent)}: no description; put a docstring under the field")
+        bare = [name for name, schema in properties if _is_bare(schema)]
         require(
             not bare,
             f"{', '.join(bare)}: no unit; declare it as Annotated[float, Quantity('Pa')], "
             "Quantity('1') for none",
         )
-
-    def fields_are_described(self) -> None:
-        """Every field of the configuration has a description."""
-        silent = [name for name, schema in _properties(self._cls) if not schema.get("description")]
-        require(not silent, f"{', '.join(silent)}: no description; put a docstring under the field")
 
     def configuration_survives_a_file(self) -> None:
         """Written to a file, with or without its defaults, and read back, it is the same."""
@@ -162,64 +167,51 @@ class Checks(ABC):
                     raise CheckFailed(f"{where}: {error}") from error
                 require(size == 1, f"{where}: the unit {field.unit!r} is not SI")
 
-    def inputs_stay_as_they_are(self) -> None:
-        """No input is changed by a call."""
-        component = self._make()
-        inputs = self._inputs(component, 0)
-        before = deepcopy(inputs)
-        self._call(component, inputs)
-        where = first_difference(before, inputs)
-        require(where is None, f"{where} was changed; work on a copy")
+    def calls_leave_no_trace(self) -> None:
+        """A call changes no input, prints nothing, and draws no global random number."""
+        component, given = self._make(), deepcopy(self._sample())
+        before = deepcopy(_changeable(given))
+        with redirect_stdout(io.StringIO()) as printed:
+            self._call(component, given)
+        where = first_difference(before, _changeable(given))
+        require(
+            where is None,
+            f"{where} was changed; work on a copy, and draw from numpy.random.default_rng with a "
+            "seed from the configuration",
+        )
+        said = printed.getvalue()
+        require(not said, f"it printed {said[:60]!r}; leave it out, or use sys.stderr or logging")
 
     def same_inputs_give_same_bits(self) -> None:
         """The answer follows from the inputs alone, whatever was asked before."""
         used = self._make()
-        for number in self._numbers:
-            first = deepcopy(self._answers(self._make(), number))
+        for given in self._samples():
+            first = deepcopy(self._call(self._make(), given))
             for when, component in (
                 ("asked of one that was asked others before", used),
                 ("asked again", used),
                 ("asked of a new object", self._make()),
             ):
-                where = first_difference(first, self._answers(component, number))
+                where = first_difference(first, self._call(component, given))
                 require(where is None, f"{where} differs when {when}; keep nothing that evolves")
 
     def units_may_be_rescaled(self) -> None:
         """In other units of length, mass, time and temperature it answers the same."""
         component, other = self._make(), rescaled(self._config)
         units = self._units(component)
-        for number in self._numbers:
-            given = locked(self._inputs(component, number))
+        for given in self._samples():
             answer = in_other_units(deepcopy(self._call(component, given)), units)
-            found = dict(values_in(self._call(other, locked(in_other_units(given, units)))))
+            asked = locked(in_other_units(given, units))
+            found = dict(values_in(self._call(other, asked)))
             for where, needed in values_in(answer):
                 if isinstance(needed, float | np.ndarray) and "residuals" not in where:
                     expect_close(
                         f"{where} in other units (a number in the code has a unit, or the answer "
                         "has not the one that is declared)",
-                        np.asarray(found[where]),
-                        np.asarray(needed),
+                        found[where],
+                        needed,
                         self._exactness,
                     )
-
-    def nothing_is_printed(self) -> None:
-        """Standard output is left to the command line."""
-        with redirect_stdout(io.StringIO()) as caught:
-            self._answers(self._make())
-        said = caught.getvalue()
-        require(not said, f"it printed {said[:60]!r}; leave it out, or use sys.stderr or logging")
-
-    def no_global_random_numbers(self) -> None:
-        """Random numbers come from a generator of its own, with a seed in its configuration."""
-        component = self._make()
-        before = _generators()
-        self._answers(component)
-        where = first_difference(before, _generators())
-        require(
-            where is None,
-            f"it drew from the global generator of {where}; use numpy.random.default_rng with a "
-            "seed from the configuration",
-        )
 
 
 def _properties(cls: type[Component]) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -242,6 +234,7 @@ def _is_bare(schema: Mapping[str, Any]) -> bool:
     return any(_is_bare(part) for part in inner if isinstance(part, Mapping))
 
 
-def _generators() -> Mapping[str, Any]:
+def _changeable(given: Any) -> dict[str, Any]:
+    """Return what a call must leave as it is."""
     legacy: Any = np.random.get_state
-    return {"random": random.getstate(), "numpy.random": deepcopy(legacy())}
+    return {"inputs": given, "random": random.getstate(), "numpy.random": legacy()}

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from tribo.core.arrays import Array, Mask
+from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.core.fields import ContactConditions, LocalConditions, WearRate
-from tribo.core.grid import Grid
+from tribo.core.fields import ContactConditions
 from tribo.guards.parts import GuardedEffect
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
@@ -21,40 +20,33 @@ from tribo.testing.compare import (
     expect_close,
     first_difference,
     locked,
+    mapped,
     require,
     values_in,
 )
 from tribo.testing.samples import GRID
-from tribo.wear.law import WearLaw
+from tribo.wear.archard import Archard
 
 _LONGEST = 60.0
 """Time for which a state has been there at most, in s."""
 _FAR = 100.0
 _VARIED, _SLIGHT = 1e-3, 1e-6
-"""Part by which a cell is varied, and of an answer that beyond `reach` may change: rounding, and
-what changes with the square of the part."""
+"""Part by which a cell is varied, and of an answer that beyond `reach` may change: rounding."""
 
 
 class EffectChecks(LocalChecks):
     """Checks of an effect."""
 
     _numbers = (0, 1, 2, 3)
-    _per = "s"
 
-    def _inputs(self, component: Any, number: int) -> ContactConditions:
-        """Return conditions by number; 3: those of 0, come to rest."""
-        given = samples.contact_conditions(component, self._fields, number % 3)
-        given = self._lasting(given)
+    def _inputs(
+        self, component: Any, number: int, names: tuple[str, ...] = BODIES
+    ) -> ContactConditions:
+        """Return conditions by number, with a state of some age at each point; 3: come to rest."""
+        given = samples.contact_conditions(component, self._fields, number % 3, names)
+        if given.state:
+            given = self._remembering(given, _LONGEST * samples.pattern(GRID.cells) ** 3)
         return replace(given, speed=0.0) if number == 3 else given
-
-    def _lasting(self, given: ContactConditions) -> ContactConditions:
-        """Return conditions with a state that each point has had for a time of its own."""
-        if not given.state:
-            return given
-        lasting: ContactConditions = self._remembering(
-            given, _LONGEST * samples.pattern(GRID.cells) ** 3
-        )
-        return lasting
 
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
         rates: Mapping[str, Array] = component.state_rates(given)
@@ -64,7 +56,8 @@ class EffectChecks(LocalChecks):
         fields = component.fields(replace(inputs, wear_rates={}))
         provided = {name: dict(values) for name, values in fields.items()}
         rates = component.state_rates(inputs) if inputs.state else {}
-        return {**provided, **self._state_answers(component, rates)}
+        # A state itself is the answer to whoever requires its name.
+        return {**provided, **inputs.state, **self._state_answers(component, rates)}
 
     def answers_fit_a_run(self) -> None:
         """Each declared field comes for each body, finite, within its limits, on the window.
@@ -72,23 +65,22 @@ class EffectChecks(LocalChecks):
         At rest too, and however far its state has gone.
         """
         effect = GuardedEffect(self._make(), BODIES)
-        for given in self._samples(effect.component):
+        for given in self._samples():
             for at in (given, _gone_far(effect, given)):
                 effect.fields(replace(at, wear_rates={}))
                 effect.state_rates(at)
 
     def bodies_may_have_any_names(self) -> None:
         """Nothing depends on names and order of the bodies, unless its configuration has names."""
-        effect = self._make()
-        usual = self._answers(effect)
-        names = ("upper", "lower")
-        given = samples.contact_conditions(effect, self._fields, names=names)
+        effect, names = self._make(), ("upper", "lower")
+        usual = self._call(effect, self._sample())
         try:
             GuardedEffect(effect, names)
+            given = samples.contact_conditions(effect, self._fields, names=names)
             effect.check(given.materials, given.swept)
         except CaseError as error:
             raise self._refused(error) from error
-        given = self._lasting(given)
+        given = locked(self._inputs(effect, 0, names))
         turned = replace(
             given,
             materials=_turned(given.materials),
@@ -97,41 +89,39 @@ class EffectChecks(LocalChecks):
         )
         back = dict(zip(names, BODIES, strict=True))
         for asked, how in ((given, f"are called {names}"), (turned, "change places")):
-            answers = {
-                field: {back.get(n, n): v for n, v in of.items()} if isinstance(of, dict) else of
-                for field, of in self._call(effect, locked(asked)).items()
-            }
+            answers = mapped(self._call(effect, asked), lambda _, value: value, back)
             changed = first_difference(answers, usual)
             require(not changed, f"{changed} changes when the bodies {how}")
 
     def larger_window_has_the_same_fields(self) -> None:
         """A wider rim round the contact, without pressure, changes nothing within."""
-        effect = self._make()
-        given, usual = self._inputs(effect, 0), dict(values_in(self._answers(effect)))
-        (nx, ny), (dx, dy) = GRID.cells, GRID.spacing
-        grid = Grid(((nx + 6) * dx, (ny + 4) * dy), (nx + 6, ny + 4))
-        wide = _widened(replace(given, grid=grid))
-        for where, values in values_in(self._call(effect, locked(wide))):
-            inside = np.broadcast_to(np.asarray(values), grid.cells)[3 : nx + 3, 2 : ny + 2]
-            needed = np.broadcast_to(np.asarray(usual[where]), GRID.cells)
-            expect_close(f"{where} in a larger window", inside, needed, 1e-9)
+        effect, given = self._make(), self._sample()
+        usual = self._call(effect, given)
+        answers = self._call(effect, locked(_widened(given)))
+        for (where, needed), (_, found) in zip(values_in(usual), values_in(answers), strict=True):
+            needed = np.broadcast_to(needed, GRID.cells)
+            expect_close(f"{where} in a larger window", samples.inside(found), needed, 1e-9)
 
     def reach_is_as_declared(self) -> None:
         """Nothing follows pressure, state or wear of points further away than `reach` says."""
         effect = self._make()
         apply_if(effect.reach, "it declares no reach")
         whole = effect.reach == "contact"
-        for sample in self._samples(effect):
+        reach = effect.reach if isinstance(effect.reach, tuple) else (0, 0)
+        for sample in self._samples():
             given = locked(_even(sample)) if whole else sample
             usual = dict(values_in(self._call(effect, given)))
-            for what, cells, other in _varied(given, balanced=whole):
-                near = _near(cells, effect.reach if isinstance(effect.reach, tuple) else (0, 0))
+            for what, cells, other in _varied(given, whole):
+                near = np.zeros(GRID.cells, dtype=bool)
+                for along, across in cells:
+                    rows, columns = (np.arange(n) for n in GRID.cells)
+                    in_row = np.abs(rows - along) <= reach[0]
+                    near |= in_row[:, None] & (np.abs(columns - across) <= reach[1])
                 for where, values in values_in(self._call(effect, locked(other))):
-                    before = np.asarray(usual[where], dtype=float)
-                    change = np.abs(np.asarray(values, dtype=float) - before)
+                    change = np.abs(values - usual[where])
                     off = np.max(np.where(near, 0.0, np.broadcast_to(change, GRID.cells)))
                     require(
-                        off <= _SLIGHT * np.max(np.abs(before)),
+                        off <= _SLIGHT * np.max(np.abs(usual[where])),
                         f"{where} follows {what} further away than reach = {effect.reach!r}",
                     )
 
@@ -141,26 +131,25 @@ class EffectChecks(LocalChecks):
         names = {field.name for field in effect.provides}
         sloped = [name for name in names if f"{name}_slope" in names]
         apply_if(sloped, "it provides no slope")
-        for number in self._numbers:
-            given = self._inputs(effect, number)
+        for given in self._samples():
             step = 1e-6 * given.pressure
-            more = self._call(effect, replace(given, pressure=given.pressure + step))
-            less = self._call(effect, replace(given, pressure=given.pressure - step))
-            now = self._call(effect, given)
+            less, now, more = (
+                self._call(effect, locked(replace(given, pressure=given.pressure + way * step)))
+                for way in (-1, 0, 1)
+            )
             for name in sloped:
                 for body in given.materials:
-                    found = np.asarray(now[f"{name}_slope"][body]) * step
-                    needed = 0.5 * (np.asarray(more[name][body]) - np.asarray(less[name][body]))
+                    found = now[f"{name}_slope"][body] * step
+                    needed = 0.5 * (more[name][body] - less[name][body])
                     expect_close(f"change of {name!r} by its slope", found, needed, 1e-4)
 
     def fields_follow_no_wear(self) -> None:
         """Fields are the same with wear rates and without: wear follows from them."""
         effect = self._make()
         apply_if(effect.provides, "it provides no field")
-        for given in self._samples(effect):
-            where = first_difference(
-                effect.fields(given), effect.fields(replace(given, wear_rates={}))
-            )
+        for given in self._samples():
+            without = effect.fields(replace(given, wear_rates={}))
+            where = first_difference(effect.fields(given), without)
             require(
                 where is None,
                 f"{where} follows contact.wear_rates, which a run does not know yet; let a state "
@@ -170,55 +159,45 @@ class EffectChecks(LocalChecks):
     def runs_in_a_case(self) -> None:
         """In a small case a law gets the fields it requires in every step."""
         effect = self._make()
-        law = _reads([field.name for field in effect.provides])
-        samples.run(self._fields, law=law, effects=[effect])
+
+        class Reads(Archard):
+            """A law that requires the fields and wears as if they were not there."""
+
+            type = "tribo.testing.reads"
+            requires = tuple(field.name for field in effect.provides)
+
+        samples.run(self._fields, law=Reads(k=samples.ARCHARD.k), effects=[effect])
 
 
 def _varied(
-    given: ContactConditions, *, balanced: bool
+    given: ContactConditions, swapped: bool
 ) -> Iterator[tuple[str, list[tuple[int, int]], ContactConditions]]:
     """Yield what is varied, at which cells, and the conditions with it.
 
-    The pressure is varied at one cell; or, balanced, at three so that Σp and Σp² stay.
+    The pressure is varied at one cell; or swapped with that of another, so that all sums stay.
     """
     nx, ny = GRID.cells
-    cells = [(nx // 2, ny // 2), (nx // 2 + 1, ny // 2 + 1), (nx // 2 + 3, ny // 2 - 1)]
-    cells = cells if balanced else cells[:1]
-    parts = [1.0]
-    if balanced:
-        three = np.array([given.pressure[cell] for cell in cells])
-        parts = np.cross(np.ones(3), three / three.max()).tolist()
+    here, there = (nx // 2, ny // 2), (nx // 2 + 3, ny // 2 - 1)
     pressure = given.pressure.copy()
-    for cell, part in zip(cells, parts, strict=True):
-        pressure[cell] += _VARIED * part * given.pressure[cells[0]]
+    pressure[here] *= 1 + _VARIED
+    if swapped:
+        pressure[here], pressure[there] = given.pressure[there], given.pressure[here]
+    cells = [here, there] if swapped else [here]
     yield "the pressure", cells, replace(given, pressure=pressure)
     for what in ("state", "wear_rates"):
         fields: Mapping[str, Array] = getattr(given, what)
         for name, values in fields.items():
             if values.shape == GRID.cells:
                 other = values.copy()
-                other[cells[0]] += _VARIED * float(np.max(np.abs(values)))
+                other[here] += _VARIED * float(np.max(np.abs(values)))
                 varied: dict[str, Any] = {what: {**fields, name: other}}
-                yield repr(name), cells[:1], replace(given, **varied)
+                yield repr(name), [here], replace(given, **varied)
 
 
 def _even(given: ContactConditions) -> ContactConditions:
     """Return conditions with fields that are alike at all points: what follows Σ μ p follows Σp."""
-    fields = {
-        name: {body: np.full_like(values, np.mean(values)) for body, values in of_bodies.items()}
-        for name, of_bodies in given.fields.items()
-    }
-    return replace(given, fields=fields)
-
-
-def _near(cells: Sequence[tuple[int, int]], reach: tuple[int, int]) -> Mask:
-    """Return where the window lies no further from any of some cells than it is reached."""
-    near = np.zeros(GRID.cells, dtype=bool)
-    for along, across in cells:
-        rows, columns = (np.arange(n) for n in GRID.cells)
-        in_row = np.abs(rows - along) <= reach[0]
-        near |= in_row[:, None] & (np.abs(columns - across) <= reach[1])
-    return near
+    even = mapped(given.fields, lambda _, values: np.full_like(values, np.mean(values)))
+    return replace(given, fields=even)
 
 
 def _turned(of_bodies: Mapping[str, Any]) -> dict[str, Any]:
@@ -236,27 +215,11 @@ def _gone_far(effect: GuardedEffect, given: ContactConditions) -> ContactConditi
 
 
 def _widened(given: ContactConditions) -> ContactConditions:
-    """Return conditions with some more rows and columns on each side, without pressure."""
+    """Return conditions with a rim on each side of the window, without pressure."""
 
-    def widened(value: Any) -> Any:
-        if isinstance(value, Mapping):
-            return {name: widened(inner) for name, inner in value.items()}
-        uniform = value.shape == (1, 1)
-        return value if uniform else np.pad(value, [(3, 3), (2, 2)], mode="edge")
+    def widened(_: tuple[str, ...], value: Any) -> Any:
+        is_map = isinstance(value, np.ndarray) and value.shape == GRID.cells
+        return np.pad(value, samples.RIM, mode="edge") if is_map else value
 
-    pressure = np.pad(given.pressure, [(3, 3), (2, 2)])
-    parts = {name: widened(getattr(given, name)) for name in ("fields", "state", "wear_rates")}
-    return replace(given, pressure=pressure, **parts)
-
-
-def _reads(names: Sequence[str]) -> WearLaw:
-    """Return a law that requires some fields and wears as if they were not there."""
-
-    class Reads(WearLaw):
-        type = "tribo.testing.reads"
-        requires = tuple(names)
-
-        def rate(self, local: LocalConditions) -> WearRate:
-            return samples.ARCHARD.rate(local)
-
-    return Reads()
+    pressure = np.pad(given.pressure, samples.RIM)
+    return replace(mapped(given, widened), grid=samples.wider(GRID), pressure=pressure)

@@ -3,33 +3,39 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from functools import partial
-from itertools import pairwise, product
-from typing import Any, ClassVar
+from itertools import product
+from typing import Any
 
 import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.fields import Field
 from tribo.core.units import quantities
-from tribo.guards.answers import initial, rate_of
+from tribo.guards.answers import answers_of, initial, rate_of
 from tribo.testing import samples
 from tribo.testing.ageing import aged
 from tribo.testing.checks import Checks
-from tribo.testing.compare import apply_if, first_difference, jump, locked, require
+from tribo.testing.compare import (
+    apply_if,
+    first_difference,
+    largest_jump,
+    locked,
+    mapped,
+    require,
+)
 from tribo.testing.rescaling import renewed, units_of
 
 _RUNGS = 33
 """Values of a state between which a jump of the rates is looked for."""
 
+Altered = Callable[[Any, Any, str], Iterator[tuple[Any, Any]]]
+"""Yields components and conditions in which what has a name is another than in those given."""
+
 
 class LocalChecks(Checks):
     """Checks of what answers at each point, from fields and from a state of its own."""
-
-    _per: ClassVar[str]
-    """What rates of the state are per: m or s."""
 
     def _units(self, component: Any) -> Mapping[str, float]:
         given = [*map(samples.known_field, component.requires), *component.state_fields]
@@ -55,89 +61,91 @@ class LocalChecks(Checks):
             initial(name): value for name, value in starts
         }
 
-    def _samples(self, component: Any) -> list[Any]:
-        return [locked(self._inputs(component, number)) for number in self._numbers]
-
     def _each(self) -> list[Any]:
         """Return the checks of every configuration, this one's first."""
         others = [each for each in self._others if each is not self._config]
         return [self, *(type(self)(each, self._fields) for each in others)]
 
-    def configuration_matters(self) -> None:
-        """Each number that is given changes an answer, in one configuration at least."""
-        idle = {name for name in self._cls.model_fields if _is_given(self._config, name)}
-        apply_if(idle, "no number is given but defaults and 0")
-        for checks in self._each():
-            config = checks._config
-            usual = [checks._answers(checks._make(), number) for number in self._numbers]
-            for name in [n for n in idle if getattr(config, n)]:
-                for times in (0.5, 2.0):
-                    other = renewed(config, {name: times * getattr(config, name)})
-                    for number, before in zip(self._numbers, usual, strict=True):
-                        if first_difference(before, checks._answers(other, number)):
-                            idle.discard(name)
-        names = ", ".join(sorted(idle))
-        require(not idle, f"{names}: half as much, or twice, changes no answer")
+    def _expect_all_to_matter(self, names: set[str], altered: Altered, fault: str) -> None:
+        """Fail if one of the names alters no answer, in one configuration at least.
 
-    def states_move_and_matter(self) -> None:
-        """Each state field changes, and a law's changes the wear or another state."""
-        names = [field.name for field in self._make().state_fields]
-        apply_if(names, "it keeps no state")
-        still, idle = {*names}, {*names} if self._per == "m" else set()
+        The rate of a state is no answer to the state itself.
+        """
         for checks in self._each():
             component = checks._make()
-            for given in checks._samples(component):
-                answers = dict(self._call(component, given))
-                first = component.initial_state()
-                for name in [name for name in names if name in first]:
-                    if np.any(answers.get(rate_of(name), 0.0)):
-                        still.discard(name)
-                    other = _at(given, name, first[name])
-                    own = {rate_of(name): None}
-                    if first_difference(answers | own, {**self._call(component, other), **own}):
-                        idle.discard(name)
-        for names_of, fault in ((still, "never moves"), (idle, "alters nothing")):
-            require(not names_of, f"the state {', '.join(sorted(names_of))} {fault}")
+            for given, name in product(checks._samples(), sorted(names)):
+                own = {rate_of(name): None}
+                before = {**checks._call(component, given), **own}
+                for pair in altered(component, given, name):
+                    if first_difference(before, {**checks._call(*pair), **own}):
+                        names = names - {name}
+        require(not names, f"{', '.join(sorted(names))}: {fault}")
+
+    def configuration_matters(self) -> None:
+        """Each number that is given changes an answer, in one configuration at least."""
+        names = {name for name in self._cls.model_fields if _is_given(self._config, name)}
+        apply_if(names, "no number is given but defaults and 0")
+
+        def altered(component: Any, given: Any, name: str) -> Iterator[tuple[Any, Any]]:
+            for times in (0.5, 2.0) if getattr(component, name) else ():
+                yield renewed(component, {name: times * getattr(component, name)}), given
+
+        self._expect_all_to_matter(names, altered, "half as much, or twice, changes no answer")
+
+    def states_move_and_matter(self) -> None:
+        """Each state field moves, and changes the wear, another state or who requires it."""
+        names = {field.name for field in self._make().state_fields}
+        apply_if(names, "it keeps no state")
+        every = [
+            each._call(each._make(), given) for each in self._each() for given in each._samples()
+        ]
+        moved = {
+            name for name in names for answers in every if np.any(answers.get(rate_of(name), 0))
+        }
+        require(moved == names, f"the state {', '.join(sorted(names - moved))} never moves")
+
+        def altered(component: Any, given: Any, name: str) -> Iterator[tuple[Any, Any]]:
+            if name in given.state:
+                yield component, _at(given, name, component.initial_state()[name])
+
+        self._expect_all_to_matter(names, altered, "the state alters nothing")
 
     def states_keep_their_limits(self) -> None:
         """At a limit of a state field, its rate does not lead beyond."""
         component = self._make()
         limited = [each for each in _sides(component) if each[1] is not None]
         apply_if(limited, "no state field has a limit")
-        for given in self._samples(component):
-            for field, limit, sign in limited:
-                rates = self._rates(component, _at(given, field.name, limit))
-                beyond = float(np.max(sign * np.asarray(rates[field.name])))
-                require(
-                    beyond <= 0,
-                    f"{field.name!r} at its limit of {limit:g} {field.unit} changes by "
-                    f"{sign * beyond:.3g} per {self._per}",
-                )
+        for given, (field, limit, sign) in product(self._samples(), limited):
+            rates = self._rates(component, _at(given, field.name, limit))
+            beyond = float(np.max(sign * np.asarray(rates[field.name])))
+            unit = answers_of(component)[rate_of(field.name)].unit
+            require(
+                beyond <= 0,
+                f"{field.name!r} at its limit of {limit:g} {field.unit} changes by "
+                f"{sign * beyond:.3g} {unit}",
+            )
 
     def rates_jump_at_breaks_alone(self) -> None:
         """Where an answer jumps as a state changes, the field declares a break."""
         component = self._make()
         apply_if(component.state_fields, "it keeps no state")
-        for given, field in product(self._samples(component)[:2], component.state_fields):
-
-            def answers(value: float, given: Any = given, name: str = field.name) -> list[Array]:
-                found = self._call(component, _at(given, name, value))
-                return [np.asarray(found[key]) for key in sorted(found) if _is_rate(found[key])]
-
+        for given, field in product(self._samples()[:2], component.state_fields):
             values = given.state[field.name]
-            ladder = np.linspace(float(np.min(values)), float(np.max(values)), _RUNGS).tolist()
-            span = ladder[-1] - ladder[0]
-            at = [answers(value) for value in ladder] if span > 0 else []
-            for number, rungs in enumerate(zip(*at, strict=True)):
-                size = max(float(np.max(np.abs(each))) for each in rungs)
-                steps = [float(np.max(np.abs(b - a))) for a, b in pairwise(rungs)]
-                low, high = ladder[int(np.argmax(steps)) :][:2]
-                where, left = jump(partial(_numbered, answers, number), low, high)
-                known = any(abs(each - where) <= 1e-6 * span for each in field.breaks)
+            ladder = np.linspace(np.min(values), np.max(values), _RUNGS)
+            for name in _arrays(self._call(component, given)) if np.ptp(ladder) else ():
+
+                def answer(
+                    value: float, given: Any = given, field: Field = field, name: str = name
+                ) -> Array:
+                    found = self._call(component, _at(given, field.name, value))
+                    return np.asarray(found[name])
+
+                where, part = largest_jump(answer, ladder)
+                known = any(abs(each - where) <= 1e-6 * np.ptp(ladder) for each in field.breaks)
                 require(
-                    known or left <= 1e-6 * size,
-                    f"as {field.name!r} passes {where:.6g} {field.unit} an answer jumps by "
-                    f"{left:.3g}, of up to {size:.3g}; declare that with its field, as breaks",
+                    known or part <= 1e-6,
+                    f"as {field.name!r} passes {where:.6g} {field.unit}, {name!r} jumps by "
+                    f"{part:.3g} of its size; declare that with its field, as breaks",
                 )
 
     def states_do_not_run_away(self) -> None:
@@ -145,25 +153,23 @@ class LocalChecks(Checks):
         component = self._make()
         free = [(field.name, sign) for field, limit, sign in _sides(component) if limit is None]
         apply_if(free, "each state field has limits, or there is none")
-        for given in self._samples(component):
-            for name, sign in free:
-                most = sign * max(float(np.max(np.abs(given.state[name]))), 1e-300)
-                with np.errstate(all="ignore"):
-                    slow, fast = (
-                        sign * self._rates(component, _at(given, name, times * most))[name]
-                        for times in (1e3, 1e6)
-                    )
-                away = (slow > 0) & (fast > 100 * slow) & np.isfinite(fast)
-                require(
-                    not np.any(away),
-                    f"{name!r} changes the faster the further it has gone, without end: is the "
-                    "sign of its rate right? A limit that it keeps is declared with its field",
+        for given, (name, sign) in product(self._samples(), free):
+            most = sign * max(float(np.max(np.abs(given.state[name]))), 1e-300)
+            with np.errstate(all="ignore"):
+                slow, fast = (
+                    sign * self._rates(component, _at(given, name, times * most))[name]
+                    for times in (1e3, 1e6)
                 )
+            away = (slow > 0) & (fast > 100 * slow) & np.isfinite(fast)
+            require(
+                not np.any(away),
+                f"{name!r} changes the faster the further it has gone, without end: is the "
+                "sign of its rate right? A limit that it keeps is declared with its field",
+            )
 
     def only_declared_fields_are_asked_for(self) -> None:
         """It asks for no field but those in `requires`, and for no state but its own."""
-        component = self._make()
-        given = locked(self._inputs(component, 0))
+        component, given = self._make(), self._sample()
         fields, state = samples.Asked(given.fields), samples.Asked(given.state)
         missed = {"requires": fields.missed}
         try:
@@ -179,18 +185,15 @@ class LocalChecks(Checks):
 
     def required_fields_matter(self) -> None:
         """Each field that it requires changes an answer, in one configuration at least."""
-        idle = {*self._make().requires}
-        apply_if(idle, "it requires no field")
-        for checks in self._each():
-            component = checks._make()
-            for given in checks._samples(component):
-                answers = self._call(component, given)
-                for name in idle & {*given.fields}:
-                    more = {**given.fields, name: _more(given.fields[name])}
-                    other = locked(replace(given, fields=more))
-                    if first_difference(answers, self._call(component, other)):
-                        idle = idle - {name}
-        require(not idle, f"{', '.join(sorted(idle))}: no answer changes by 1 % more of it")
+        names = {*self._make().requires}
+        apply_if(names, "it requires no field")
+
+        def altered(component: Any, given: Any, name: str) -> Iterator[tuple[Any, Any]]:
+            if name in given.fields:
+                more = mapped(given.fields[name], lambda _, values: 1.01 * values)
+                yield component, locked(replace(given, fields={**given.fields, name: more}))
+
+        self._expect_all_to_matter(names, altered, "no answer changes by 1 % more of it")
 
 
 def _sides(component: Any) -> list[tuple[Field, Any, float]]:
@@ -215,15 +218,6 @@ def _is_given(config: Any, name: str) -> bool:
     return marked and isinstance(value, float) and value not in (0, field.default)
 
 
-def _numbered(answers: Callable[[float], list[Array]], number: int, value: float) -> Array:
-    return answers(value)[number]
-
-
-def _is_rate(values: Any) -> bool:
-    return not isinstance(values, Mapping) and np.ndim(values) > 0
-
-
-def _more(field: Any) -> Any:
-    if isinstance(field, Mapping):
-        return {body: _more(values) for body, values in field.items()}
-    return 1.01 * field
+def _arrays(answers: Mapping[str, Any]) -> list[str]:
+    """Return the names of the answers that are arrays."""
+    return [name for name, values in answers.items() if np.ndim(values) > 0]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
 from copy import deepcopy
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import replace
 from functools import cache
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -17,7 +17,7 @@ from tribo.core.state import RunInfo, Snapshot
 from tribo.observers.observer import Observer
 from tribo.testing import samples
 from tribo.testing.checks import BODIES, Checks
-from tribo.testing.compare import NotApplicable, first_difference, locked, require
+from tribo.testing.compare import NotApplicable, first_difference, locked, mapped, require
 
 
 class Keeps(Observer):
@@ -65,27 +65,16 @@ class ObserverChecks(Checks):
         _show(self._make(), run, (), "failed")
         resumed = replace(run, resumed_from=snapshots[1], wall_time=5.0)
         _show(self._make(), resumed, snapshots[2:])
-        _show(self._make(), *locked(_renamed(run, snapshots)))
+        _show(self._make(), *locked(_renamed((run, snapshots))))
         observer = self._make()
         for _ in range(2):
             _show(observer, run, snapshots)
 
 
-def _renamed(run: RunInfo, snapshots: Sequence[Snapshot]) -> Any:
-    """Return a run and what it showed with bodies of other names."""
+def _renamed(given: Any) -> Any:
+    """Return a run and its snapshots with bodies of other names."""
     names = dict(zip(BODIES, ("upper", "lower"), strict=True))
-
-    def renamed(value: Any) -> Any:
-        if isinstance(value, Mapping):
-            return {names.get(key, key): renamed(inner) for key, inner in value.items()}
-        if isinstance(value, list | tuple):
-            return type(value)(map(renamed, value))
-        if is_dataclass(value) and not isinstance(value, type):
-            parts = {f.name: renamed(getattr(value, f.name)) for f in fields(value) if f.init}
-            return replace(value, **parts)
-        return names.get(value, value) if isinstance(value, str) else value
-
-    return renamed(run), renamed(snapshots)
+    return mapped(given, lambda _, v: names.get(v, v) if isinstance(v, str) else v, names)
 
 
 @cache

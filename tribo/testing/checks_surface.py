@@ -11,23 +11,20 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.guards.parts import GuardedSurface
-from tribo.testing.checks import Checks
-from tribo.testing.compare import apply_if, require
+from tribo.testing import samples
+from tribo.testing.checks import BODIES, Checks
+from tribo.testing.compare import apply_if, expect_close, require
 
-_CELLS = (24, 21)
-_SIZE = (0.72e-3, 0.84e-3)
-# Sampling is exact up to round-off of the coordinates.
+_GRID = Grid((0.72e-3, 0.84e-3), (24, 21))
 _TOLERANCE = 1e-6
+"""Sampling is exact up to round-off of the coordinates."""
 
 
 class SurfaceChecks(Checks):
     """Checks of a surface."""
 
     def _inputs(self, component: Any, number: int) -> Grid:
-        # Of as many cells, but not of the same size.
-        grid = self._grid()
-        size = tuple((1 - 0.1 * number) * length for length in grid.size)
-        return grid.model_copy(update={"size": size})
+        return samples.sized(self._grid(), 1 - 0.1 * number)
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
         return {"height": component.height(inputs), "curvature": component.curvature}
@@ -35,8 +32,8 @@ class SurfaceChecks(Checks):
     def _grid(self) -> Grid:
         """Return a window that the surface reaches over."""
         refused: CaseError | None = None
-        for scale in (1.0, 0.1, 0.01, 1e-3):
-            grid = Grid((scale * _SIZE[0], scale * _SIZE[1]), _CELLS)
+        for times in (1.0, 0.1, 0.01, 1e-3):
+            grid = samples.sized(_GRID, times)
             try:
                 self._make().height(grid)
             except CaseError as error:
@@ -49,22 +46,26 @@ class SurfaceChecks(Checks):
     def answers_fit_a_run(self) -> None:
         """Heights are finite and of the window's shape, of whatever cells; so is a curvature."""
         grid = self._grid()
-        for sample in (grid, Grid(grid.size, (9, 16)), _finer(grid, 2)):
-            GuardedSurface(self._make(), "ball", sample)
+        for sample in (grid, Grid(grid.size, (9, 16)), samples.finer(grid)):
+            GuardedSurface(self._make(), BODIES[0], sample)
 
     def finer_cells_sample_the_same_surface(self) -> None:
         """On cells of a third of the size, the points in common have the same heights."""
-        grid, surface = self._grid(), self._make()
-        coarse, fine = surface.height(grid), surface.height(_finer(grid, 3))
-        _expect_same("on cells of a third of the size", fine[1::3, 1::3], coarse)
+        fine = self._make().height(samples.finer(self._grid(), 3))
+        self._expect_same("on cells of a third of the size", fine[1::3, 1::3])
 
     def smaller_window_sees_the_same_surface(self) -> None:
-        """In a window of a third of the size, the points in common have the same heights."""
-        grid, surface = self._grid(), self._make()
-        nx, ny = grid.cells[0] // 3, grid.cells[1] // 3
-        small = surface.height(Grid((grid.size[0] / 3, grid.size[1] / 3), (nx, ny)))
-        middle = surface.height(grid)[nx : 2 * nx, ny : 2 * ny]
-        _expect_same("in a window of a third of the size", small, middle)
+        """In a smaller window the points in common have the same heights."""
+        small = self._make().height(samples.wider(self._grid(), -samples.RIM))
+        self._expect_same("in a smaller window", small, samples.RIM)
+
+    def _expect_same(self, where: str, found: Array, rim: int = 0) -> None:
+        """Fail unless heights are those of the usual window, up to a constant, but for a rim."""
+        nx, ny = _GRID.cells
+        needed = self._make().height(self._grid())[rim : nx - rim, rim : ny - rim]
+        hint = "; sample the surface at the grid's own x and y, in m"
+        heights = found - np.mean(found), needed - np.mean(needed)
+        expect_close(f"heights {where}{hint}", *heights, _TOLERANCE)
 
     def curvature_is_that_of_the_heights(self) -> None:
         """The curvature is that at the highest point, positive where the body is convex."""
@@ -79,31 +80,15 @@ class SurfaceChecks(Checks):
             -(height[i + 1, j] - 2 * height[i, j] + height[i - 1, j]) / dx**2,
             -(height[i, j + 1] - 2 * height[i, j] + height[i, j - 1]) / dy**2,
         )
-        # Differences see a fourth derivative, 1 % of the curvature where cells are R/10.
-        allowed = 0.02 * max(*map(abs, stated), *map(abs, found)) + 1e-6
         for axis, one, other in zip("xy", stated, found, strict=True):
             hint = "; heights are outward from the body" if one * other < 0 else ""
+            # Differences see a fourth derivative, 1 % of the curvature where cells are R/10.
+            allowed = 0.02 * max(*map(abs, stated), *map(abs, found)) + 1e-6
             require(
                 abs(one - other) <= allowed,
                 f"the curvature along {axis} is stated as {one:.6g} 1/m, but that of the heights "
                 f"is {other:.6g} 1/m{hint}",
             )
-
-
-def _finer(grid: Grid, times: int) -> Grid:
-    return Grid(grid.size, (times * grid.cells[0], times * grid.cells[1]))
-
-
-def _expect_same(where: str, found: Array, needed: Array) -> None:
-    """Fail unless two height maps agree up to a constant."""
-    found, needed = found - np.mean(found), needed - np.mean(needed)
-    spread = float(np.ptp(needed))
-    worst = float(np.max(np.abs(found - needed)))
-    require(
-        worst <= _TOLERANCE * spread,
-        f"heights {where} differ by up to {worst:.3g} m of {spread:.3g} m: sample the surface at "
-        "the grid's own x and y, in m",
-    )
 
 
 def _highest(height: Array, grid: Grid) -> tuple[int, int]:

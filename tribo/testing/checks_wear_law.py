@@ -3,26 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from copy import deepcopy
 from dataclasses import replace
-from functools import cached_property
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.core.fields import LocalConditions, WearRate
-from tribo.guards.answers import rate_of
+from tribo.core.fields import LocalConditions
 from tribo.guards.parts import GuardedLaw
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
 from tribo.testing.checks_local import LocalChecks
-from tribo.testing.compare import apply_if, expect_close, jump, locked, require
+from tribo.testing.compare import apply_if, expect_close, largest_jump, locked, mapped, require
 
 _SHAPE = (7, 6)
 # Not an order of magnitude apart, so that a pressure between two is like both.
-_LADDER = np.geomspace(1e5, samples.PEAK, 160)[:, None]
+_LADDER = np.geomspace(1e5, samples.PEAK, 160)
 _APPROACH = 2.2e-6
 """Of the small case, in m."""
 _FARTHEST = 30.0
@@ -33,27 +31,23 @@ class WearLawChecks(LocalChecks):
     """Checks of a wear law, at several speeds, fresh and after some metres."""
 
     _numbers = (0, 1, 2, 3)
-    _per = "m"
 
     def _inputs(self, component: Any, number: int) -> LocalConditions:
         """Return conditions of points that each have slid a distance of their own; 3: none."""
         pressure = samples.PEAK / (1 + number) * (0.02 + 0.98 * samples.pattern(_SHAPE, number))
-        fields = self._fields_at(component, pressure, samples.pattern(_SHAPE, number + 7))
+        fields = self._fields_at(component, pressure, number)
         state = {name: np.full(_SHAPE, v) for name, v in component.initial_state().items()}
         speed = samples.SPEEDS[number % len(samples.SPEEDS)]
         local = LocalConditions(pressure, speed, samples.STEEL, fields, state)
         if number < 3 and state:
-            if number not in self._aged:
-                far = _FARTHEST * samples.pattern(_SHAPE, number) ** 3
-                self._aged[number] = self._remembering(deepcopy(local), far).state
-            local = replace(local, state={n: v.copy() for n, v in self._aged[number].items()})
+            local = self._remembering(local, _FARTHEST * samples.pattern(_SHAPE, number) ** 3)
         # In every third point there is no pressure any more.
         touching = (np.arange(pressure.size) % 3 > 0).reshape(_SHAPE)
         return replace(local, pressure=np.where(touching, pressure, 0.0))
 
-    @cached_property
-    def _aged(self) -> dict[int, dict[str, Array]]:
-        return {}
+    def _fields_at(self, law: Any, pressure: Array, number: int) -> dict[str, Array]:
+        spread = samples.pattern(_SHAPE, number + 7)
+        return samples.fields(law.requires, self._fields, pressure, spread)
 
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
         rates: Mapping[str, Array] = component.rate(given).state_rates
@@ -61,7 +55,20 @@ class WearLawChecks(LocalChecks):
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
         rate = component.rate(inputs)
-        return {**_parts(rate), **self._state_answers(component, rate.state_rates)}
+        slope = {} if rate.depth_slope is None else {"depth_slope": rate.depth_slope}
+        state = self._state_answers(component, rate.state_rates)
+        return {"depth_rate": rate.depth_rate, **slope, **state}
+
+    def _wear(self, law: Any, number: int, pressure: float) -> tuple[Array, Any]:
+        """Return depth and slope with one pressure at all points of a sample."""
+        p = np.full(_SHAPE, pressure)
+        fields = self._fields_at(law, p, number)
+        rate = law.rate(locked(replace(self._sample(number), pressure=p, fields=fields)))
+        slope = rate.depth_slope
+        return (
+            np.broadcast_to(rate.depth_rate, _SHAPE),
+            None if slope is None else np.broadcast_to(slope, _SHAPE),
+        )
 
     def answers_fit_a_run(self) -> None:
         """Rates are finite and not negative, 0 where the pressure is, one for each state field."""
@@ -72,7 +79,7 @@ class WearLawChecks(LocalChecks):
                 if material is samples.BARE:
                     return
                 raise
-            for local in self._samples(guarded.component):
+            for local in self._samples():
                 guarded.rate(replace(local, material=material))
 
     def derivative_is_that_of_the_depth(self) -> None:
@@ -82,119 +89,82 @@ class WearLawChecks(LocalChecks):
             "; if a field that it requires follows the pressure, say how: see 'Fields that follow "
             "the pressure' in docs/plugins.md"
         )
-        step = 1e-5 * _LADDER
-        for number in self._numbers:
-            at, up, down = (self._at(law, number, _LADDER + s) for s in (0 * step, step, -step))
-            apply_if(at.depth_slope is not None, "depth_slope is None: it is found by difference")
-            forward = (up.depth_rate - at.depth_rate) / step
-            backward = (at.depth_rate - down.depth_rate) / step
-            slopes = np.stack([forward, backward, (forward + backward) / 2])
+        for number, p in product(self._numbers, _LADDER.tolist()):
+            depth, slope = self._wear(law, number, p)
+            apply_if(slope is not None, "depth_slope is None: it is found by difference")
+            step = 1e-5 * p
+            forward = (self._wear(law, number, p + step)[0] - depth) / step
+            backward = (depth - self._wear(law, number, p - step)[0]) / step
             # At a kink one side is right. Round-off of the depth is 1e-11 of depth/p.
-            error = np.min(np.abs(at.depth_slope - slopes), axis=0)
-            allowed = 1e-4 * np.maximum(np.abs(at.depth_slope), at.depth_rate / _LADDER)
-            worst = np.unravel_index(int(np.argmax(error - allowed)), error.shape)
+            slopes = np.stack([forward, backward, (forward + backward) / 2])
+            error = np.min(np.abs(slope - slopes), axis=0)
+            excess = error - 1e-4 * np.maximum(np.abs(slope), depth / p)
+            worst = np.unravel_index(int(np.argmax(excess)), _SHAPE)
             require(
-                error[worst] <= allowed[worst],
-                f"at p = {_LADDER[worst[0], 0]:.3g} Pa{self._when(number)} the derivative is "
-                f"{at.depth_slope[worst]:.6g} 1/Pa, but the depth changes by "
-                f"{slopes[2][worst]:.6g} per Pa{hint if law.requires else ''}",
+                excess[worst] <= 0,
+                f"at p = {p:.3g} Pa{self._when(number)} the derivative is {slope[worst]:.6g} 1/Pa, "
+                f"but the depth changes by {slopes[2][worst]:.6g} per Pa"
+                f"{hint if law.requires else ''}",
             )
 
     def depth_does_not_jump(self) -> None:
         """The depth follows the pressure without a jump, at which implicit steps have no answer."""
         law = self._make()
         for number in self._numbers:
-            depth = self._at(law, number, _LADDER).depth_rate
-            rise = np.abs(np.diff(depth, axis=0)) / np.maximum(depth[1:], 1e-300)
-            at, point = np.unravel_index(int(np.argmax(rise)), rise.shape)
 
-            def wears(p: float, number: int = number, point: Any = point) -> Array:
-                return np.asarray(self._at(law, number, np.array([[p]])).depth_rate[0, point])
+            def coefficient(pressure: float, number: int = number) -> Array:
+                return self._wear(law, number, pressure)[0] / pressure
 
-            where, left = jump(wears, *map(float, _LADDER[at : at + 2, 0]))
-            size = float(np.max(depth[at : at + 2, point]))
+            where, part = largest_jump(coefficient, _LADDER)
             require(
-                left <= 1e-6 * size,
+                part <= 1e-6,
                 f"at p = {where:.6g} Pa{self._when(number)} the depth per metre jumps by "
-                f"{left:.6g}, of up to {size:.6g}",
+                f"{part:.3g} of its size",
             )
 
     def depth_grows_with_pressure(self) -> None:
         """Where the derivative is not negative, more pressure never wears less."""
         law = self._make()
         for number in self._numbers:
-            rate = self._at(law, number, _LADDER)
-            falls = rate.depth_slope is None or np.any(rate.depth_slope < 0)
+            depth, slope = zip(*(self._wear(law, number, p) for p in _LADDER), strict=True)
+            falls = any(each is None or np.any(each < 0) for each in slope)
             apply_if(not falls, "its derivative is negative somewhere, or not stated")
-            depth = rate.depth_rate
-            at, point = np.unravel_index(int(np.argmin(np.diff(depth, axis=0))), depth[1:].shape)
-            (low, high), (p, more) = depth[at : at + 2, point], _LADDER[at : at + 2, 0]
-            require(
-                high >= low * (1 - 1e-12),
-                f"the depth per metre falls from {low:.6g} to {high:.6g} as the pressure rises "
-                f"from {p:.3g} to {more:.3g} Pa{self._when(number)}",
-            )
+            for p, low, high in zip(_LADDER, depth, depth[1:], strict=False):
+                require(
+                    np.all(high >= low * (1 - 1e-12)),
+                    f"the depth per metre falls above {p:.3g} Pa{self._when(number)}",
+                )
 
     def points_are_independent(self) -> None:
         """A point wears the same wherever it lies and whatever the other points do."""
         law = self._make()
         order = np.argsort(samples.pattern((_SHAPE[0] * _SHAPE[1],)))
-        for local in self._samples(law):
-            whole = _parts(law.rate(local))
+        for local in self._samples():
+            whole = self._call(law, local)
             for what, chosen in (("in another order", order), ("left out by half", order[::2])):
-                part = locked(_chosen(local, chosen))
-                for name, found in _parts(law.rate(part)).items():
-                    needed = np.broadcast_to(whole[name], _SHAPE).reshape(-1, 1)[chosen]
-                    expect_close(f"{name} with points {what}", found, needed, 1e-12)
+                part = self._call(law, locked(_chosen(local, chosen)))
+                needed = _chosen({n: np.broadcast_to(v, _SHAPE) for n, v in whole.items()}, chosen)
+                for name, found in part.items():
+                    expect_close(f"{name} with points {what}", found, needed[name], 1e-12)
 
     def runs_under_implicit_stepping(self) -> None:
         """Under implicit steps and stroke averaging each body loses just what the law says."""
         law = self._make()
-        depth = float(self._at(law, 3, np.array([[samples.PEAK]])).depth_rate[0, 0])
+        depth = float(self._wear(law, 3, samples.PEAK)[0][0, 0])
         distance = 0.3 * _APPROACH / depth if depth > 0 else 1.0
         motion = samples.sliding(float(np.clip(distance, 1e-3, 1e6)))
         samples.run(self._fields, law=law, kinematics=motion)
 
-    def _at(self, law: Any, number: int, pressure: Array) -> WearRate:
-        """Return the rate at some pressures, each at all points of a sample under pressure."""
-        local = self._inputs(law, number)
-        at = _chosen(local, np.flatnonzero(local.pressure))
-        shape = (len(pressure), at.pressure.size)
-        p = np.broadcast_to(pressure, shape).copy()
-        spread = samples.pattern(_SHAPE, number + 7).reshape(-1)[np.flatnonzero(local.pressure)]
-        state = {n: np.broadcast_to(v.T, shape).copy() for n, v in at.state.items()}
-        fields = self._fields_at(law, p, np.broadcast_to(spread, shape))
-        rate = law.rate(locked(replace(at, pressure=p, fields=fields, state=state)))
-        slope: Any = rate.depth_slope
-        if slope is not None:
-            slope = np.broadcast_to(slope, shape)
-        return WearRate(np.broadcast_to(rate.depth_rate, shape), slope)
-
-    def _fields_at(self, law: Any, p: Array, spread: Array) -> dict[str, Array]:
-        return samples.fields(law.requires, self._fields, p, spread)
-
     def _when(self, number: int) -> str:
         """Return at which speed, and when, a sample is."""
-        slid = f", after up to {_FARTHEST:g} m" if self._aged.get(number) else ""
-        return f" and {samples.SPEEDS[number % len(samples.SPEEDS)]:g} m/s{slid}"
+        slid = f", after up to {_FARTHEST:g} m" if number < 3 and self._sample(number).state else ""
+        return f" and {self._sample(number).speed:g} m/s{slid}"
 
 
-def _chosen(local: LocalConditions, chosen: Any) -> LocalConditions:
-    """Return conditions at some of the points, one below the other."""
+def _chosen(given: Any, chosen: Any) -> Any:
+    """Return conditions or answers at some of the points, one below the other."""
 
-    def choose(values: Array) -> Array:
-        return np.asarray(values.reshape(-1, 1)[chosen])
+    def choose(_: tuple[str, ...], value: Any) -> Any:
+        return value.reshape(-1, 1)[chosen] if isinstance(value, np.ndarray) else value
 
-    return replace(
-        local,
-        pressure=choose(local.pressure),
-        fields={name: choose(values) for name, values in local.fields.items()},
-        state={name: choose(values) for name, values in local.state.items()},
-    )
-
-
-def _parts(rate: WearRate) -> dict[str, Array]:
-    """Return the arrays of a rate, by what they are called."""
-    parts = {"depth_rate": rate.depth_rate, "depth_slope": rate.depth_slope}
-    parts |= {rate_of(name): values for name, values in rate.state_rates.items()}
-    return {name: values for name, values in parts.items() if values is not None}
+    return mapped(given, choose)

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import fields, is_dataclass
-from typing import TypeVar
+from dataclasses import fields, is_dataclass, replace
+from types import MappingProxyType
+from typing import Any, TypeVar
 
 import numpy as np
 
 from tribo.core.arrays import Array
 
 T = TypeVar("T")
+
+_AS_THEY_ARE: Mapping[str, str] = MappingProxyType({})
 
 
 class CheckFailed(AssertionError):
@@ -33,7 +36,7 @@ def apply_if(applies: object, otherwise: str) -> None:
         raise NotApplicable(otherwise)
 
 
-def values_in(value: object, path: str = "") -> Iterator[tuple[str, object]]:
+def values_in(value: object, path: str = "") -> Iterator[tuple[str, Any]]:
     """Yield every value in nested dataclasses, mappings and sequences, with its path."""
     if isinstance(value, Mapping):
         for key, inner in value.items():
@@ -46,6 +49,31 @@ def values_in(value: object, path: str = "") -> Iterator[tuple[str, object]]:
             yield from values_in(getattr(value, part.name), f"{path}.{part.name}".lstrip("."))
     else:
         yield path, value
+
+
+def mapped(
+    value: T,
+    change: Callable[[tuple[str, ...], Any], Any],
+    names: Mapping[str, str] = _AS_THEY_ARE,
+    path: tuple[str, ...] = (),
+) -> T:
+    """Return a copy of nested dataclasses, mappings and sequences with other values.
+
+    Each value is what `change` makes of the names that lead to it and of itself. Keys that are
+    among `names` are replaced.
+    """
+    new: Any = value
+    if isinstance(value, Mapping):
+        items = ((names.get(key, key), inner) for key, inner in value.items())
+        new = {key: mapped(inner, change, names, (*path, key)) for key, inner in items}
+    elif isinstance(value, list | tuple):
+        new = type(value)(mapped(inner, change, names, path) for inner in value)
+    elif is_dataclass(value) and not isinstance(value, type):
+        inner = {part.name: getattr(value, part.name) for part in fields(value) if part.init}
+        new = replace(value, **mapped(inner, change, names, path))
+    else:
+        new = change(path, value)
+    return new  # type: ignore[no-any-return]
 
 
 def locked(value: T) -> T:
@@ -72,27 +100,37 @@ def _same(one: object, other: object) -> bool:
     return bool(one == other) or bool(one != one and other != other)  # NaN is itself here
 
 
-def jump(answer: Callable[[float], Array], low: float, high: float) -> tuple[float, float]:
-    """Return where between two values an answer changes most at last, and by how much."""
-    below, above = answer(low), answer(high)
+def largest_jump(answer: Callable[[float], Array], ladder: Array) -> tuple[float, float]:
+    """Return where between values of a ladder an answer jumps most, and by what part of its size.
+
+    A jump is what is left of the largest step of a point as its interval is halved.
+    """
+    rungs = np.stack([answer(value) for value in ladder.tolist()])
+    steps, sizes = np.abs(np.diff(rungs, axis=0)), np.abs(rungs)
+    # Of what is small beside the rest, a step is no jump.
+    sizes = np.maximum(np.maximum(sizes[1:], sizes[:-1]), max(0.1 * np.max(sizes), 1e-300))
+    worst = np.unravel_index(int(np.argmax(steps / sizes)), steps.shape)
+    at, point = int(worst[0]), worst[1:]
+    (low, high), below, above = ladder[at : at + 2], rungs[at][point], rungs[at + 1][point]
     for _ in range(40):
         middle = 0.5 * (low + high)
-        half = answer(middle)
-        if np.max(np.abs(half - below)) > np.max(np.abs(above - half)):
+        half = answer(middle)[point]
+        if abs(half - below) > abs(above - half):
             high, above = middle, half
         else:
             low, below = middle, half
-    return high, float(np.max(np.abs(above - below)))
+    return float(high), float(abs(above - below) / sizes[worst])
 
 
-def expect_close(what: str, found: Array, needed: Array, tolerance: float) -> None:
-    """Fail unless two arrays agree to `tolerance` times the largest of `needed`."""
-    shapes = np.shape(found), np.shape(needed)
-    require(shapes[0] == shapes[1], f"{what}: shape {shapes[0]} found, {shapes[1]} needed")
+def expect_close(what: str, found: Array | float, needed: Array | float, tolerance: float) -> None:
+    """Fail unless two arrays, or numbers, agree to `tolerance` times the largest of `needed`."""
     size = float(np.max(np.abs(needed), initial=0.0))
     worst = float(np.max(np.abs(np.asarray(found) - needed), initial=0.0))
+    numbers = (
+        f"{found:.6g} instead of {needed:.6g}, " if np.ndim(found) == np.ndim(needed) == 0 else ""
+    )
     require(
         worst <= tolerance * size,
-        f"{what}: off by {worst:.3g}, with values up to {size:.3g}; no more than "
+        f"{what}: {numbers}off by {worst:.3g}, with values up to {size:.3g}; no more than "
         f"{tolerance:.0e} of that is allowed",
     )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, TypeVar, get_args, get_origin
@@ -14,7 +13,7 @@ from pydantic import BaseModel
 from tribo.core.dimensions import scale
 from tribo.core.fields import Field
 from tribo.core.units import parts, quantities
-from tribo.testing.compare import NotApplicable
+from tribo.testing.compare import NotApplicable, mapped
 
 T = TypeVar("T")
 
@@ -97,18 +96,13 @@ def _inside(annotation: Any, count: int) -> list[Any]:
     return [annotation] * count
 
 
-def in_other_units(value: T, units: Mapping[str, float], own: float = 1.0) -> T:
+def in_other_units(value: T, units: Mapping[str, float]) -> T:
     """Return nested values in the other units, each by the factor of the innermost known name."""
-    new: Any = value
-    if isinstance(value, BaseModel):
-        new = rescaled(value)
-    elif isinstance(value, Mapping):
-        new = {k: in_other_units(v, units, units.get(k, own)) for k, v in value.items()}
-    elif isinstance(value, list | tuple):
-        new = type(value)(in_other_units(v, units, own) for v in value)
-    elif is_dataclass(value) and not isinstance(value, type):
-        named = {f.name: getattr(value, f.name) for f in fields(value)}
-        new = replace(value, **in_other_units(named, units, own))
-    elif isinstance(value, float | np.ndarray):
-        new = value * own
-    return new  # type: ignore[no-any-return]
+
+    def change(path: tuple[str, ...], inner: Any) -> Any:
+        if isinstance(inner, BaseModel):
+            return rescaled(inner)
+        known = (units[name] for name in reversed(path) if name in units)
+        return inner * next(known, 1.0) if isinstance(inner, float | np.ndarray) else inner
+
+    return mapped(value, change)

@@ -13,7 +13,7 @@ import numpy as np
 from tribo.case import Body, Case
 from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
-from tribo.core.contact import ContactProblem, ContactSystem, WearCompliance
+from tribo.core.contact import ContactProblem, ContactSystem
 from tribo.core.fields import FRICTION_COEFFICIENT, PLACE_X, PLACE_Y, ContactConditions, Field
 from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
@@ -33,6 +33,8 @@ from tribo.wear.law import WearLaw
 
 # Neither square nor of square cells, so that swapped axes are noticed.
 GRID = Grid((0.72e-3, 0.8e-3), (24, 20))
+RIM = 3
+"""Cells on each side by which a window is wider than another."""
 LOAD = 100.0
 RADIUS = 5e-3
 STEPS = 2000
@@ -140,6 +142,29 @@ def pattern(shape: tuple[int, ...], number: int = 0) -> Array:
     return (count * golden % 1.0).reshape(shape)
 
 
+def sized(grid: Grid, times: float) -> Grid:
+    """Return a window of as many cells, with edges so many times as long."""
+    return Grid((times * grid.size[0], times * grid.size[1]), grid.cells)
+
+
+def finer(grid: Grid, times: int = 2) -> Grid:
+    """Return a window of the same size with so many times as many cells along each axis."""
+    nx, ny = grid.cells
+    return Grid(grid.size, (times * nx, times * ny))
+
+
+def wider(grid: Grid, rim: int = RIM) -> Grid:
+    """Return a window with some more cells of the same size on each side."""
+    cells = (grid.cells[0] + 2 * rim, grid.cells[1] + 2 * rim)
+    dx, dy = grid.spacing
+    return Grid((cells[0] * dx, cells[1] * dy), cells)
+
+
+def inside(field: Array | float) -> Array:
+    """Return what lies in `GRID` of a field of the window that is wider by a rim."""
+    return np.broadcast_to(field, wider(GRID).cells)[RIM:-RIM, RIM:-RIM]
+
+
 def hertz_pressure(grid: Grid) -> Array:
     """Return a half-ellipsoid of pressure in the middle of the window."""
     x, y = grid.mesh
@@ -212,26 +237,19 @@ def ball(grid: Grid, cells: tuple[int, int] = (0, 0)) -> Array:
 
 
 def problem(
-    *,
-    gap: Array | None = None,
-    load: float = LOAD,
-    cap: float | None = None,
-    caps: Array | None = None,
-    wear: WearCompliance | None = None,
+    hardness: float | None = None, grid: Grid = GRID, names: Sequence[str] = BODIES
 ) -> ContactProblem:
     """Return a contact problem: steel on steel."""
-    material = STEEL.model_copy(update={"hardness": cap})
-    # The system states the first contact's load, whatever the problem's own is.
+    material = STEEL.model_copy(update={"hardness": hardness})
     system = ContactSystem(
-        grid=GRID,
+        grid=grid,
         modulus=contact_modulus([material, material]),
         load=LOAD,
-        cap=cap,
+        cap=hardness,
         curvature=(1 / RADIUS, 1 / RADIUS),
-        materials=dict.fromkeys(BODIES, material),
+        materials=dict.fromkeys(names, material),
     )
-    gap = ball(GRID) if gap is None else gap
-    return locked(ContactProblem(system, gap, load, wear, caps))
+    return locked(ContactProblem(system, ball(grid), LOAD))
 
 
 def run(

@@ -83,8 +83,8 @@ here = sys.modules[f"only_in_{getpid()}"] = ModuleType("here")
 here.OnlyHere = type("OnlyHere", (Law,), {"__module__": f"only_in_{getpid()}"})
 
 MUTANTS += [
-    ("quantities_have_units", WithoutUnit, CheckFailed),
-    ("fields_are_described", Undescribed, CheckFailed),
+    ("configuration_is_described", WithoutUnit, CheckFailed),
+    ("configuration_is_described", Undescribed, CheckFailed),
     ("configuration_survives_a_file", MillimetresEachTime, CheckFailed),
     ("configuration_survives_a_file", AnotherWithoutDefaults, CheckFailed),
     ("configuration_can_be_pickled", _local(), CheckFailed),
@@ -110,7 +110,7 @@ def drawing_numpy(self, grid):
     return Hill.height(self, grid) + 0 * np.random.rand()  # noqa: NPY002
 
 
-MUTANTS += wrong(Hill, ("no_global_random_numbers", {"height": drawing_numpy}))
+MUTANTS += wrong(Hill, ("calls_leave_no_trace", {"height": drawing_numpy}))
 
 
 # Wear laws.
@@ -192,11 +192,11 @@ MUTANTS += wrong(
     ("answers_fit_a_run", answer(lambda s, start: {"pressure": 0.9 * s.pressure})),
     ("residuals_are_small", answer(lambda s, start: {"residuals": Residuals(0, 0.01, 0)})),
     (
-        "mirrored_gap_mirrors_the_pressure",
+        "pressure_goes_with_the_gap",
         answer(lambda s, start: {"pressure": np.roll(s.pressure, 1, axis=0)}),
     ),
-    ("moved_gap_moves_the_pressure", asked(bent)),
-    ("approach_counts_from_the_gaps_zero", asked(lambda p: replace(p, gap=p.gap - p.gap.min()))),
+    ("pressure_goes_with_the_gap", asked(bent)),
+    ("pressure_goes_with_the_gap", asked(lambda p: replace(p, gap=p.gap - p.gap.min()))),
     ("more_load_goes_deeper", answer(lambda s, start: {"approach": 1e-6})),
     ("warm_start_changes_nothing", answer(from_the_start)),
     ("wear_compliance_adds_its_depth", asked(lambda p: replace(p, wear=None))),
@@ -208,9 +208,9 @@ MUTANTS += wrong(
             "solve_cycle": lambda self, *given: ContactSolver.solve_cycle(self, *given),
         },
     ),
-    ("pressure_stays_below_the_cap", answer(lambda s, start: {"overlap": 0 * s.overlap})),
+    ("cap_acts_where_it_is_reached", answer(lambda s, start: {"overlap": 0 * s.overlap})),
     ("cap_of_each_point_is_kept", {"takes_cap_map": True}),
-    ("cap_out_of_reach_does_nothing", of_system(lambda s: {"cap": s.cap and 0.4 * s.cap})),
+    ("cap_acts_where_it_is_reached", of_system(lambda s: {"cap": s.cap and 0.4 * s.cap})),
     ("no_mode_is_stiffer_than_stated", {"smallest_compliance": longest_wave}),
 )
 
@@ -252,11 +252,11 @@ MUTANTS += wrong(
     Motion,
     ("answers_fit_a_run", exposed(swept=False)),
     (
-        "averages_are_linear",
+        "averages_are_linear_and_keep_the_volume",
         exposed(average=lambda self, rate: np.sqrt(Track.average(self, rate**2))),
     ),
     (
-        "finer_window_averages_the_same",
+        "window_changes_no_average",
         exposed(average=lambda self, rate: Track.average(self, rate) * rate.shape[0] / 24),
     ),
     ("envelope_covers_the_field", exposed(envelope=Track.average)),
@@ -317,7 +317,7 @@ def needing_a_snapshot(self, snapshot, reason):
 MUTANTS += wrong(
     Counts,
     ("watching_changes_no_bit", {"on_step": polishing}),
-    ("inputs_stay_as_they_are", {"on_step": writing}),
+    ("calls_leave_no_trace", {"on_step": writing}),
     ("any_run_is_survived", {"on_finish": needing_a_snapshot}, AttributeError),
     ("any_run_is_survived", {"on_step": counting}, AssertionError),
     ("any_run_is_survived", {"on_start": starting_once}, AssertionError),
