@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from itertools import product
 from typing import Any
@@ -13,7 +14,8 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.fields import Field
 from tribo.core.units import quantities
-from tribo.guards.answers import answers_of, initial, rate_of
+from tribo.guards.answers import initial, rate_of
+from tribo.guards.parts import GuardedEffect, GuardedLaw
 from tribo.testing import samples
 from tribo.testing.ageing import aged
 from tribo.testing.checks import Checks
@@ -45,14 +47,13 @@ class LocalChecks(Checks):
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
         """Return the rates of the state."""
 
-    def _remembering(self, given: Any, far: Array) -> Any:
+    def _remembering(self, model: GuardedEffect | GuardedLaw, given: Any, far: Array) -> Any:
         """Return conditions with a state that each point has had as `far` as that."""
-        component = self._make()
 
         def rates(state: Mapping[str, Array]) -> Mapping[str, Array]:
-            return self._rates(component, locked(replace(given, state=state)))
+            return self._rates(model, locked(replace(given, state=state)))
 
-        return replace(given, state=aged(component.state_fields, rates, given.state, far))
+        return replace(given, state=aged(model, rates, given.state, far))
 
     def _state_answers(self, component: Any, rates: Mapping[str, Array]) -> dict[str, Any]:
         """Return what a component answers of its state, by what that is called."""
@@ -110,21 +111,6 @@ class LocalChecks(Checks):
 
         self._expect_all_to_matter(names, altered, "the state alters nothing")
 
-    def states_keep_their_limits(self) -> None:
-        """At a limit of a state field, its rate does not lead beyond."""
-        component = self._make()
-        limited = [each for each in _sides(component) if each[1] is not None]
-        apply_if(limited, "no state field has a limit")
-        for given, (field, limit, sign) in product(self._samples(), limited):
-            rates = self._rates(component, _at(given, field.name, limit))
-            beyond = float(np.max(sign * np.asarray(rates[field.name])))
-            unit = answers_of(component)[rate_of(field.name)].unit
-            require(
-                beyond <= 0,
-                f"{field.name!r} at its limit of {limit:g} {field.unit} changes by "
-                f"{sign * beyond:.3g} {unit}",
-            )
-
     def rates_jump_at_breaks_alone(self) -> None:
         """Where an answer jumps as a state changes, the field declares a break."""
         component = self._make()
@@ -148,19 +134,23 @@ class LocalChecks(Checks):
                     f"{part:.3g} of its size; declare that with its field, as breaks",
                 )
 
-    def states_do_not_run_away(self) -> None:
-        """A state without a limit does not grow the faster the more there is of it."""
+    def states_can_last(self) -> None:
+        """A rate does not lead beyond a limit of its state; without one it does not run away."""
         component = self._make()
-        free = [(field.name, sign) for field, limit, sign in _sides(component) if limit is None]
-        apply_if(free, "each state field has limits, or there is none")
-        for given, (name, sign) in product(self._samples(), free):
+        apply_if(component.state_fields, "it keeps no state")
+        sides = (("at_least", -1.0), ("at_most", 1.0))
+        for given, field, (side, sign) in product(self._samples(), component.state_fields, sides):
+            name, limit = field.name, getattr(field, side)
             most = sign * max(float(np.max(np.abs(given.state[name]))), 1e-300)
+            values = (1e3 * most, 1e6 * most) if limit is None else (limit, limit)
             with np.errstate(all="ignore"):
-                slow, fast = (
-                    sign * self._rates(component, _at(given, name, times * most))[name]
-                    for times in (1e3, 1e6)
-                )
-            away = (slow > 0) & (fast > 100 * slow) & np.isfinite(fast)
+                rates = (self._rates(component, _at(given, name, value)) for value in values)
+                near, far = (sign * np.asarray(of_states[name]) for of_states in rates)
+            if limit is not None:
+                within = np.max(near) <= 0
+                require(within, f"{name!r} leads beyond its limit of {limit:g} {field.unit}")
+                continue
+            away = (near > 0) & (far > 100 * near) & np.isfinite(far)
             require(
                 not np.any(away),
                 f"{name!r} changes the faster the further it has gone, without end: is the "
@@ -168,20 +158,13 @@ class LocalChecks(Checks):
             )
 
     def only_declared_fields_are_asked_for(self) -> None:
-        """It asks for no field but those in `requires`, and for no state but its own."""
-        component, given = self._make(), self._sample()
-        fields, state = samples.Asked(given.fields), samples.Asked(given.state)
-        missed = {"requires": fields.missed}
-        try:
-            self._call(component, replace(given, fields=fields, state=state))
-        except KeyError:
-            if not (fields.missed or state.missed):
-                raise
-            # Whether it has a state, which its configuration says, it may look.
-            missed["state_fields"] = state.missed
-        for declared, names in missed.items():
-            told = ", ".join(sorted(map(str, names)))
-            require(not told, f"it asked for {told}; add that to {declared}")
+        """It asks for no field but those in `requires`."""
+        given = self._sample()
+        asked = samples.Asked(given.fields)
+        with suppress(KeyError):
+            self._call(self._make(), replace(given, fields=asked))
+        missed = ", ".join(sorted(asked.missed))
+        require(not missed, f"it asked for {missed}; add that to requires")
 
     def required_fields_matter(self) -> None:
         """Each field that it requires changes an answer, in one configuration at least."""
@@ -194,15 +177,6 @@ class LocalChecks(Checks):
                 yield component, locked(replace(given, fields={**given.fields, name: more}))
 
         self._expect_all_to_matter(names, altered, "no answer changes by 1 % more of it")
-
-
-def _sides(component: Any) -> list[tuple[Field, Any, float]]:
-    """Return each state field with its lower and its upper limit, and on which side that is."""
-    return [
-        (field, limit, sign)
-        for field in component.state_fields
-        for limit, sign in ((field.at_least, -1.0), (field.at_most, 1.0))
-    ]
 
 
 def _at(given: Any, name: str, value: float) -> Any:

@@ -122,15 +122,21 @@ def largest_jump(answer: Callable[[float], Array], ladder: Array) -> tuple[float
     return float(high), float(abs(above - below) / sizes[worst])
 
 
-def expect_close(what: str, found: Array | float, needed: Array | float, tolerance: float) -> None:
-    """Fail unless two arrays, or numbers, agree to `tolerance` times the largest of `needed`."""
-    size = float(np.max(np.abs(needed), initial=0.0))
-    worst = float(np.max(np.abs(np.asarray(found) - needed), initial=0.0))
-    numbers = (
-        f"{found:.6g} instead of {needed:.6g}, " if np.ndim(found) == np.ndim(needed) == 0 else ""
-    )
-    require(
-        worst <= tolerance * size,
-        f"{what}: {numbers}off by {worst:.3g}, with values up to {size:.3g}; no more than "
-        f"{tolerance:.0e} of that is allowed",
-    )
+def expect_close(what: str, found: Any, needed: Any, tolerance: float) -> None:
+    """Fail unless numbers and arrays in two values agree to `tolerance` times the largest needed.
+
+    The values may be nested, and an array may broadcast to the other.
+    """
+    known = dict(values_in(found))
+    for path, value in values_in(needed):
+        if not isinstance(value, float | np.ndarray):
+            continue
+        one = known[path]
+        size, worst = (float(np.max(np.abs(a), initial=0.0)) for a in (value, one - value))
+        both = isinstance(one, float) and isinstance(value, float)
+        numbers = f"{one:.6g} instead of {value:.6g}, " if both else ""
+        require(
+            worst <= tolerance * size,
+            f"{path} {what}: {numbers}off by {worst:.3g}, with values up to {size:.3g}; no more "
+            f"than {tolerance:.0e} of that is allowed".lstrip(),
+        )

@@ -174,17 +174,11 @@ def hertz_pressure(grid: Grid) -> Array:
 
 
 class Asked(UserDict[str, Any]):
-    """A mapping that remembers which names it was asked for in vain.
-
-    Parameters
-    ----------
-    values : Mapping[str, object]
-        What it holds.
-    """
+    """A mapping that remembers which names it was asked for in vain."""
 
     def __init__(self, values: Mapping[str, Any]) -> None:
         super().__init__(values)
-        self.missed: set[object] = set()
+        self.missed: set[str] = set()
 
     def __missing__(self, name: str) -> Any:
         self.missed.add(name)
@@ -192,7 +186,7 @@ class Asked(UserDict[str, Any]):
 
     def __contains__(self, name: object) -> bool:
         if name not in self.data:
-            self.missed.add(name)
+            self.missed.add(str(name))
         return name in self.data
 
 

@@ -138,7 +138,7 @@ def asking(rate, local):
 
 MUTANTS += wrong(
     Law,
-    ("depth_grows_with_pressure", parts(falling)),
+    ("derivative_is_that_of_the_depth", parts(falling)),
     ("only_declared_fields_are_asked_for", parts(asking)),
     ("declared_fields_have_units", {"state_fields": (Field("rubbed", "mm", "Distance slid."),)}),
     ("runs_under_implicit_stepping", parts(failing_later), RuntimeError),
