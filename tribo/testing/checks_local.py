@@ -40,8 +40,12 @@ class LocalChecks(Checks):
     """Checks of what answers at each point, from fields and from a state of its own."""
 
     def _units(self, component: Any) -> Mapping[str, float]:
-        given = [*map(samples.known_field, component.requires), *component.state_fields]
-        return {**super()._units(component), **units_of({each.name: each for each in given})}
+        known = {name: samples.declared(name) for name in component.requires}
+        given = {name: field for name, field in known.items() if field is not None}
+        unknown = ", ".join({*known} - {*given})
+        apply_if(not unknown, f"the unit of {unknown} is not known: no effect here declares it")
+        given |= {field.name: field for field in component.state_fields}
+        return {**super()._units(component), **units_of(given)}
 
     @abstractmethod
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:

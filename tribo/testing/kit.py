@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from types import MappingProxyType
 from typing import Any, Literal
 
@@ -96,20 +97,18 @@ class Report:
         lines = [f"{self.title}: {', '.join(f'{n} {status}' for status, n in counts.items())}"]
         width = max(len(outcome.check) for outcome in self.outcomes)
         spoiled = Counter(failure.message for failure in self.failures)
-        config = None
-        for outcome in self.outcomes:
-            if outcome.config != config:
-                config = outcome.config
-                lines.append(f"  with {config}")
-            message = outcome.message
-            if outcome.status == "failed":
-                # What spoils many checks is told with the first of them.
-                count = spoiled.pop(message, 0)
-                if count == 0:
-                    continue
-                message += f" (this spoils {count} checks)" if count > 1 else ""
-            line = f"    {outcome.check:<{width}}  {outcome.status}"
-            lines.append(f"{line}: {message}" if message else line)
+        for config, outcomes in groupby(self.outcomes, lambda outcome: outcome.config):
+            lines.append(f"  with {config}")
+            for outcome in outcomes:
+                message = outcome.message
+                if outcome.status == "failed":
+                    # What spoils many checks is told with the first of them.
+                    count = spoiled.pop(message, 0)
+                    if count == 0:
+                        continue
+                    message += f" (this spoils {count} checks)" if count > 1 else ""
+                line = f"    {outcome.check:<{width}}  {outcome.status}"
+                lines.append(f"{line}: {message}" if message else line)
         return "\n".join(lines)
 
 
@@ -274,8 +273,7 @@ def suites(
         except ValidationError as error:
             what = f"configs[{number}] is not valid for {cls.__qualname__}"
             raise ValueError(f"{what}: {error}") from error
-    for config in made:
-        yield SUITES[cls.kind()](config, fields, made)
+    yield from (SUITES[cls.kind()](config, fields, made) for config in made)
 
 
 def perform(checks: Checks, name: str) -> None:
@@ -299,16 +297,16 @@ def outcome_of(checks: Checks, name: str) -> Outcome:
     """
     if name == Checks.configuration_can_be_pickled.__name__:
         return _outcome(checks, name)
-    if checks._lost:
-        return _came(checks, name, "failed", checks._lost)
-    try:
-        outcome: Outcome = child().call(_outcome, checks, name)
-    except Unknown:
-        return _outcome(checks, name)
-    except Lost as error:
-        checks._lost = f"{error}, as no call of a component may; nothing more is tried"
-        return _came(checks, name, "failed", checks._lost)
-    return outcome
+    if not checks._lost:
+        try:
+            outcome: Outcome = child().call(_outcome, checks, name)
+        except Unknown:
+            return _outcome(checks, name)
+        except Lost as error:
+            checks._lost = f"{error}, as no call of a component may; nothing more is tried"
+        else:
+            return outcome
+    return _came(checks, name, "failed", checks._lost)
 
 
 def _outcome(checks: Checks, name: str) -> Outcome:
@@ -327,12 +325,9 @@ def _outcome(checks: Checks, name: str) -> Outcome:
 
 
 def _came(checks: Checks, name: str, status: Any, message: str = "") -> Outcome:
-    return Outcome(name, str(getattr(checks, name).__doc__), _label(checks), status, message)
-
-
-def _label(checks: Checks) -> str:
-    """Return the configuration as short text."""
+    """Return the outcome of a check, with the configuration as short text."""
     values = checks._config.model_dump(exclude_defaults=True)
     del values["type"]
     text = ", ".join(f"{name}={value!r}" for name, value in values.items()) or "its defaults"
-    return text if len(text) <= 60 else text[:59] + "…"
+    config = text if len(text) <= 60 else text[:59] + "…"
+    return Outcome(name, str(getattr(checks, name).__doc__), config, status, message)

@@ -27,7 +27,7 @@ from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.sphere import Sphere
 from tribo.testing.checks import BODIES, FieldValue
-from tribo.testing.compare import NotApplicable, locked, require
+from tribo.testing.compare import locked, require
 from tribo.wear.archard import Archard
 from tribo.wear.law import WearLaw
 
@@ -105,27 +105,14 @@ def declared(name: str) -> Field | None:
     return next((field for field in named if _range(field)), next(iter(named), None))
 
 
-def known_field(name: str) -> Field:
-    """Return the declaration of a field, or else raise `NotApplicable`."""
-    found = declared(name)
-    if found is None:
-        raise NotApplicable(f"the unit of {name!r} is not known: no effect here declares it")
-    return found
-
-
 def _range(declared: Field) -> tuple[float, float, float] | None:
     """Return a low, a middle and a high value of a field, if it says enough."""
     least, most, typical = declared.at_least, declared.at_most, declared.typical
-    if typical is not None:
-        low, high = sorted((0.5 * typical, 2 * typical))
-        return (
-            max(low, low if least is None else least),
-            typical,
-            min(high, high if most is None else most),
-        )
-    if least is not None and most is not None:
-        return least, 0.5 * (least + most), most
-    return None
+    if typical is None:
+        return None if least is None or most is None else (least, 0.5 * (least + most), most)
+    low, high = sorted((0.5 * typical, 2 * typical))
+    low = low if least is None else max(low, least)
+    return low, typical, high if most is None else min(high, most)
 
 
 def fields(
@@ -262,7 +249,8 @@ def run(
     """
     kinematics = kinematics or sliding(3.0)
     provided = {f.name for e in effects for f in (*e.provides, *e.state_fields)}
-    known = {FRICTION_COEFFICIENT.name, PLACE_X.name, PLACE_Y.name} | provided
+    friction = FRICTION_COEFFICIENT.name
+    known = {friction, PLACE_X.name, PLACE_Y.name} | provided
     averaged = {n for n, e in kinematics.exposures(GRID, BODIES).items() if e.averaged}
     wearing = {*BODIES} - (averaged if PLACE_X.name in law.requires else set())
     needed = sorted({*law.requires}.union(*(e.requires for e in effects)) - known)
@@ -276,7 +264,7 @@ def run(
         contact=Winkler(),
         kinematics=kinematics,
         stepping=LONG_STEPS,
-        friction=None if FRICTION_COEFFICIENT.name in provided else _friction(given),
+        friction=None if friction in provided else float(field(friction, (), given, np.zeros(()))),
         effects=[*([_providing(needed, given)] if needed else []), *effects],
         observers=observers,
         **more,
@@ -300,10 +288,6 @@ def sliding(distance: float) -> Reciprocating:
     return Reciprocating(
         stroke=2e-3, frequency=SPEED / 4e-3, distance=distance, positions="average"
     )
-
-
-def _friction(given: Mapping[str, FieldValue]) -> float:
-    return float(field("friction_coefficient", (), given, np.zeros(())))
 
 
 def _providing(names: Sequence[str], given: Mapping[str, FieldValue]) -> Effect:
