@@ -110,10 +110,10 @@ class EffectChecks(LocalChecks):
         reach = effect.reach if isinstance(effect.reach, tuple) else (0, 0)
         for sample in self._samples():
             given = locked(_even(sample)) if whole else sample
-            usual = dict(values_in(self._call(effect, given)))
+            usual = values_in(self._call(effect, given))
             for what, cells, other in _varied(given, whole):
                 near = np.any([_within(reach, cell) for cell in cells], axis=0)
-                for where, values in values_in(self._call(effect, locked(other))):
+                for where, values in values_in(self._call(effect, locked(other))).items():
                     change = np.abs(values - usual[where])
                     off = np.max(np.where(near, 0.0, np.broadcast_to(change, GRID.cells)))
                     require(
@@ -219,7 +219,7 @@ def _gone_far(effect: GuardedEffect, given: ContactConditions) -> ContactConditi
 def _widened(given: ContactConditions) -> ContactConditions:
     """Return conditions with a rim on each side of the window, without pressure."""
 
-    def widened(_: tuple[str, ...], value: Any) -> Any:
+    def widened(_: tuple[Any, ...], value: Any) -> Any:
         is_map = isinstance(value, np.ndarray) and value.shape == GRID.cells
         return np.pad(value, samples.RIM, mode="edge") if is_map else value
 

@@ -152,7 +152,7 @@ class WearLawChecks(LocalChecks):
 def _chosen(given: Any, chosen: Any) -> Any:
     """Return conditions or answers at some of the points, one below the other."""
 
-    def choose(_: tuple[str, ...], value: Any) -> Any:
+    def choose(_: tuple[Any, ...], value: Any) -> Any:
         return value.reshape(-1, 1)[chosen] if isinstance(value, np.ndarray) else value
 
     return mapped(given, choose)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass, replace
 from types import MappingProxyType
 from typing import Any, TypeVar
@@ -36,30 +36,15 @@ def apply_if(applies: object, otherwise: str) -> None:
         raise NotApplicable(otherwise)
 
 
-def values_in(value: object, path: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield every value in nested dataclasses, mappings and sequences, with its path."""
-    if isinstance(value, Mapping):
-        for key, inner in value.items():
-            yield from values_in(inner, f"{path}[{key!r}]" if path else str(key))
-    elif isinstance(value, list | tuple):
-        for number, inner in enumerate(value):
-            yield from values_in(inner, f"{path}[{number}]")
-    elif is_dataclass(value) and not isinstance(value, type):
-        for part in fields(value):
-            yield from values_in(getattr(value, part.name), f"{path}.{part.name}".lstrip("."))
-    else:
-        yield path, value
-
-
 def mapped(
     value: T,
-    change: Callable[[tuple[str, ...], Any], Any],
+    change: Callable[[tuple[Any, ...], Any], Any],
     names: Mapping[str, str] = _AS_THEY_ARE,
-    path: tuple[str, ...] = (),
+    path: tuple[Any, ...] = (),
 ) -> T:
     """Return a copy of nested dataclasses, mappings and sequences with other values.
 
-    Each value is what `change` makes of the names that lead to it and of itself. Keys that are
+    Each value is what `change` makes of the keys that lead to it and of itself. Keys that are
     among `names` are replaced.
     """
     new: Any = value
@@ -67,7 +52,8 @@ def mapped(
         items = ((names.get(key, key), inner) for key, inner in value.items())
         new = {key: mapped(inner, change, names, (*path, key)) for key, inner in items}
     elif isinstance(value, list | tuple):
-        new = type(value)(mapped(inner, change, names, path) for inner in value)
+        numbered = enumerate(value)
+        new = type(value)(mapped(inner, change, names, (*path, at)) for at, inner in numbered)
     elif is_dataclass(value) and not isinstance(value, type):
         inner = {part.name: getattr(value, part.name) for part in fields(value) if part.init}
         new = replace(value, **mapped(inner, change, names, path))
@@ -76,9 +62,16 @@ def mapped(
     return new  # type: ignore[no-any-return]
 
 
+def values_in(value: object) -> dict[str, Any]:
+    """Return every value in nested dataclasses, mappings and sequences by its path."""
+    values: dict[str, Any] = {}
+    mapped(value, lambda path, inner: values.setdefault(".".join(map(str, path)), inner))
+    return values
+
+
 def locked(value: T) -> T:
     """Make all arrays in `value` read-only, and return it."""
-    for _, part in values_in(value):
+    for part in values_in(value).values():
         if isinstance(part, np.ndarray):
             part.flags.writeable = False
     return value
@@ -86,7 +79,7 @@ def locked(value: T) -> T:
 
 def first_difference(one: object, other: object) -> str | None:
     """Return the path of the first value that differs by a bit, or None."""
-    left, right = dict(values_in(one)), dict(values_in(other))
+    left, right = values_in(one), values_in(other)
     for path in sorted({*left, *right}):
         if path not in left or path not in right or not _same(left[path], right[path]):
             return path or "the answer"
@@ -127,8 +120,8 @@ def expect_close(what: str, found: Any, needed: Any, tolerance: float) -> None:
 
     The values may be nested, and an array may broadcast to the other.
     """
-    known = dict(values_in(found))
-    for path, value in values_in(needed):
+    known = values_in(found)
+    for path, value in values_in(needed).items():
         if not isinstance(value, float | np.ndarray):
             continue
         one = known[path]

@@ -99,7 +99,7 @@ def _inside(annotation: Any, count: int) -> list[Any]:
 def in_other_units(value: T, units: Mapping[str, float]) -> T:
     """Return nested values in the other units, each by the factor of the innermost known name."""
 
-    def change(path: tuple[str, ...], inner: Any) -> Any:
+    def change(path: tuple[Any, ...], inner: Any) -> Any:
         if isinstance(inner, BaseModel):
             return rescaled(inner)
         known = (units[name] for name in reversed(path) if name in units)
