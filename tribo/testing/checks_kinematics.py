@@ -37,19 +37,14 @@ class KinematicsChecks(Checks):
         }
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
-        end = component.end_time
+        end, cycle = component.end_time, component.cycle(inputs["grid"])
         answers: dict[str, Any] = {
             "end_time": float(end),
             "distance_at": np.array([component.distance_at(part * end) for part in _PARTS]),
             "edges": np.array(list(component.edges), dtype=float),
-            "cycle": [
-                {
-                    "share": p.share,
-                    "speeds": np.array([v for v, _ in p.speeds or ()]),
-                    "rest": p.rest,
-                }
-                for p in component.cycle(inputs["grid"])
-            ],
+            "share": np.array([position.share for position in cycle]),
+            "rest": np.array([position.rest for position in cycle]),
+            "speeds": np.array([v for position in cycle for v, _ in position.speeds or ()]),
         }
         for name, exposure in component.exposures(inputs["grid"], BODIES).items():
             worn = exposure.gather(inputs["rate"], 0)
@@ -98,6 +93,7 @@ class KinematicsChecks(Checks):
         cycle = GuardedMotion(motion).cycle(GRID)
         speeds = [(v, p.share * share) for p in cycle for v, share in p.speeds or ()]
         apply_if(bool(speeds), "speeds() is None: the mean speed is taken")
+        require(min(speeds)[0] > 0, "a speed is 0; it must be positive")
         end = motion.end_time
         rest = sum(p.share * p.rest for p in cycle)
         needs = motion.distance_at(end) * (sum(share / speed for speed, share in speeds) + rest)

@@ -78,11 +78,12 @@ class LocalChecks(Checks):
         """
         for checks in self._each():
             component = checks._make()
-            for given, name in product(checks._samples(), sorted(names)):
-                own = {rate_of(name): None}
-                before = {**checks._call(component, given), **own}
-                for pair in altered(component, given, name):
-                    if first_difference(before, {**checks._call(*pair), **own}):
+            for given in checks._samples():
+                before = checks._call(component, given)
+                for name in sorted(names):
+                    own = {rate_of(name): None}
+                    after = (checks._call(*pair) for pair in altered(component, given, name))
+                    if any(first_difference({**before, **own}, {**each, **own}) for each in after):
                         names = names - {name}
         require(not names, f"{', '.join(sorted(names))}: {fault}")
 
