@@ -84,7 +84,8 @@ class _Header(BaseModel):
 
 def read_header(attributes: Mapping[str, Any]) -> dict[str, Any]:
     """Return the attributes of a file with their JSON read; ValueError if one is wrong."""
-    plain = {
+    # Files of before findings have none.
+    plain = {"findings": "[]"} | {
         name: value.tolist() if isinstance(value, np.ndarray | np.generic) else value
         for name, value in attributes.items()
     }

@@ -18,7 +18,8 @@ from tribo.testing.checks import BODIES
 from tribo.testing.checks_local import LocalChecks
 from tribo.testing.compare import apply_if, expect_close, largest_jump, locked, mapped, require
 
-_SHAPE = (7, 6)
+_SHAPE = (2, 7, 6)
+"""Two positions of a cycle, each with a speed of its own."""
 # Not an order of magnitude apart, so that a pressure between two is like both.
 _LADDER = np.geomspace(1e5, samples.PEAK, 160)
 _APPROACH = 2.2e-6
@@ -37,7 +38,7 @@ class WearLawChecks(LocalChecks):
         pressure = samples.PEAK / (1 + number) * (0.02 + 0.98 * samples.pattern(_SHAPE, number))
         fields = self._fields_at(component, pressure, number)
         state = {name: np.full(_SHAPE, v) for name, v in component.initial_state().items()}
-        speed = samples.SPEEDS[number % len(samples.SPEEDS)]
+        speed = np.array(np.roll(samples.SPEEDS, -number)[:2]).reshape(2, 1, 1)
         local = LocalConditions(pressure, speed, samples.STEEL, fields, state)
         if number < 3 and state:
             law = GuardedLaw(self._make(), BODIES[0], local.material)
@@ -138,7 +139,7 @@ class WearLawChecks(LocalChecks):
     def runs_under_implicit_stepping(self) -> None:
         """Under implicit steps and stroke averaging each body loses just what the law says."""
         law = self._make()
-        depth = float(self._wear(law, 3, samples.PEAK)[0][0, 0])
+        depth = float(self._wear(law, 3, samples.PEAK)[0].flat[0])
         distance = 0.3 * _APPROACH / depth if depth > 0 else 1.0
         motion = samples.sliding(float(np.clip(distance, 1e-3, 1e6)))
         samples.run(self._fields, law=law, kinematics=motion)
@@ -146,13 +147,16 @@ class WearLawChecks(LocalChecks):
     def _when(self, number: int) -> str:
         """Return at which speed, and when, a sample is."""
         slid = f", after up to {_FARTHEST:g} m" if number < 3 and self._sample(number).state else ""
-        return f" and {self._sample(number).speed:g} m/s{slid}"
+        speeds = " or ".join(f"{speed:g}" for speed in self._sample(number).speed.flat)
+        return f" and {speeds} m/s{slid}"
 
 
 def _chosen(given: Any, chosen: Any) -> Any:
     """Return conditions or answers at some of the points, one below the other."""
 
     def choose(_: tuple[Any, ...], value: Any) -> Any:
-        return value.reshape(-1, 1)[chosen] if isinstance(value, np.ndarray) else value
+        if not isinstance(value, np.ndarray):
+            return value
+        return np.broadcast_to(value, _SHAPE).reshape(-1, 1)[chosen]
 
     return mapped(given, choose)
