@@ -251,7 +251,7 @@ powered(
 
 
 def aborting(self, local):
-    if local.speed > 0.5 or local.state["rubbed"].max() > 1.0:
+    if np.any(local.speed > 0.5) or local.state["rubbed"].max() > 1.0:
         os.abort()
     return Law.rate(self, local)
 
