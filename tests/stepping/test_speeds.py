@@ -8,7 +8,7 @@ from paper_models import Faster, K, foundation, lost, motion, pair, small
 
 from tribo import Effect, Field, Grid, WearLaw, WearRate
 from tribo.core.errors import PluginError
-from tribo.evolution.rates import effect_fields
+from tribo.evolution.local_fields import effect_fields
 from tribo.motion.measured import Measured
 from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.rotating import Rotating

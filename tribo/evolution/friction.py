@@ -14,7 +14,7 @@ from tribo.core.fields import FRICTION_COEFFICIENT
 from tribo.core.state import State
 from tribo.evolution.course import accumulated
 from tribo.evolution.interval import Moment, interval_from
-from tribo.evolution.rates import local_fields
+from tribo.evolution.local_fields import local_fields
 from tribo.evolution.states import Memory, remembered, under
 from tribo.integration.division import Division, integrated
 from tribo.integration.kept import Sum

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from copy import copy
 from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import zip_longest
@@ -17,17 +16,13 @@ from tribo.core.box import around_region
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError
 from tribo.core.fields import (
-    FRICTION_COEFFICIENT,
     LOAD_SHARE,
-    PLACE_X,
-    PLACE_Y,
-    ContactConditions,
     LocalConditions,
     WearRate,
 )
-from tribo.core.state import State
 from tribo.evolution.interval import Moment
-from tribo.evolution.states import Memory, fields_of, in_window, remembered, under
+from tribo.evolution.local_fields import conditions, local_fields
+from tribo.evolution.states import Memory, under
 from tribo.motion.cycle import Speeds
 
 if TYPE_CHECKING:
@@ -288,7 +283,7 @@ def _changes(
         around = fields
         if pressure is not contact.pressure:
             around = local_fields(model, pressure, moment, position, memory)
-        given = _conditions(model, pressure, moment, around, effect, memory)
+        given = conditions(model, pressure, moment, around, effect, memory)
         return effect.state_rates(replace(given, wear_rates=depths))
 
     for effect in model.laws.effects:
@@ -339,73 +334,3 @@ def _with_rest_of_track(
                 "effects",
             )
     return completed
-
-
-def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
-    """Return what the effects make of `state`, by field and body, shape (nx, ny)."""
-    speeds = model.cycle[len(model.cycle) // 2].speeds
-    # Of an average's speeds none is that of the pressure shown.
-    here = speeds if len(model.cycle) > 1 else None
-    speed = state.speed
-    if here is not None and speed > 0:
-        speed = 1 / sum(share / v for v, share in here)
-    middle = len(model.cycle) // 2
-    moment = Moment(state.time, state.distance, speed)
-    memory = under(model, remembered(model, state), middle)
-    fields = local_fields(model, state.contact.pressure, moment, middle, memory)
-    return {field.name: fields[field.name] for e in model.laws.effects for field in e.provides}
-
-
-def local_fields(
-    model: Model, pressure: Array, moment: Moment, position: int, memory: Memory
-) -> dict[str, dict[str, Array]]:
-    """Return what the effects and the case provide at a position, by field and body, (nx, ny).
-
-    `memory` is that of the window at this position; what is remembered is among the fields.
-    """
-    fields = fields_of(model, memory)
-    if model.laws.required & {PLACE_X.name, PLACE_Y.name}:
-        fields |= model.cycle.places(position)
-    friction = model.laws.friction_coefficient
-    if friction is not None:
-        uniform = readonly(np.full(pressure.shape, friction))
-        fields[FRICTION_COEFFICIENT.name] = dict.fromkeys(model.case.bodies, uniform)
-    for effect in model.laws.effects:
-        if effect.provides:
-            conditions = _conditions(model, pressure, moment, fields, effect, memory)
-            found, before = effect.fields(conditions), fields.get(LOAD_SHARE.name)
-            if before is not None and LOAD_SHARE.name in found:
-                # It takes its part of what those before it leave.
-                left = {
-                    name: (1 - before[name]) * (1 - s) for name, s in found[LOAD_SHARE.name].items()
-                }
-                found[LOAD_SHARE.name] = {
-                    name: readonly(1 - values) for name, values in left.items()
-                }
-            fields |= found
-    return fields
-
-
-def _conditions(
-    model: Model,
-    pressure: Array,
-    moment: Moment,
-    fields: Mapping[str, Mapping[str, Array]],
-    effect: GuardedEffect,
-    memory: Memory,
-) -> ContactConditions:
-    """Return what an effect is told of the window."""
-    motion = model.case.kinematics
-    return ContactConditions(
-        grid=model.grid,
-        pressure=readonly(pressure),
-        speed=moment.speed,
-        time=moment.time,
-        distance=moment.distance,
-        materials=dict(model.contact.system.materials),
-        swept=model.cycle.swept,
-        track=motion.track_extent,
-        turns_back=motion.turns_back,
-        fields={name: copy(of_bodies) for name, of_bodies in fields.items()},
-        state={key: in_window(model, key, memory.between[key]) for key in effect.initial_state},
-    )

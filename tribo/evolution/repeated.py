@@ -12,7 +12,8 @@ from tribo.core.errors import PluginError
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.evolution.interval import Moment
-from tribo.evolution.rates import local_fields, rates_at_each
+from tribo.evolution.local_fields import local_fields
+from tribo.evolution.rates import rates_at_each
 from tribo.evolution.states import remembered, under
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
 from tribo.core.findings import Finding, failed
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
 from tribo.core.writing import check_new
-from tribo.evolution.rates import effect_fields
+from tribo.evolution.local_fields import effect_fields
 from tribo.guards.guard import Guard
 from tribo.model.model import Model
 from tribo.observers.observer import Observer

@@ -1,0 +1,95 @@
+"""Fields at the points of a contact: what effects and the case provide, and what is remembered."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from copy import copy
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tribo.core.arrays import Array, readonly
+from tribo.core.fields import (
+    FRICTION_COEFFICIENT,
+    LOAD_SHARE,
+    PLACE_X,
+    PLACE_Y,
+    ContactConditions,
+)
+from tribo.core.state import State
+from tribo.evolution.interval import Moment
+from tribo.evolution.states import Memory, fields_of, in_window, remembered, under
+
+if TYPE_CHECKING:
+    from tribo.guards.parts import GuardedEffect
+    from tribo.model.model import Model
+
+
+def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
+    """Return what the effects make of `state`, by field and body, shape (nx, ny)."""
+    speeds = model.cycle[len(model.cycle) // 2].speeds
+    # Of an average's speeds none is that of the pressure shown.
+    here = speeds if len(model.cycle) > 1 else None
+    speed = state.speed
+    if here is not None and speed > 0:
+        speed = 1 / sum(share / v for v, share in here)
+    middle = len(model.cycle) // 2
+    moment = Moment(state.time, state.distance, speed)
+    memory = under(model, remembered(model, state), middle)
+    fields = local_fields(model, state.contact.pressure, moment, middle, memory)
+    return {field.name: fields[field.name] for e in model.laws.effects for field in e.provides}
+
+
+def local_fields(
+    model: Model, pressure: Array, moment: Moment, position: int, memory: Memory
+) -> dict[str, dict[str, Array]]:
+    """Return what the effects and the case provide at a position, by field and body, (nx, ny).
+
+    `memory` is that of the window at this position; what is remembered is among the fields.
+    """
+    fields = fields_of(model, memory)
+    if model.laws.required & {PLACE_X.name, PLACE_Y.name}:
+        fields |= model.cycle.places(position)
+    friction = model.laws.friction_coefficient
+    if friction is not None:
+        uniform = readonly(np.full(pressure.shape, friction))
+        fields[FRICTION_COEFFICIENT.name] = dict.fromkeys(model.case.bodies, uniform)
+    for effect in model.laws.effects:
+        if effect.provides:
+            given = conditions(model, pressure, moment, fields, effect, memory)
+            found, before = effect.fields(given), fields.get(LOAD_SHARE.name)
+            if before is not None and LOAD_SHARE.name in found:
+                # It takes its part of what those before it leave.
+                left = {
+                    name: (1 - before[name]) * (1 - s) for name, s in found[LOAD_SHARE.name].items()
+                }
+                found[LOAD_SHARE.name] = {
+                    name: readonly(1 - values) for name, values in left.items()
+                }
+            fields |= found
+    return fields
+
+
+def conditions(
+    model: Model,
+    pressure: Array,
+    moment: Moment,
+    fields: Mapping[str, Mapping[str, Array]],
+    effect: GuardedEffect,
+    memory: Memory,
+) -> ContactConditions:
+    """Return what an effect is told of the window."""
+    motion = model.case.kinematics
+    return ContactConditions(
+        grid=model.grid,
+        pressure=readonly(pressure),
+        speed=moment.speed,
+        time=moment.time,
+        distance=moment.distance,
+        materials=dict(model.contact.system.materials),
+        swept=model.cycle.swept,
+        track=motion.track_extent,
+        turns_back=motion.turns_back,
+        fields={name: copy(of_bodies) for name, of_bodies in fields.items()},
+        state={key: in_window(model, key, memory.between[key]) for key in effect.initial_state},
+    )
