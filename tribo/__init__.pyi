@@ -32,6 +32,7 @@ from tribo.core.errors import TriboError as TriboError
 from tribo.core.errors import TriboWarning as TriboWarning
 from tribo.core.fields import FRICTION_COEFFICIENT as FRICTION_COEFFICIENT
 from tribo.core.fields import LOAD_SHARE as LOAD_SHARE
+from tribo.core.fields import LOCAL_SLIP as LOCAL_SLIP
 from tribo.core.fields import WORN_DEPTH as WORN_DEPTH
 from tribo.core.fields import ContactConditions as ContactConditions
 from tribo.core.fields import Field as Field

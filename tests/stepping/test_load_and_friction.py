@@ -222,7 +222,7 @@ def test_the_work_of_friction_that_follows_the_time_is_that_of_its_integral():
 
 
 def test_friction_that_is_not_alike_on_both_bodies_is_refused():
-    with pytest.raises(PluginError, match="a coefficient of friction of its own"):
+    with pytest.raises(PluginError, match="friction_coefficient"):
         run(effects=[Since(more=0.1)])
 
 

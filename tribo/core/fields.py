@@ -107,6 +107,14 @@ LOAD_SHARE = Field(
     at_most=1.0,
     typical=0.3,
 )
+LOCAL_SLIP = Field(
+    "local_slip",
+    "1",
+    "Path that a point slips for each metre of the motion, as in partial slip.",
+    at_least=0.0,
+    at_most=1.0,
+    typical=0.5,
+)
 WORN_DEPTH = Field("worn_depth", "m", "Depth that a point of the body has lost.")
 """A law that has it among its `state_fields` is told it, and gives its depth rate as the rate.
 

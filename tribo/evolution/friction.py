@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import reduce
+from operator import mul
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
-from tribo.core.fields import FRICTION_COEFFICIENT
+from tribo.core.fields import FRICTION_COEFFICIENT, LOCAL_SLIP
 from tribo.core.state import State
 from tribo.evolution.course import accumulated
 from tribo.evolution.interval import Moment, interval_from
@@ -40,21 +42,28 @@ def friction_force(model: Model, state: State) -> float:
 
 
 def _mean(model: Model, pressures: Sequence[Array], memory: Memory, moment: Moment) -> float:
-    """Return the coefficient of friction at a moment, weighted with the load over a cycle."""
-    if not model.laws.friction_varies:
-        return model.laws.friction_coefficient or 0.0
+    """Return the coefficient of friction at a moment, weighted with the load over a cycle.
+
+    Where points slip less than the motion it is what they dissipate for each newton and metre.
+    """
+    laws = model.laws
+    # What is the same at all points is no part of the mean.
+    even = 1.0 if laws.friction_varies else laws.friction_coefficient or 0.0
+    weights = [FRICTION_COEFFICIENT.name] if laws.friction_varies else []
+    weights += [LOCAL_SLIP.name] if laws.slips_locally else []
+    if not weights:
+        return even
     force = load = 0.0
     for position, pressure in enumerate(pressures):
         place, here = model.cycle[position], under(model, memory, position)
-        carried = place.share * float(np.sum(pressure))
-        load += carried
         for speed, share in place.speeds or [(moment.speed, 1.0)]:
             at_speed = replace(moment, speed=speed)
             fields = local_fields(model, pressure, at_speed, position, here)
-            # It acts on both bodies alike.
-            (friction, *_) = fields[FRICTION_COEFFICIENT.name].values()
-            force += share * place.share * float(np.sum(friction * pressure))
-    return force / load
+            # They act on both bodies alike.
+            weighed = reduce(mul, (next(iter(fields[name].values())) for name in weights), pressure)
+            force += share * place.share * float(np.sum(weighed))
+            load += share * place.share * float(np.sum(pressure))
+    return even * (force / load)
 
 
 def with_friction_work(
@@ -66,12 +75,34 @@ def with_friction_work(
     of the load that it begins with, to before one that it ends with. What is remembered goes on
     under `contacts`, those that the bodies wear under, in the parts of `plan`.
     """
-    if model.laws.friction_varies:
+    if model.laws.slips_locally:
+        work = _work_of_slip(model, before, after, contacts, plan)
+    elif model.laws.friction_varies:
         work = _varying_work(model, before, after, contacts, plan)
     else:
         friction = model.laws.friction_coefficient or 0.0
         work = friction * (after.load_distance - before.load_distance)
     return replace(after, friction_energy=before.friction_energy + work)
+
+
+def _work_of_slip(
+    model: Model, before: State, after: State, contacts: Sequence[ContactSolution], plan: Division
+) -> float:
+    """Return the work of friction over a step in which points slip less than the motion, in J.
+
+    It is done by the pressures that wear, so that both go together: V = (k/μ) W.
+    """
+    interval = interval_from(before, after.distance - before.distance, after.time)
+    pressures = [contact.pressure for contact in contacts]
+
+    def coefficient(memory: Memory, passed: float) -> float:
+        return _mean(model, pressures, memory, replace(interval.at(passed), speed=after.speed))
+
+    memory, carried = remembered(model, before), after.load_distance - before.load_distance
+    if not memory.values:
+        return coefficient(memory, 1.0) * carried
+    total = accumulated(model, memory, contacts, interval, plan, coefficient)
+    return total / interval.slides * carried
 
 
 def _varying_work(

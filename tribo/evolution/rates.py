@@ -17,6 +17,7 @@ from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError
 from tribo.core.fields import (
     LOAD_SHARE,
+    LOCAL_SLIP,
     LocalConditions,
     WearRate,
 )
@@ -238,7 +239,9 @@ def _laws(
     speed = readonly(over(np.array([moment.speed for moment in moments])))
     rates = {}
     for name, law in model.laws.wear.items():
-        solid = None
+        solid = slip = None
+        if LOCAL_SLIP.name in fields[0]:
+            slip = stacked(of[LOCAL_SLIP.name][name] for of in fields)
         if LOAD_SHARE.name in fields[0]:
             solid = readonly(1.0 - stacked(of[LOAD_SHARE.name][name] for of in fields))
         rate = law.rate(
@@ -255,6 +258,9 @@ def _laws(
         )
         if solid is not None:
             rate = replace(rate, depth_slope=solid * rate.depth_slope)
+        if slip is not None:
+            states = {key: slip * values for key, values in rate.state_rates.items()}
+            rate = WearRate(slip * rate.depth_rate, slip * rate.depth_slope, states)
         if not near.is_window:
             states = {key: near.embed(values) for key, values in rate.state_rates.items()}
             rate = WearRate(near.embed(rate.depth_rate), near.embed(rate.depth_slope), states)

@@ -10,7 +10,7 @@ from functools import cached_property
 from types import MappingProxyType
 
 from tribo.component import Component
-from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, Field
+from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, LOCAL_SLIP, Field
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ ANSWERS: Mapping[str, Mapping[str, Answer]] = MappingProxyType(
 )
 """The values that components answer with, by kind and name."""
 
-LIMITED = {field.name: field for field in (FRICTION_COEFFICIENT, LOAD_SHARE)}
+LIMITED = {field.name: field for field in (FRICTION_COEFFICIENT, LOAD_SHARE, LOCAL_SLIP)}
 """Fields that a run itself acts on, whose limits are its own."""
 
 

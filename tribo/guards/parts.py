@@ -21,6 +21,7 @@ from tribo.core.contact import (
 from tribo.core.errors import BadValues, CaseError, PluginError
 from tribo.core.fields import (
     FRICTION_COEFFICIENT,
+    LOCAL_SLIP,
     WORN_DEPTH,
     ContactConditions,
     Field,
@@ -152,12 +153,13 @@ class GuardedEffect(Guard[Effect]):
                 if values is None:
                     raise PluginError(f"{self} gave no {name!r}{where}")
                 found[name][body] = self.array(name, values, contact.pressure.shape, where)
-        frictions = found.get(FRICTION_COEFFICIENT.name, {}).values()
-        if any(not np.array_equal(one, other) for one, other in pairwise(frictions)):
-            raise BadValues(
-                f"{self} gave each body a coefficient of friction of its own; it acts on both "
-                "alike, so give both the same"
-            )
+        for field in (FRICTION_COEFFICIENT, LOCAL_SLIP):
+            of_bodies = found.get(field.name, {}).values()
+            if any(not np.array_equal(one, other) for one, other in pairwise(of_bodies)):
+                raise BadValues(
+                    f"{self} gave each body a {field.name!r} of its own; it acts on both alike, so "
+                    "give both the same"
+                )
         return found
 
     def state_rates(self, contact: ContactConditions) -> dict[str, Array]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from tribo.core.fields import FRICTION_COEFFICIENT, WORN_DEPTH, Field
+from tribo.core.fields import FRICTION_COEFFICIENT, LOCAL_SLIP, WORN_DEPTH, Field
 from tribo.guards.parts import GuardedEffect, GuardedLaw
 
 
@@ -64,12 +64,17 @@ class Laws:
         return FRICTION_COEFFICIENT.name in provided
 
     @cached_property
+    def slips_locally(self) -> bool:
+        """Whether an effect provides how far each point slips."""
+        return any(f.name == LOCAL_SLIP.name for effect in self.effects for f in effect.provides)
+
+    @cached_property
     def friction_remembers(self) -> bool:
-        """Whether the coefficient of friction follows what laws or effects remember."""
+        """Whether friction or the slip of points follows what laws or effects remember."""
         following = {field.name for law in self.wear.values() for field in law.state_fields}
         following.update(self.between)
         # In the order in which they are asked.
         for effect in self.effects:
             if effect.state_fields or following & set(effect.requires):
                 following.update(field.name for field in effect.provides)
-        return FRICTION_COEFFICIENT.name in following
+        return not following.isdisjoint({FRICTION_COEFFICIENT.name, LOCAL_SLIP.name})

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from tribo import LOAD_SHARE, Array, CaseError, ContactSolution, Explicit, Residuals
+from tribo import LOAD_SHARE, LOCAL_SLIP, Array, CaseError, ContactSolution, Explicit, Residuals
 from tribo.kernel_api import (
     CELLS,
     Box,
@@ -50,7 +50,8 @@ def covered(model: Model) -> Model:
         for field in (*effect.provides, *effect.state_fields)
     }
     laws = model.laws.wear.values()
-    followed = LOAD_SHARE.name in given or any(set(law.requires) & given for law in laws)
+    followed = bool(given & {LOAD_SHARE.name, LOCAL_SLIP.name})
+    followed = followed or any(set(law.requires) & given for law in laws)
     followed = followed or any(field.fills for f in model.laws.effects for field in f.state_fields)
     if model.contact.hardness:
         raise CaseError(
