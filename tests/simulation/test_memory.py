@@ -54,7 +54,7 @@ MEASURE = """
     Simulation(model.case).run(case + ".h5").close()
     peak = most()
     plastic = model.contact.system.cap is not None
-    needed = memory_needed(model.case, model.cycle, plastic=plastic)
+    needed = memory_needed(model.case, model.laws.effects, model.cycle, plastic=plastic)
     print(json.dumps([1024 * (peak - first), needed]))
 """
 
@@ -89,7 +89,10 @@ def test_more_than_there_is_is_refused_with_the_estimate(tight):
 
 def test_the_file_that_is_made_in_memory_counts():
     few, many = small(save_times=()), small(save_times=tuple(range(1, 101)))
-    sizes = [memory_needed(model.case, model.cycle, plastic=False) for model in (few, many)]
+    sizes = [
+        memory_needed(model.case, model.laws.effects, model.cycle, plastic=False)
+        for model in (few, many)
+    ]
     # Of each save the pressure, and the wear and plastic depth of two bodies.
     cells = few.grid.cells[0] * few.grid.cells[1]
     assert sizes[1] - sizes[0] == 100 * 5 * 8 * cells

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from tribo.core.arrays import Array
+from tribo.core.contact import ContactSystem
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 
@@ -193,8 +194,8 @@ class ContactConditions:
 
     Parameters
     ----------
-    grid : Grid
-        The window.
+    system : ContactSystem
+        The contact, as `Effect.check` is told it.
     pressure : ndarray, shape (nx, ny)
         Contact pressure, in Pa.
     speed : float
@@ -204,8 +205,6 @@ class ContactConditions:
         Time at the end of the step, in s; or within it, where laws or effects keep a state.
     distance : float
         Sliding distance then, in m.
-    materials : Mapping[str, Material]
-        The bodies' materials, by name.
     swept : frozenset of str
         Names of the bodies whose points pass through the contact.
     track : float
@@ -224,15 +223,24 @@ class ContactConditions:
         asked for, on which these depend.
     """
 
-    grid: Grid
+    system: ContactSystem
     pressure: Array
     speed: float
     time: float
     distance: float
-    materials: Mapping[str, Material]
     swept: frozenset[str]
     track: float = math.inf
     turns_back: bool = False
     fields: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)
     state: Mapping[str, Array] = field(default_factory=dict)
     wear_rates: Mapping[str, Array] = field(default_factory=dict)
+
+    @property
+    def grid(self) -> Grid:
+        """The window."""
+        return self.system.grid
+
+    @property
+    def materials(self) -> Mapping[str, Material]:
+        """The bodies' materials, by name."""
+        return self.system.materials

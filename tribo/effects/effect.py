@@ -7,8 +7,8 @@ from typing import ClassVar, Literal
 
 from tribo.component import Component
 from tribo.core.arrays import Array
+from tribo.core.contact import ContactSystem
 from tribo.core.fields import ContactConditions, Field
-from tribo.core.material import Material
 
 
 class Effect(Component):
@@ -37,15 +37,17 @@ class Effect(Component):
     """What its fields and rates at a point follow: the ``"point"`` alone; the load and the area of
     the ``"contact"`` too; or points so many cells away along x and y. Gradients need it."""
 
-    def check(self, materials: Mapping[str, Material], swept: frozenset[str]) -> None:
-        """Raise `CaseError` if the effect cannot serve these bodies.
+    def check(self, system: ContactSystem, swept: frozenset[str], solver: str) -> None:
+        """Raise `CaseError` if the effect cannot serve this contact.
 
         Parameters
         ----------
-        materials : Mapping[str, Material]
-            The bodies' materials, by name.
+        system : ContactSystem
+            The contact: its window, materials by body, elastic layers and hardness.
         swept : frozenset of str
             Names of the bodies whose points pass through the contact.
+        solver : str
+            The type of the contact solver, such as ``"dcfft"``.
         """
 
     def carrier(self) -> str | None:

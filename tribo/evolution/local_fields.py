@@ -81,12 +81,11 @@ def conditions(
     """Return what an effect is told of the window."""
     motion = model.case.kinematics
     return ContactConditions(
-        grid=model.grid,
+        system=model.contact.system,
         pressure=readonly(pressure),
         speed=moment.speed,
         time=moment.time,
         distance=moment.distance,
-        materials=dict(model.contact.system.materials),
         swept=model.cycle.swept,
         track=motion.track_extent,
         turns_back=motion.turns_back,

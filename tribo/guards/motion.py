@@ -12,6 +12,7 @@ from tribo.core.contact import WearCompliance
 from tribo.core.errors import BadValues, PluginError
 from tribo.core.grid import Grid
 from tribo.core.rounding import ROUND_OFF
+from tribo.effects.effect import Effect
 from tribo.guards.guard import Guard
 from tribo.motion.cycle import Position, Speeds
 from tribo.motion.exposure import Exposure, Passing, Stationary, Track
@@ -41,6 +42,11 @@ class GuardedMotion(Guard[Kinematics]):
             )
         self._add_up("share", [position.share for position in positions])
         return tuple(positions)
+
+    def effects(self) -> tuple[Effect, ...]:
+        """Return the effects that it brings along."""
+        answer = self.ask(lambda: tuple(self.component.effects()))
+        return tuple(self.typed(each, Effect, "an effect of its own") for each in answer)
 
     def _speeds(self, answer: Speeds | None) -> Speeds | None:
         if answer is None:

@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from tribo.component import Component
 from tribo.core.grid import Grid
 from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure
+
+if TYPE_CHECKING:
+    from tribo.effects.effect import Effect
 
 
 class Kinematics(Component):
@@ -53,6 +56,13 @@ class Kinematics(Component):
         """Times at which the speed jumps from one stage to the next, in s; steps end there.
 
         None, unless overridden.
+        """
+        return ()
+
+    def effects(self) -> Sequence[Effect]:
+        """Return effects that the motion brings along, before those of the case.
+
+        So its numbers stand once in a case: the slip of a fretting contact follows the amplitude.
         """
         return ()
 

@@ -54,8 +54,9 @@ def assemble(case: Case) -> Model:
         exposures = motion.exposures(window, list(bodies), len(positions))
         cycle = Cycle(grid, positions, exposures)
     cap, share, hardness = yielding(bodies, case.contact)
+    given = (*motion.effects(), *case.effects)
     # Before the first array is made.
-    check_memory(grid, memory_needed(case, cycle, plastic=cap is not None))
+    check_memory(grid, memory_needed(case, given, cycle, plastic=cap is not None))
     surfaces, laws = {}, {}
     for name, body in bodies.items():
         exposure = exposures[name]
@@ -100,7 +101,7 @@ def assemble(case: Case) -> Model:
             "time_step, or a contact type that does",
             "stepping.type",
         )
-    effects = tuple(GuardedEffect(effect, list(bodies)) for effect in in_order(case))
+    effects = tuple(GuardedEffect(effect, list(bodies)) for effect in in_order(case, given))
     friction = None if case.friction is None else case.friction.coefficient
     end = motion.end_time(case.stop.distance)
     motion.check_distance(end)
@@ -116,7 +117,7 @@ def assemble(case: Case) -> Model:
     _check_ends(model)
     for effect in effects:
         with located("effects"):
-            effect.ask(effect.component.check, dict(system.materials), model.cycle.swept)
+            effect.ask(effect.component.check, system, model.cycle.swept, case.contact.type)
     return model
 
 

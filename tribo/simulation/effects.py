@@ -10,8 +10,10 @@ from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, PLACE_X, PLACE_Y
 from tribo.effects.effect import Effect
 
 
-def in_order(case: Case) -> tuple[Effect, ...]:
-    """Return the effects of a case so that each comes after those that provide what it requires.
+def in_order(case: Case, effects: Sequence[Effect]) -> tuple[Effect, ...]:
+    """Return effects so that each comes after those that provide what it requires.
+
+    They are those of a case and of its motion.
 
     `CaseError` if an effect or a wear law requires what nothing provides, or a field but the share
     of the load is provided twice, or has the name of what a wear law remembers.
@@ -20,13 +22,13 @@ def in_order(case: Case) -> tuple[Effect, ...]:
     known = {PLACE_X.name, PLACE_Y.name}
     if case.friction is not None:
         known.add(FRICTION_COEFFICIENT.name)
-    for effect in case.effects:
+    for effect in effects:
         for field in effect.state_fields:
             if field.name in known | of_laws:
                 raise _twice(field, effect)
             known.add(field.name)
     ordered: list[Effect] = []
-    waiting = list(case.effects)
+    waiting = list(effects)
     while waiting:
         ready = next((e for e in waiting if _is_ready(e, waiting, known | of_laws)), None)
         if ready is None:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from tribo.case import Case
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
+from tribo.effects.effect import Effect
+from tribo.guards.parts import GuardedEffect
 from tribo.model.cycle import Cycle
 
 FIELDS = 88
@@ -24,30 +27,32 @@ BESIDES = 24 * 2.0**20
 """What does not grow with the grid, in bytes; 18 MiB were measured."""
 
 
-def memory_needed(case: Case, cycle: Cycle, *, plastic: bool) -> float:
+def memory_needed(
+    case: Case, effects: Sequence[Effect | GuardedEffect], cycle: Cycle, *, plastic: bool
+) -> float:
     """Return the most memory that a run takes beyond what the process has, in bytes.
 
     `plastic` is whether a body may yield.
     """
     fields = sum(len(body.wear.state_fields) for body in case.bodies.values() if body.wear)
-    fields += len(case.bodies) * sum(len(effect.provides) for effect in case.effects)
-    fields += sum(len(effect.state_fields) for effect in case.effects)
+    fields += len(case.bodies) * sum(len(effect.provides) for effect in effects)
+    fields += sum(len(effect.state_fields) for effect in effects)
     arrays = FIELDS + FIELDS_IF_PLASTIC * plastic + FIELDS_PER_FIELD * fields
     if len(cycle) > 1:
         arrays += FIELDS_PER_POSITION * len(cycle)
     window = 8.0 * case.grid.cells[0] * case.grid.cells[1]
     # At its end a run makes its file in memory.
-    return BESIDES + window * arrays + size_of_fields(case, cycle)
+    return BESIDES + window * arrays + size_of_fields(case, effects, cycle)
 
 
-def size_of_fields(case: Case, cycle: Cycle) -> float:
+def size_of_fields(case: Case, effects: Sequence[Effect | GuardedEffect], cycle: Cycle) -> float:
     """Return the size of all fields that a result keeps, before they are compressed, in bytes."""
     bodies = case.bodies.values()
     states = {field for body in bodies if body.wear for field in body.wear.state_fields}
-    states |= {field for effect in case.effects for field in effect.state_fields}
-    effects = sum(len(effect.provides) for effect in case.effects)
+    states |= {field for effect in effects for field in effect.state_fields}
+    provided = sum(len(effect.provides) for effect in effects)
     # The pressure, and for each body wear, plastic depth and what its models keep.
-    each = 1 + len(bodies) * (2 + effects + len(states))
+    each = 1 + len(bodies) * (2 + provided + len(states))
     saves = 2 + len(case.output.save_times)
     nx, ny = case.grid.cells
     # And all bodies' rows along a track that is longer than the window: wear, what

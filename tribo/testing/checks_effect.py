@@ -79,13 +79,13 @@ class EffectChecks(LocalChecks):
         try:
             GuardedEffect(effect, names)
             given = samples.contact_conditions(effect, self._fields, names=names)
-            effect.check(given.materials, given.swept)
+            effect.check(given.system, given.swept, samples.SOLVER)
         except CaseError as error:
             raise self._refused(error) from error
         given = locked(self._inputs(effect, 0, names))
         turned = replace(
             given,
-            materials=_turned(given.materials),
+            system=replace(given.system, materials=_turned(given.materials)),
             wear_rates=_turned(given.wear_rates),
             fields={name: _turned(values) for name, values in given.fields.items()},
         )
@@ -224,4 +224,5 @@ def _widened(given: ContactConditions) -> ContactConditions:
         return np.pad(value, samples.RIM, mode="edge") if is_map else value
 
     pressure = np.pad(given.pressure, samples.RIM)
-    return replace(mapped(given, widened), grid=samples.wider(GRID), pressure=pressure)
+    system = replace(given.system, grid=samples.wider(GRID))
+    return replace(mapped(given, widened), system=system, pressure=pressure)

@@ -6,6 +6,7 @@ import math
 import warnings
 from collections import UserDict
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -37,6 +38,8 @@ RIM = 3
 """Cells on each side by which a window is wider than another."""
 LOAD = 100.0
 RADIUS = 5e-3
+SOLVER = "winkler"
+"""The contact solver of the samples and of runs."""
 STEPS = 2000
 """Of a run, at most; most take fewer than a hundred."""
 LONG_STEPS = Implicit(depth_tolerance=0.01, pressure_tolerance=0.3)
@@ -192,13 +195,13 @@ def contact_conditions(
         f.name: np.full((1, 1) if f.uniform else GRID.cells, start[f.name])
         for f in effect.state_fields
     }
+    materials = dict(zip(names, (STEEL, BRONZE), strict=True))
     return ContactConditions(
-        grid=GRID,
+        system=replace(problem(names=names).system, materials=materials),
         pressure=pressure,
         speed=SPEEDS[number],
         time=10.0 * (1 + number),
         distance=1.0 + number,
-        materials=dict(zip(names, (STEEL, BRONZE), strict=True)),
         swept=frozenset(names[1:]),
         track=(math.inf, 5e-3, 5e-2)[number],
         turns_back=number == 1,

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tribo import ContactConditions, Grid, LocalConditions, Material
+from tribo import ContactConditions, ContactSystem, Grid, LocalConditions, Material
 
 from tribo_energy.dissipation import Dissipation
 from tribo_energy.traction import FrictionTraction
@@ -15,12 +15,13 @@ PRESSURE = np.linspace(0, 3e9, 12).reshape(3, 4)
 def traction(pressure):
     friction = np.full_like(pressure, MU)
     contact = ContactConditions(
-        grid=Grid((1e-3, 1e-3), pressure.shape),
+        system=ContactSystem(
+            Grid((1e-3, 1e-3), pressure.shape), 1e11, 10.0, materials={"ball": STEEL, "disk": STEEL}
+        ),
         pressure=pressure,
         speed=0.1,
         time=1.0,
         distance=0.1,
-        materials={"ball": STEEL, "disk": STEEL},
         swept=frozenset({"disk"}),
         fields={"friction_coefficient": {"ball": friction, "disk": friction}},
     )

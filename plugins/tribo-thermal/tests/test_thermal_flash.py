@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from pydantic import ValidationError
-from tribo import CaseError, ContactConditions, Grid, Material
+from tribo import CaseError, ContactConditions, ContactSystem, Grid, Material
 
 from tribo_thermal.flash import Flash
 from tribo_thermal.verification import moved_on, steady_cycle, to_and_fro
@@ -26,12 +26,11 @@ def contact(radius, swept=("disk",), material=None, load=100.0):
     steel = Material(**STEEL, **(HEAT if material is None else material))
     friction = np.full(grid.cells, 0.1)
     return ContactConditions(
-        grid=grid,
+        system=ContactSystem(grid, 1e11, load, materials={"ball": steel, "disk": steel}),
         pressure=pressure,
         speed=0.1,
         time=1.0,
         distance=0.1,
-        materials={"ball": steel, "disk": steel},
         swept=frozenset(swept),
         fields={"friction_coefficient": {"ball": friction, "disk": friction}},
     )
@@ -41,7 +40,7 @@ def rises(where, **config):
     given = {"ambient": "90 degC", "source": "parabolic", "rise": "maximum", **config}
     effect = Flash(**given)
     # As when a case is composed, before anything runs.
-    effect.check(where.materials, where.swept)
+    effect.check(where.system, where.swept, "dcfft")
     return effect.rises(where)
 
 

@@ -50,12 +50,11 @@ def faster(data, save):
         pressure = result.field("pressure", save)
     model = Simulation(data).model
     conditions = ContactConditions(
-        grid=model.grid,
+        system=model.contact.system,
         pressure=pressure,
         speed=0.1,
         time=300.0,
         distance=30.0,
-        materials={name: body.material for name, body in model.case.bodies.items()},
         swept=frozenset({"disk"}),
         track=2e-3,
         turns_back=True,

@@ -7,7 +7,16 @@ from typing import Annotated, Self
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, model_validator
-from tribo import Array, CaseError, ContactConditions, Effect, Field, Material, Quantity
+from tribo import (
+    Array,
+    CaseError,
+    ContactConditions,
+    ContactSystem,
+    Effect,
+    Field,
+    Material,
+    Quantity,
+)
 
 from tribo_thermal.sources import (
     Profile,
@@ -139,8 +148,9 @@ class Flash(Effect):
             for name in self._warming
         )
 
-    def check(self, materials: Mapping[str, Material], swept: frozenset[str]) -> None:
+    def check(self, system: ContactSystem, swept: frozenset[str], solver: str) -> None:
         """Require thermal properties, bodies that exist, and one that stays in contact."""
+        materials = system.materials
         bodies = set(materials)
         for key, wrong in (
             ("heat_paths", set(self.heat_paths or {}) - bodies),

@@ -46,7 +46,7 @@ def covered(model: Model) -> Model:
     """
     given = {
         field.name
-        for effect in model.case.effects
+        for effect in model.laws.effects
         for field in (*effect.provides, *effect.state_fields)
     }
     laws = model.laws.wear.values()
