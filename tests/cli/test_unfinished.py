@@ -95,8 +95,13 @@ def refusal(command):
     return str(error)
 
 
-@pytest.mark.parametrize("command", [*READING.values(), *WRITING.values()])
-@pytest.mark.parametrize("name", UNSAVED)
+@pytest.mark.parametrize(
+    ("name", "command"),
+    [
+        *product(("unsaved",), [*READING.values(), *WRITING.values()]),
+        *product(UNSAVED[1:], [READING["show"], *WRITING.values()]),
+    ],
+)
 def test_of_a_result_without_a_save_it_is_told_where_its_rest_is(state, name, command):
     state(name)
     said = refusal(command)
@@ -119,9 +124,11 @@ def test_a_run_that_left_its_folder_alone_is_started_again(state, command):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "command"),
-    # Every command reads by one way: a result and what its folder has, or a result alone.
-    [*product(("one save", "interrupted, alone"), READING.values())]
-    + [(name, READING["show"]) for name in ("running", "killed", "interrupted")],
+    # Every command reads by one way.
+    [
+        *product(("one save",), READING.values()),
+        *product(SAVED[1:], [READING["show"]]),
+    ],
 )
 def test_a_result_is_read_as_far_as_it_came(state, monkeypatch, name, command):
     quick_reports(monkeypatch)

@@ -40,6 +40,7 @@ class Stopper(Observer):
             os.kill(os.getpid(), self.number)
 
 
+SHORT = {"kinematics": motion(duration=10)}
 WATCHED = {"save_times": (4, 20), "kinematics": motion(duration=30)}
 
 
@@ -75,11 +76,11 @@ def test_a_run_gone_on_with_changed_components_and_stopped_again_says_how_to_go_
 ):
     path = tmp_path / "run.h5"
     with pytest.raises(Interrupted, match=r"tribo resume \S+$"):
-        Simulation(case()).run(path, observers=[Stopper(after=3)])
+        Simulation(case(**SHORT)).run(path, observers=[Stopper(after=3)])
     monkeypatch.setattr(Component, "facts", lambda self: {"serial number": "8"})
     with pytest.raises(Interrupted, match=r"tribo resume \S+ --allow-changed$"):
-        Simulation(case()).resume(path, observers=[Stopper(after=6)], allow_changed=True)
-    Simulation(case()).resume(path, allow_changed=True).close()
+        Simulation(case(**SHORT)).resume(path, observers=[Stopper(after=6)], allow_changed=True)
+    Simulation(case(**SHORT)).resume(path, allow_changed=True).close()
 
 
 def test_a_stop_in_the_last_step_is_not_lost_nor_is_the_result(tmp_path):
@@ -95,12 +96,12 @@ def test_a_stop_in_the_last_step_is_not_lost_nor_is_the_result(tmp_path):
 def test_only_a_stopped_run_of_the_same_case_is_resumed(tmp_path):
     path = tmp_path / "run.h5"
     with pytest.raises(Interrupted):
-        Simulation(case()).run(path, observers=[Stopper(after=3)])
+        Simulation(case(**SHORT)).run(path, observers=[Stopper(after=3)])
     with pytest.raises(CaseError, match="another case"):
         Simulation(case(load=50.0)).resume(path)
-    Simulation(case()).resume(path).close()
+    Simulation(case(**SHORT)).resume(path).close()
     with pytest.raises(CaseError, match="nothing to resume"):
-        Simulation(case()).resume(path)
+        Simulation(case(**SHORT)).resume(path)
 
 
 def test_an_existing_result_is_replaced_only_when_told(tmp_path):
@@ -224,10 +225,10 @@ def test_a_run_stopped_before_its_first_checkpoint_says_so_and_can_start_again(
             pytest.warns(TriboWarning, match="No space left"),
             pytest.raises(OutputError, match="No space left on device; free space or choose"),
         ):
-            Simulation(case()).run(path)
+            Simulation(case(**SHORT)).run(path)
     with pytest.raises(CaseError, match=r"before its first save; .* run --force"):
-        Simulation(case()).resume(path)
-    assert Simulation(case()).run(path, overwrite=True).status == "done"
+        Simulation(case(**SHORT)).resume(path)
+    assert Simulation(case(**SHORT)).run(path, overwrite=True).status == "done"
 
 
 def test_the_checkpoint_of_another_case_is_not_gone_on_with(tmp_path):

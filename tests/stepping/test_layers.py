@@ -1,11 +1,10 @@
 """Layers of a body: worn through at the distance that follows from their rates."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from coated_pins import COATING, FAST, PRESSURE, SLOW, STEEL, THROUGH, K, coated, flat
 from paper_models import StopAfter
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
@@ -26,42 +25,11 @@ from tribo import (
 )
 from tribo.core.errors import Interrupted
 from tribo.core.fields import LOAD_SHARE
-from tribo.simulation.march import begin, march
 from tribo.simulation.predict import predict
-from tribo.stepping.contacts import solve_cycle, undeformed
-from tribo.stepping.step import start_sliding
 
-K, PRESSURE, COATING = 1e-15, 10e6, 2e-6
-STEEL = {"young": "207 GPa", "poisson": 0.3}
-SLOW, FAST = ({"type": "archard", "k": k} for k in (K, 10 * K))
-# 20 m at the rate of the coating, on the body that stays in contact.
-THROUGH = COATING / (K * PRESSURE)
-FACTOR = {"factor": 2, "law": SLOW}
 SHARE = 0.1
 """Of the track, what is under the pin."""
-
-
-def coated(**more):
-    layer = {"thickness": COATING, "wear": SLOW, **more}
-    return {"surface": "flat", "material": STEEL, "wear": FAST, "layers": [layer]}
-
-
-def flat(pin=None, disk=None, distance="300 m", **more):
-    """A square pin on a disk: the pressure is even, and stays so."""
-    plain = {"surface": "flat", "material": STEEL}
-    return {
-        "grid": {"size": "2 mm", "cells": 8, "ends_at_window": True},
-        "load": "40 N",
-        "bodies": {"pin": pin or plain, "disk": disk or plain},
-        "contact": {"type": "winkler", "modulus": 1e13, "plasticity": False},
-        "kinematics": {
-            "type": "unidirectional",
-            "speed": "0.1 m/s",
-            "track_length": "20 mm",
-            "distance": distance,
-        },
-        **more,
-    }
+FACTOR = {"factor": 2, "law": SLOW}
 
 
 def ended(case, **options):
@@ -139,7 +107,7 @@ def test_the_hardness_of_a_layer_is_that_of_its_law():
     assert last["bodies"]["pin"]["max_wear_depth_m"] == pytest.approx(exact, rel=1e-9, abs=0)
 
 
-def ball(cells, distance="6 m"):
+def ball(cells, distance):
     sphere = {**coated(), "surface": {"type": "sphere", "radius": "5 mm"}}
     case = flat(pin=sphere)
     return {
@@ -156,11 +124,11 @@ def ball(cells, distance="6 m"):
 def test_a_ball_wears_through_at_a_distance_that_converges_with_the_grid():
     found = []
     for cells in (24, 40):
-        found += passed(ball(cells))[1]
+        found += passed(ball(cells, "4 m"))[1]
     # 3.64 m by extrapolation from 32, 48 and 64 cells.
     assert found[1] == pytest.approx(3.64, rel=0.02)
     assert abs(found[1] - 3.64) < abs(found[0] - 3.64)
-    (foreseen,) = predict(Simulation(ball(40)).model).worn_through
+    (foreseen,) = predict(Simulation(ball(40, "4 m")).model).worn_through
     assert foreseen["distance_m"] == pytest.approx(found[1], rel=0.03)
 
 
@@ -232,68 +200,6 @@ def test_a_run_that_ends_at_a_depth_tells_only_of_layers_passed_by_then():
 def test_layers_that_cannot_be_are_refused(body, words):
     with pytest.raises(CaseError, match=rf"^bodies\.{words}"):
         Simulation(flat(pin=body))
-
-
-def yielding(top, below, thickness, **more):
-    """A coated ball on a hard flat, under a load at which both hardnesses are reached."""
-    pin = {
-        "surface": {"type": "sphere", "radius": "5 mm"},
-        "material": {**STEEL, "hardness": below},
-        "wear": SLOW,
-        "layers": [{"thickness": thickness, "hardness": top}],
-    }
-    grid = {"size": "0.5 mm", "cells": 32}
-    return flat(pin=pin, contact={"type": "dcfft"}, grid=grid, load="100 N", **more)
-
-
-def test_the_pressure_is_limited_to_the_hardness_of_the_layer_at_the_surface():
-    # The layer is worn through in the middle, and what it bore is borne around.
-    case = yielding("1.6 GPa", "0.9 GPa", "20 nm", distance="0.03 m")
-    with Simulation(case).run() as result:
-        first, last = (result.field("pressure", save) / 1e9 for save in (0, -1))
-        worn = result.body("pin").wear_depth[-1]
-        plastic = result.body("pin").plastic_depth
-    through = worn >= 20e-9
-    assert first.max() == pytest.approx(1.6, rel=1e-9)
-    # What the last step alone has worn through yields as the next one begins.
-    assert np.median(last[through]) == pytest.approx(0.9, rel=1e-9)
-    assert 0.9 < last[~through].max() <= 1.6 * (1 + 1e-9)
-    assert 10 < np.count_nonzero(through & (last > 0)) < np.count_nonzero(last)
-    assert np.all(plastic[-1][through & (last > 0)] > plastic[0][through & (last > 0)])
-
-
-def test_nothing_yields_twice_under_one_load():
-    model = Simulation(yielding("1.6 GPa", "0.9 GPa", "20 nm", distance="0.03 m")).model
-    for _, state in zip(range(4), march(model, begin(model)), strict=False):
-        worn = start_sliding(model, state.state)
-    again = solve_cycle(
-        model,
-        undeformed(model, worn),
-        model.contact.loads.before(worn.time),
-        worn.contacts,
-        worn.bodies,
-    )
-    deepest = max(np.max(body.plastic) for body in worn.bodies.values())
-    assert deepest > 1e-7
-    assert max(np.max(contact.overlap) for contact in again) < 1e-5 * deepest
-
-
-def test_a_layer_of_the_bodys_hardness_limits_as_none_does():
-    case = yielding("0.9 GPa", "0.9 GPa", "20 nm", distance="0.01 m")
-    plain = yielding("0.9 GPa", "0.9 GPa", "20 nm", distance="0.01 m")
-    plain["bodies"]["pin"]["layers"] = []
-    depths = []
-    for each in (case, plain):
-        with Simulation(each).run() as result:
-            depths.append(result.body("pin").plastic_depth[-1])
-    np.testing.assert_allclose(*depths, rtol=1e-6, atol=1e-6 * depths[0].max())
-
-
-def test_a_solver_that_knows_one_hardness_refuses_two():
-    case = flat(pin=coated(hardness="10 GPa"), contact={"type": "winkler", "modulus": 1e15})
-    case["bodies"]["pin"]["material"] = {**STEEL, "hardness": "4 GPa"}
-    with pytest.raises(CaseError, match=r"^bodies\.pin\.layers: contact.type = 'winkler' limits"):
-        Simulation(case)
 
 
 class Debris(Effect):

@@ -3,6 +3,7 @@
 import numpy as np
 import paper_models
 import pytest
+from edited import bits
 from paper_models import (
     K,
     archard,
@@ -106,8 +107,7 @@ def volume(result):
 @pytest.mark.slow
 def test_a_film_that_carries_nothing_is_the_dry_case_to_the_bit():
     with run() as dry, run(effects=[Film(share=0.0)]) as wet:
-        for name, values in dry.dataset.data_vars.items():
-            np.testing.assert_array_equal(wet.dataset[name], values, err_msg=name)
+        assert bits(dry).items() <= bits(wet).items()
 
 
 class NoSlope(WearLaw):
@@ -294,7 +294,7 @@ class Square(Effect):
         return {"covered": (1 - contact.state["covered"]) * contact.speed / 0.5}
 
     def fields(self, contact):
-        friction = 0.3 + 0.2 * np.sign(np.sin(12 * np.pi * contact.state["covered"]))
+        friction = 0.3 + 0.2 * np.sign(np.sin(6 * np.pi * contact.state["covered"]))
         return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
 
 
@@ -303,7 +303,7 @@ def test_friction_that_jumps_often_shortens_steps():
     with run(effects=[Square()], **pin(archard())) as result:
         work = result.saves()[-1]["friction_energy_J"]
     slid = np.linspace(0, 2, 200_001)
-    friction = 0.3 + 0.2 * np.sign(np.sin(12 * np.pi * -np.expm1(-slid / 0.5)))
+    friction = 0.3 + 0.2 * np.sign(np.sin(6 * np.pi * -np.expm1(-slid / 0.5)))
     assert work == pytest.approx(100 * 2 * np.mean(friction), rel=1e-2)
 
 

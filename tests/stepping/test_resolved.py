@@ -203,7 +203,7 @@ def test_a_body_that_stays_may_have_one_row_for_all_beside_one_that_passes():
 def test_the_section_of_the_track_is_that_at_mid_stroke():
     kinematics = motion(stroke=STROKE, duration=20, positions=9)
     with Simulation(case(grid=GRID, contact=foundation(), kinematics=kinematics)).run() as result:
-        depth = result.wear_depth.sel(body="disk").isel(time=-1).values[15]
+        depth = result.body("disk").wear_depth[-1][15]
         section = track_section(result, result.body("disk"))
     assert section == pytest.approx(np.sum(depth) * GRID.spacing[1], rel=1e-9, abs=0)
 
@@ -228,13 +228,12 @@ def test_two_workers_give_the_bits_of_one(swept):
 def test_a_stopped_run_goes_on_to_the_same_bits_with_the_groove_along_its_track(tmp_path):
     kinematics = motion(stroke=STROKE, duration=20, positions=7)
     with goes_on(resolved(kinematics=kinematics), tmp_path, 5) as whole:
-        track = whole.track_depth.sel(body="disk").isel(time=-1)
-        assert track.sizes["track_x"] == 44
-        window = whole.wear_depth.sel(body="disk").isel(time=-1)
-        np.testing.assert_array_equal(track.values[6:-6], window.values)
-        assert np.all(np.isnan(whole.track_depth.sel(body="ball")))
+        track = whole.field("track_depth", -1, "disk")
+        assert len(track) == 44
+        np.testing.assert_array_equal(track[6:-6], whole.body("disk").wear_depth[-1])
+        assert np.all(np.isnan(whole.field("track_depth", -1, "ball")))
         line = along_track(whole, "disk").axes[0].lines[-1]
-        depth = -1e9 * track.values[:, 9:11].mean(axis=1)
+        depth = -1e9 * track[:, 9:11].mean(axis=1)
         np.testing.assert_allclose(line.get_ydata(), depth, atol=1e-9 * np.ptp(depth))
 
 

@@ -69,8 +69,8 @@ def ball_on_disk(path, cells):
 
 @pytest.fixture(scope="module")
 def exact(tmp_path_factory):
-    """On cells a third of the size of those that are held against it."""
-    model = ball_on_disk(tmp_path_factory.mktemp("exact") / "case.toml", 120)
+    """On cells half the size of those that are held against it."""
+    model = ball_on_disk(tmp_path_factory.mktemp("exact") / "case.toml", 80)
     level = refinement._run(model, model.grid.cells, model.case.stepping)
     return refinement._quantities(model, level.end)
 

@@ -188,9 +188,9 @@ STAGES = ["load.normal.0.normal", "load.normal.1.normal", "load.normal.2.normal"
 HARD = "bodies.disk.material.hardness"
 RAMP = [
     {"at": 0, "normal": 10.0},
-    {"at": 10, "normal": 20.0},
-    {"until": 15, "normal": 40.0},
-    {"until": 21, "normal": 20.0},
+    {"at": 5, "normal": 20.0},
+    {"until": 7, "normal": 40.0},
+    {"until": 11, "normal": 20.0},
 ]
 FRESH = RunningIn(law=archard(), factor=4.0, over="1 GPa m")
 SMOOTH = Smoothing(law=archard(), factor=3.0, roughness="0.4 um", settled="0.1 um", depth="0.2 um")

@@ -66,7 +66,7 @@ def test_pixels_that_are_missing_here_and_there_are_no_gap_however_many():
     assert abs(found.volume / (PITCH**2 * np.sum(lost)) - 1) < 0.02
 
 
-@pytest.mark.parametrize("radius", [5e-3, 6e-3, 30e-3, 300e-3])
+@pytest.mark.parametrize("radius", [5e-3, 300e-3])
 def test_a_radius_far_above_the_ball_s_is_told(radius):
     before, after, _ = pair(on=3e-3, sq=5e-9, noise=1e-9)
     words = rf"radius of [23]\.\d+ mm, and the ball one of {1e3 * radius:g} mm"

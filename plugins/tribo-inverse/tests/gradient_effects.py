@@ -1,0 +1,152 @@
+"""Effects of each kind that a gradient goes through, and three that it does not."""
+
+import numpy as np
+from tribo.core.fields import LOAD_SHARE, Field
+from tribo.effects.effect import Effect
+from tribo.wear.archard import Archard
+from tribo.wear.modified import times
+
+
+class Grains(Effect):
+    """What wear leaves, which lifts the bodies apart and takes its part of the load."""
+
+    type = "grains"
+    reach = "point"
+    begins: float = 2e-8
+    cover: float = 1e-6
+    stays: float = 2.0
+    on: str | None = None
+    state_fields = (Field("grains", "m", "Height of grains.", at_least=0, fills=True),)
+    provides = (LOAD_SHARE,)
+
+    def carrier(self):
+        return self.on
+
+    def initial_state(self):
+        return {"grains": self.begins}
+
+    def fields(self, contact):
+        share = -np.expm1(-contact.state["grains"] / self.cover)
+        return {"load_share": dict.fromkeys(contact.materials, share)}
+
+    def state_rates(self, contact):
+        caught = sum(contact.wear_rates.values())
+        leaves = contact.state["grains"] / self.stays * (contact.pressure > 0)
+        return {"grains": contact.speed * (caught - leaves)}
+
+
+class Dust(Grains):
+    """Such grains that are too few to lift the bodies, so that each point follows its own cells."""
+
+    type = "dust"
+    state_fields = (Field("grains", "m", "Height of grains.", at_least=0),)
+
+
+class Heat(Effect):
+    """A temperature after the load and the area of the contact, and of a bulk that warms."""
+
+    type = "heat"
+    reach = "contact"
+    flash: float = 1e-2
+    capacity: float = 2.0
+    provides = (Field("temperature", "K", "Above that around."),)
+    state_fields = (Field("bulk", "K", "Of the bodies, above that around.", uniform=True),)
+
+    def power(self, contact):
+        return 0.1 * contact.speed * np.sum(contact.pressure) * contact.grid.cell_area
+
+    def fields(self, contact):
+        p = contact.pressure
+        area = np.sum(p) ** 2 / np.sum(p**2) * contact.grid.cell_area
+        found = contact.state["bulk"] + self.flash * self.power(contact) / np.sqrt(area)
+        return {"temperature": dict.fromkeys(contact.materials, found)}
+
+    def state_rates(self, contact):
+        rate = (self.power(contact) - 0.005 * contact.state["bulk"]) / self.capacity
+        return {"bulk": np.reshape(rate, (1, 1))}
+
+
+class Sinks(Heat):
+    """Of which both bodies lead the more away the better they conduct."""
+
+    def power(self, contact):
+        leads = sum(material.conductivity for material in contact.materials.values())
+        return 90.0 / leads * super().power(contact)
+
+
+class Softens(Archard):
+    type = "softens"
+    requires = ("temperature",)
+
+    def rate(self, local):
+        return times(np.exp(0.02 * local.fields["temperature"]), super().rate(local))
+
+
+class Mirrors(Effect):
+    """A temperature that follows the pressure at the other side."""
+
+    type = "mirrors"
+    provides = Heat.provides
+
+    def fields(self, contact):
+        beyond = 1e-8 * contact.pressure[:, ::-1]
+        return {"temperature": dict.fromkeys(contact.materials, beyond)}
+
+
+class Blurs(Effect):
+    """A temperature that follows the pressure beside each point."""
+
+    type = "blurs"
+    reach = (0, 3)
+    provides = Heat.provides
+
+    def fields(self, contact):
+        beside = 1e-8 * np.roll(contact.pressure, 3, axis=1)
+        return {"temperature": dict.fromkeys(contact.materials, beside)}
+
+
+class Far(Blurs):
+    """Such a temperature, of an effect that says that it may come from further away."""
+
+    type = "far"
+    reach = (2, 3)
+
+
+class Grows(Effect):
+    """A layer that grows under pressure in time, at rest too, and flows off."""
+
+    type = "grows"
+    reach = "point"
+    begins: float = 2e-8
+    rate: float = 5e-17
+    stays: float = 5.0
+    state_fields = (Field("grown", "m", "Height of the layer.", at_least=0, fills=True),)
+
+    def initial_state(self):
+        return {"grown": self.begins}
+
+    def state_rates(self, contact):
+        return {"grown": self.rate * contact.pressure - contact.state["grown"] / self.stays}
+
+
+class Creeps(Grows):
+    """Such a layer that also spreads, the faster the thicker it is, and wear lands beside it."""
+
+    type = "creeps"
+    reach = (1, 1)
+    spreads: float = 0.05
+    over: float = 1e-7
+    on: str | None = None
+
+    def carrier(self):
+        return self.on
+
+    def state_rates(self, contact):
+        height = contact.state["grown"]
+        flow = height * (1 + height / self.over)
+        rate = -4 * flow
+        for axis in (0, 1):
+            rate += np.roll(flow, 1, axis) + np.roll(flow, -1, axis)
+        lands = contact.speed * np.roll(sum(contact.wear_rates.values()), 1, axis=1)
+        grown = super().state_rates(contact)["grown"]
+        return {"grown": grown + self.spreads * rate + 0.1 * lands}
