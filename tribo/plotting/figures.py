@@ -111,7 +111,7 @@ def result_pictures(result: Result) -> dict[str, Callable[[], Figure]]:
         pictures[f"{name}_scar"] = partial(scar_map, result, name)
         if result.body(name).swept:
             pictures[f"{name}_groove"] = partial(body_profiles, result, name)
-            if "track_depth" in result.dataset:
+            if result.has("track_depth"):
                 pictures[f"{name}_along_track"] = partial(along_track, result, name)
         else:
             pictures[f"{name}_profiles"] = partial(body_profiles, result, name)

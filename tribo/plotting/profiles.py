@@ -57,14 +57,13 @@ def along_track(result: Result, name: str) -> Figure:
 
     It is by how much its height has changed: what it was at first is left out.
     """
-    if "track_depth" not in result.dataset:
+    if not result.has("track_depth"):
         raise CaseError(f"the cycle is not resolved in {result.name}; draw its profiles instead")
     count = len(result.times)
-    track = result.track_depth.sel(body=name)
-    rows, columns = track.sizes["track_x"], track.sizes["y"]
+    depths = [np.nan_to_num(result.field("track_depth", save, name)) for save in range(count)]
+    rows, columns = depths[0].shape
     (dx, _), (_, breadth) = result.grid.spacing, result.grid.size
     grid = Grid((rows * dx, breadth), (rows, columns))
-    depths = [np.nan_to_num(track.isel(time=save).values) for save in range(count)]
     scar = scar_mask(depths[-1])
     sections = through_centre([(grid, -depth, scar) for depth in depths], (0,))
     labels = time_labels(result.times)

@@ -27,8 +27,8 @@ def scar_map(result: Result, name: str, save: int = -1) -> Figure:
         If the result holds no such save, or no such body.
     """
     grid, gone = result.grid, removed(result, name)[save]
-    if result.body(name).swept and "track_depth" in result.dataset:
-        gone = np.nan_to_num(result.track_depth.sel(body=name).isel(time=save).values)
+    if result.body(name).swept and result.has("track_depth"):
+        gone = np.nan_to_num(result.field("track_depth", save, name))
         grid = Grid((gone.shape[0] * grid.spacing[0], grid.size[1]), gone.shape)
     deepest = float(np.max(gone))
     unit = height_unit(deepest)

@@ -204,6 +204,10 @@ class Result:
         """Names of the bodies in the order of the case."""
         return tuple(self.case["bodies"])
 
+    def has(self, name: str) -> bool:
+        """Whether there is a variable of this name, as ``"track_depth"`` of a resolved cycle."""
+        return name in self._variables
+
     def field(self, name: str, save: int, body: str | None = None) -> Array:
         """Return a field at a save as a NumPy array, shape (nx, ny).
 
