@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from tribo.core.arrays import Array
@@ -86,11 +86,17 @@ def check_declared(owner: object, who: str) -> None:
                     "state (state_fields) can, in m"
                 )
     required = getattr(owner, "requires", ())
-    named = isinstance(required, tuple | list) and all(isinstance(n, str) for n in required)
+    named = isinstance(required, tuple | list) and all(isinstance(n, str | Field) for n in required)
     if not (named or isinstance(required, property)):
         raise TypeError(
-            f'{who}.requires is {required!r}; it must be a tuple of names, as in ("temperature",)'
+            f"{who}.requires is {required!r}; it must be a tuple of names or of Field, as in "
+            '("temperature",)'
         )
+
+
+def names_of(required: Iterable[str | Field]) -> tuple[str, ...]:
+    """Return the names of fields that are required, by name or with their declaration."""
+    return tuple(each.name if isinstance(each, Field) else each for each in required)
 
 
 FRICTION_COEFFICIENT = Field(

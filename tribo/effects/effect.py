@@ -26,8 +26,9 @@ class Effect(Component):
     provides: ClassVar[tuple[Field, ...]] = ()
     """The fields it answers with."""
 
-    requires: ClassVar[tuple[str, ...]] = ()
-    """Names of the fields it needs: of other effects, of the case, or what a wear law remembers."""
+    requires: ClassVar[tuple[str | Field, ...]] = ()
+    """Fields it needs of other effects, of the case, or of the state of a wear law: their names, or
+    a `Field` with the limits and the typical value at which the conformance kit tries it."""
 
     state_fields: ClassVar[tuple[Field, ...]] = ()
     """What it remembers; each field starts at `initial_state`, is kept in the result, and answers

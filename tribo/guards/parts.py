@@ -27,6 +27,7 @@ from tribo.core.fields import (
     Field,
     LocalConditions,
     WearRate,
+    names_of,
 )
 from tribo.core.grid import Grid
 from tribo.core.material import Material
@@ -64,7 +65,7 @@ class GuardedLaw(Guard[WearLaw]):
     def __init__(self, law: WearLaw, body: str, material: Material) -> None:
         super().__init__(law, body)
         self.material = material
-        self.requires = law.requires
+        self.requires = names_of(law.requires)
         self.state_fields = tuple(law.state_fields)
         self.ask(law.check, material)
         self.initial_state = _initial_state(self, law.state_fields, self.ask(law.initial_state))
@@ -127,7 +128,7 @@ class GuardedEffect(Guard[Effect]):
 
     def __init__(self, effect: Effect, bodies: Sequence[str] = ()) -> None:
         super().__init__(effect)
-        self.requires = effect.requires
+        self.requires = names_of(effect.requires)
         self.provides = effect.provides
         self.state_fields = tuple(effect.state_fields)
         self.carrier = self.ask(effect.carrier)

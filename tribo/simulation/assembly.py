@@ -140,7 +140,7 @@ def _law(body: Body, name: str, grid: Grid, exposure: Exposure) -> GuardedLaw:
         with located(f"bodies.{name}.{place}"):
             laws.append(GuardedLaw(law, name, material))
             laws[-1].ask(law.check_cells, grid.spacing)
-            if PLACE_X.name in law.requires and exposure.averaged:
+            if PLACE_X.name in laws[-1].requires and exposure.averaged:
                 raise CaseError(
                     f"{law.type!r} wears places of their own, but the average over a track has "
                     f"none on body {name!r}; resolve the cycle (kinematics.positions), or give "

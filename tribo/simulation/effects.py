@@ -6,7 +6,7 @@ from collections.abc import Sequence, Set
 
 from tribo.case import Case
 from tribo.core.errors import CaseError
-from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, PLACE_X, PLACE_Y, Field
+from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, PLACE_X, PLACE_Y, Field, names_of
 from tribo.effects.effect import Effect
 
 
@@ -33,7 +33,7 @@ def in_order(case: Case, effects: Sequence[Effect]) -> tuple[Effect, ...]:
         ready = next((e for e in waiting if _is_ready(e, waiting, known | of_laws)), None)
         if ready is None:
             first = waiting[0]
-            missing = sorted(set(first.requires) - known - of_laws) or [LOAD_SHARE.name]
+            missing = sorted(set(names_of(first.requires)) - known - of_laws) or [LOAD_SHARE.name]
             text = _missing(f"effect {first.type!r}", missing, waiting)
             raise MissingFieldError(text, "effects", missing)
         shares = {LOAD_SHARE.name} & {name for e in ordered for name in _provided(e)}
@@ -49,17 +49,17 @@ def in_order(case: Case, effects: Sequence[Effect]) -> tuple[Effect, ...]:
 
 def _is_ready(effect: Effect, waiting: Sequence[Effect], known: Set[str]) -> bool:
     """Whether all that an effect requires is known before those that wait."""
-    if not set(effect.requires) <= known:
+    if not set(names_of(effect.requires)) <= known:
         return False
     # What several provide is known once all have.
     others = [e for e in waiting if e is not effect and LOAD_SHARE.name in _provided(e)]
-    return LOAD_SHARE.name not in effect.requires or not others
+    return LOAD_SHARE.name not in names_of(effect.requires) or not others
 
 
 def _check_laws(case: Case, known: Set[str]) -> None:
     for name, body in case.bodies.items():
         for law in body.laws():
-            if missing := sorted(set(law.requires) - known):
+            if missing := sorted(set(names_of(law.requires)) - known):
                 text = _missing(f"wear law {law.type!r}", missing, [])
                 raise MissingFieldError(text, f"bodies.{name}.wear", missing)
 

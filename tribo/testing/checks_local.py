@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.core.fields import Field
+from tribo.core.fields import Field, names_of
 from tribo.core.units import quantities
 from tribo.guards.answers import initial, rate_of
 from tribo.guards.parts import GuardedEffect, GuardedLaw
@@ -40,7 +40,7 @@ class LocalChecks(Checks):
     """Checks of what answers at each point, from fields and from a state of its own."""
 
     def _units(self, component: Any) -> Mapping[str, float]:
-        known = {name: samples.declared(name) for name in component.requires}
+        known = {name: samples.declared(name) for name in names_of(component.requires)}
         given = {name: field for name, field in known.items() if field is not None}
         unknown = ", ".join({*known} - {*given})
         apply_if(not unknown, f"the unit of {unknown} is not known: no effect here declares it")
@@ -173,7 +173,7 @@ class LocalChecks(Checks):
 
     def required_fields_matter(self) -> None:
         """Each field that it requires changes an answer, in one configuration at least."""
-        names = {*self._make().requires}
+        names = {*names_of(self._make().requires)}
         apply_if(names, "it requires no field")
 
         def altered(component: Any, given: Any, name: str) -> Iterator[tuple[Any, Any]]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.core.fields import LocalConditions
+from tribo.core.fields import LocalConditions, names_of
 from tribo.guards.parts import GuardedLaw
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
@@ -50,7 +50,7 @@ class WearLawChecks(LocalChecks):
 
     def _fields_at(self, law: Any, pressure: Array, number: int) -> dict[str, Array]:
         spread = samples.pattern(_SHAPE, number + 7)
-        return samples.fields(law.requires, self._fields, pressure, spread)
+        return samples.fields(names_of(law.requires), self._fields, pressure, spread)
 
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
         rates: Mapping[str, Array] = component.rate(given).state_rates

@@ -15,7 +15,14 @@ from tribo.case import Body, Case
 from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSystem
-from tribo.core.fields import FRICTION_COEFFICIENT, PLACE_X, PLACE_Y, ContactConditions, Field
+from tribo.core.fields import (
+    FRICTION_COEFFICIENT,
+    PLACE_X,
+    PLACE_Y,
+    ContactConditions,
+    Field,
+    names_of,
+)
 from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
 from tribo.core.state import Snapshot
@@ -95,15 +102,17 @@ def field(
 
 
 def declared(name: str) -> Field | None:
-    """Return the declaration of a field that the case or a loaded effect provides."""
+    """Return the declaration of a field that the case or a loaded model provides or requires."""
     known = [FRICTION_COEFFICIENT, PLACE_X, PLACE_Y]
     models: list[type[Effect | WearLaw]] = [*Effect.__subclasses__(), *WearLaw.__subclasses__()]
     for model in models:
         models += model.__subclasses__()
         if model.__module__.startswith(__package__):
             continue
-        for fields in (getattr(model, "provides", ()), model.state_fields):
-            known += fields if isinstance(fields, tuple) else ()
+        for fields in (getattr(model, "provides", ()), model.state_fields, model.requires):
+            known += (
+                [f for f in fields if isinstance(f, Field)] if isinstance(fields, tuple) else []
+            )
     named = [field for field in known if field.name == name]
     return next((field for field in named if _range(field)), next(iter(named), None))
 
@@ -189,7 +198,7 @@ def contact_conditions(
     """Return what a fresh effect is told, by number something else; the second body is swept."""
     # The faster, the less pressure: the power stays what it is.
     pressure = hertz_pressure(GRID) / (1, 2, 20)[number]
-    known = fields(effect.requires, given, pressure, pattern(GRID.cells, number))
+    known = fields(names_of(effect.requires), given, pressure, pattern(GRID.cells, number))
     start = effect.initial_state()
     state = {
         f.name: np.full((1, 1) if f.uniform else GRID.cells, start[f.name])
@@ -255,8 +264,10 @@ def run(
     friction = FRICTION_COEFFICIENT.name
     known = {friction, PLACE_X.name, PLACE_Y.name} | provided
     averaged = {n for n, e in kinematics.exposures(GRID, BODIES).items() if e.averaged}
-    wearing = {*BODIES} - (averaged if PLACE_X.name in law.requires else set())
-    needed = sorted({*law.requires}.union(*(e.requires for e in effects)) - known)
+    wearing = {*BODIES} - (averaged if PLACE_X.name in names_of(law.requires) else set())
+    needed = sorted(
+        {*names_of(law.requires)}.union(*(names_of(e.requires) for e in effects)) - known
+    )
     case = Case(
         grid=GRID.model_copy(update={"ends_at_window": True}),
         load=LOAD,

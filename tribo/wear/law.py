@@ -17,8 +17,9 @@ class WearLaw(Component):
     track belongs to the kinematics.
     """
 
-    requires: ClassVar[tuple[str, ...]] = ()
-    """Names of the local fields it needs besides pressure and speed."""
+    requires: ClassVar[tuple[str | Field, ...]] = ()
+    """Local fields it needs besides pressure and speed: their names, or a `Field` with the limits
+    and the typical value at which the conformance kit tries the law."""
 
     state_fields: ClassVar[tuple[Field, ...]] = ()
     """Fields it keeps per material point; each starts at `initial_state`."""

@@ -23,7 +23,7 @@ class ModifiedLaw(WearLaw):
     law: WearLaw
     """The law that it changes."""
 
-    own_requires: ClassVar[tuple[str, ...]] = ()
+    own_requires: ClassVar[tuple[str | Field, ...]] = ()
     """Names of the local fields that it needs itself."""
 
     own_state: ClassVar[tuple[Field, ...]] = ()
@@ -38,7 +38,7 @@ class ModifiedLaw(WearLaw):
         return self
 
     @property
-    def requires(self) -> tuple[str, ...]:  # type: ignore[override]
+    def requires(self) -> tuple[str | Field, ...]:  # type: ignore[override]
         """What either needs."""
         return tuple(dict.fromkeys((*self.law.requires, *self.own_requires)))
 
