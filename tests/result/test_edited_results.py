@@ -144,7 +144,6 @@ EDITS = {
     "bodies in a list": text("case", {"bodies": [1, 2]}),
     "a case without bodies": text("case", {}),
     "provenance that is a list": text("provenance", []),
-    "no findings": lambda file: file.attrs.pop("findings"),
     "a layer of no body": text("findings", [{"kind": "layer", "words": "", "place": "ball"}]),
     "a layer that wore through at no time": text(
         "findings", [{"kind": "layer", "words": "", "place": "bodies.ball.layers.0"}]

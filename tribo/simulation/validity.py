@@ -112,7 +112,8 @@ def check_stroke(model: Model, state: State) -> None:
         return
     half_width = half_widths(state.contact, model.grid)[0]
     with located("kinematics"):
-        if not model.case.contact.periodic or len(model.cycle) == 1:
+        resolved = any(each.swept and not each.averaged for each in model.cycle.maps.values())
+        if not (model.case.contact.periodic and resolved):
             model.motion.check_contact(half_width)
         elif not is_endless(model, half_width) and model.cycle.apart > model.grid.spacing[0]:
             gaps = len(model.cycle) - 1

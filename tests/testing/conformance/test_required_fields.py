@@ -1,8 +1,11 @@
 """Fields that are required with their scale."""
 
+from typing import Annotated
+
 import numpy as np
 
 from tribo.core.fields import Field, WearRate
+from tribo.core.units import Quantity
 from tribo.testing.kit import names_of, outcome_of, suites
 from tribo.wear.law import WearLaw
 
@@ -14,9 +17,13 @@ class Protected(WearLaw):
 
     type = "test.protected"
     requires = (FILM,)
+    k: Annotated[float, Quantity("1/Pa", above=0)] = 1e-16
+    """Rate without a film."""
+    thickness: Annotated[float, Quantity("m", above=0)] = 5e-8
+    """Film that takes the wear to 1/e."""
 
     def rate(self, local):
-        k = 1e-16 * np.exp(-local.fields["zddp_film"] / 5e-8)
+        k = self.k * np.exp(-local.fields["zddp_film"] / self.thickness)
         return WearRate(k * local.pressure, k)
 
 
