@@ -173,6 +173,20 @@ def test_an_average_of_another_volume_than_the_rate_is_refused():
         resolved(kinematics=Odd(stroke=STROKE, frequency=1.0, cycles=1, positions=13))
 
 
+def test_a_body_that_pretends_to_pass_is_refused():
+    class Turning(Stationary):
+        swept = True
+
+    class Odd(type(motion())):
+        type = "test.odd"
+
+        def exposures(self, grid, bodies):
+            return {bodies[0]: Stationary(grid), bodies[1]: Turning(grid)}
+
+    with pytest.raises(PluginError, match="32 rows without starts"):
+        resolved(kinematics=Odd(stroke=STROKE, frequency=1.0, cycles=1, positions=13))
+
+
 def test_a_body_that_stays_may_have_one_row_for_all_beside_one_that_passes():
     class Row(Stationary):
         def __init__(self, grid):

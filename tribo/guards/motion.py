@@ -75,6 +75,12 @@ class GuardedMotion(Guard[Kinematics]):
             self.array("length", length, length.shape, where)
             if exposure.starts is not None:
                 self._check_starts(exposure, exposure.starts, positions, grid)
+            elif exposure.swept and exposure.rows != 1:
+                raise PluginError(
+                    f"{self} has points of body {body!r} pass through the contact, but keeps them "
+                    f"on {exposure.rows} rows without starts, where they would not move: average "
+                    "them on one row, or give starts"
+                )
             if type(exposure) not in (Stationary, Track, Passing):
                 self._try(exposure, where, grid, positions // 2)
         return {body: answer[body] for body in bodies}
