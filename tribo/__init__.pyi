@@ -73,6 +73,7 @@ from tribo.registry.hookspecs import Command as Command
 from tribo.registry.hookspecs import ExportFormat as ExportFormat
 from tribo.registry.hookspecs import HeightFormat as HeightFormat
 from tribo.registry.hookspecs import LabRow as LabRow
+from tribo.registry.hookspecs import api_version as api_version
 from tribo.registry.hookspecs import hookimpl as hookimpl
 from tribo.registry.registry import Registry as Registry
 from tribo.result.read import Result as Result

@@ -151,10 +151,9 @@ class Registry:
 
     def load_all(self) -> list[Plugin]:
         """Import every plugin that is not disabled, and return those that cannot be used."""
-        usable = [plugin for plugin in self.plugins if plugin.usable]
-        for plugin in usable:
+        for plugin in self.plugins:
             self.load(plugin)
-        return [plugin for plugin in usable if not plugin.usable]
+        return [p for p in self.plugins if not p.usable and p.status != "disabled"]
 
     def providers(self, fields: set[str]) -> list[str]:
         """Return the effects of imported plugins that provide any of `fields`, as text."""
