@@ -19,7 +19,7 @@ from tribo.core.errors import CaseError, TriboWarning
 from tribo.registry.hookspecs import GROUP, PROJECT, api_version
 
 if TYPE_CHECKING:
-    from tribo.registry.kinds import Classes
+    from tribo.component import Component
 
 CONTRACT = re.compile(rf"{PROJECT}(?:\.v?(\d+)(?:\..*)?)?")
 """Groups of the entry points of plugins, for any number of the contract; without one it is 1."""
@@ -52,8 +52,8 @@ class Plugin:
     status: Status = "available"
     reason: str = ""
     names: tuple[str, ...] = ()
-    load: Callable[[], object] = field(default=lambda: None, repr=False)
-    classes: Classes = field(default_factory=dict, repr=False)
+    load: Callable[[], object] = field(repr=False, kw_only=True)
+    classes: dict[str, type[Component]] = field(default_factory=dict, repr=False)
 
     def __str__(self) -> str:
         return f"{self.distribution} {self.version}".rstrip()

@@ -21,7 +21,7 @@ from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.words import did_you_mean, said, suggestion
 from tribo.registry import hookspecs
-from tribo.registry.kinds import Classes, offered
+from tribo.registry.kinds import offered
 from tribo.registry.plugins import Plugin, builtin, given, installed
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ class Registry:
         return cls([builtin(), *map(given, plugins)])
 
     @property
-    def components(self) -> Classes:
+    def components(self) -> dict[str, type[Component]]:
         """The usable classes of the plugins that were imported, by name."""
         return {
             name: cls

@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from tribo import LOAD_SHARE, Array, CaseError, ContactSolution, Explicit, Residuals
+from tribo import LOAD_SHARE, Array, Box, CaseError, ContactSolution, Explicit, Residuals
 from tribo.kernel_api import (
     CELLS,
-    Box,
     Memory,
     Model,
     assemble,
