@@ -46,6 +46,7 @@ def is_a_type(value: object) -> bool:
 
 def annotations(thing: object) -> Iterator[tuple[str, str, str]]:
     """Yield place, module and annotation of all in the signatures of a function or class."""
+    thing = inspect.unwrap(thing) if callable(thing) else thing
     if inspect.isfunction(thing):
         if _module(thing).startswith("tribo."):
             for key, annotation in thing.__annotations__.items():
@@ -76,7 +77,8 @@ def hidden(thing: object) -> list[str]:
     """Return each type of tribo in the signatures of a name that is no public name."""
     missing = []
     for place, module, annotation in annotations(thing):
-        for node in ast.walk(ast.parse(str(annotation))):
+        text = str(getattr(annotation, "__forward_arg__", annotation))
+        for node in ast.walk(ast.parse(text)):
             name = getattr(node, "id", "")
             value = own(module).get(name)
             public = value in KERNEL or getattr(tribo, name, None) is value
