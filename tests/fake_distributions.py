@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from tribo.registry.hookspecs import GROUP
 from tribo.registry.plugins import Plugin, installed
 
 OBSERVER = """
@@ -52,7 +53,7 @@ def distribute(
     version: str,
     points: Mapping[str, str],
     requires: Iterable[str] = (),
-    group: str = "tribo",
+    group: str = GROUP,
     **modules: str,
 ) -> None:
     """Put a distribution with entry points {name: module} and modules into `folder`."""

@@ -1,6 +1,7 @@
 """Nothing public is undocumented."""
 
 import inspect
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -41,6 +42,14 @@ def test_every_built_in_model_is_on_the_page_on_python(name):
 
 def test_every_unit_is_one_of_the_package_or_of_its_units():
     assert {"mm", "GPa", "N", "Hz", "hour"} <= {*tribo.__all__} & {*vars(tribo.units)}
+
+
+@pytest.mark.slow
+def test_the_page_of_public_names_is_up_to_date(monkeypatch):
+    monkeypatch.syspath_prepend(DOCS / "support")
+    names = import_module("public_names")
+    up_to_date = names.PAGE.read_text(encoding="utf-8") == "\n".join(names.page())
+    assert up_to_date, f"docs/plugin_api.md is not what is in the code; renew it: {names.COMMAND}"
 
 
 @pytest.mark.parametrize("hook", HOOKS)

@@ -13,6 +13,8 @@ from tribo.packages import NAMES, how_to_install
 
 bind()
 _get = lazy(__name__, __file__)
+DEPRECATED: dict[str, tuple[str, str]] = {}
+"""Old public names, each with the new name and the version in which the old one goes."""
 
 
 def __getattr__(name: str) -> object:
@@ -22,6 +24,13 @@ def __getattr__(name: str) -> object:
             f"{name!r} comes with {package}: {how_to_install(package)}, and "
             f"from {package.replace('-', '_')} import {name}"
         )
+    if name in DEPRECATED:
+        import warnings
+
+        new, version = DEPRECATED[name]
+        words = f"tribo.{name} is now tribo.{new}; tribo {version} has only that"
+        warnings.warn(words, DeprecationWarning, stacklevel=2)
+        return _get(new)
     return _get(name)
 
 

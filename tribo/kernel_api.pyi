@@ -16,13 +16,10 @@ from tribo.config.overrides import path_keys as path_keys
 from tribo.config.write import to_toml as to_toml
 from tribo.contact.projection import CELLS as CELLS
 from tribo.contact.projection import over as over
-from tribo.core.arrays import Mask as Mask
-from tribo.core.arrays import Region as Region
 from tribo.core.arrays import add_from as add_from
 from tribo.core.arrays import bounds as bounds
 from tribo.core.arrays import readonly as readonly
 from tribo.core.arrays import union as union
-from tribo.core.box import Box as Box
 from tribo.core.box import whole as whole
 from tribo.core.data_table import DataTable as DataTable
 from tribo.core.data_table import Heading as Heading
@@ -82,11 +79,9 @@ from tribo.lab.heights import nearest_filled as nearest_filled
 from tribo.lab.heights import outliers as outliers
 from tribo.lab.heights import smoothed as smoothed
 from tribo.lab.inferred import UNWORN as UNWORN
-from tribo.lab.inferred import InferredVolume as InferredVolume
 from tribo.lab.inferred import ball_volumes as ball_volumes
 from tribo.lab.inferred import inferred as inferred
 from tribo.lab.inferred import track_section as track_section
-from tribo.lab.report import LabReport as LabReport
 from tribo.lab.report import lab_report as lab_report
 from tribo.lab.report import lab_sentences as lab_sentences
 from tribo.lab.report import run_sentences as run_sentences
@@ -132,7 +127,6 @@ from tribo.plotting.units import size as size
 from tribo.plotting.units import time_labels as time_labels
 from tribo.plotting.units import time_unit as time_unit
 from tribo.registry.registry import default_registry as default_registry
-from tribo.result.body import BodyResult as BodyResult
 from tribo.result.export import profile as profile
 from tribo.result.layout import TRACK as TRACK
 from tribo.result.layout import TRACK_PLASTIC as TRACK_PLASTIC

@@ -17,8 +17,6 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
-import tribo
-import tribo.units
 from tribo.case import Body, Case
 from tribo.cli.commands import imported, offered
 from tribo.cli.main import tribo as command_line
@@ -50,8 +48,6 @@ def write(folder: Path) -> None:
         "columns": "\n".join(columns_table()),
         "hooks": "\n".join(hooks_table()),
         "kinds": "\n".join(kinds_table()),
-        "answers": "\n".join(answers_tables()),
-        "plugin_api": "\n".join(plugin_page()),
     }
     for name, text in pages.items():
         (folder / f"{name}.md").write_text(text + "\n", encoding="utf-8")
@@ -175,12 +171,12 @@ def hooks_table() -> Iterator[str]:
 
 
 def kinds_table() -> Iterator[str]:
-    """Yield the base classes of components with the question that each answers."""
-    yield "| Base class | Question that it answers |\n| --- | --- |"
+    """Yield the base classes of components with the subject of each."""
+    yield "| Base class | What it is |\n| --- | --- |"
     for base in KINDS.values():
         module = inspect.getmodule(base)
-        question = (inspect.getdoc(module) or "").splitlines()[0]
-        yield f"| `{base.__name__}` | {question} |"
+        subject = (inspect.getdoc(module) or "").splitlines()[0]
+        yield f"| `{base.__name__}` | {subject} |"
 
 
 def answers_tables() -> Iterator[str]:
@@ -193,32 +189,6 @@ def answers_tables() -> Iterator[str]:
             cells = (answer.description, answer.unit, shape or "a number", answer.limits)
             yield f"| `{answer.name}` | {' | '.join(cells)} |"
         yield ""
-
-
-def plugin_page() -> Iterator[str]:
-    """Yield the documentation of what a plugin uses: names that the page on Python lacks."""
-    listed = (Path(__file__).parents[1] / "api.md").read_text(encoding="utf-8")
-    yield "```{eval-rst}"
-    for name in sorted(tribo.__all__):
-        if f":: tribo.{name}\n" in listed or hasattr(tribo.units, name):
-            continue
-        thing = getattr(tribo, name)
-        if name == "Array":
-            yield "``Array`` stands for ``numpy.ndarray`` of 64-bit floats.\n"
-            continue
-        if isinstance(thing, tribo.Field):
-            unit = "" if thing.unit == "1" else f", in {thing.unit}"
-            yield f"``{name}`` is the field ``{thing.name}``{unit}. {thing.description}\n"
-            continue
-        if inspect.isclass(thing):
-            directive = "autoclass"
-            options = ["   :members:", "   :exclude-members: shape, spacing"]
-        else:
-            directive, options = "autofunction", []
-        yield f".. {directive}:: tribo.{name}"
-        yield from options
-        yield ""
-    yield "```"
 
 
 def _help(words: list[str]) -> str:

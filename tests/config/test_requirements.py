@@ -25,7 +25,7 @@ def test_a_distribution_is_needed_in_its_version_where_its_marker_holds(required
 
 
 def plugin(module, status, reason=""):
-    return Plugin("pytest", "1", module, "installed", status, reason)
+    return Plugin("pytest", "1", module, "installed", status, reason, load=object)
 
 
 def test_a_distribution_counts_if_one_of_its_modules_is_usable():

@@ -116,7 +116,7 @@ def test_malformed_distributions_harm_no_other(folder):
     install(folder)
     faults = {
         "equals": "[console_scripts]\nno equals sign\n",
-        "nameless": "[tribo]\nmalformed.law = malformed\n",
+        "nameless": "[tribo.2]\nmalformed.law = malformed\n",
         "odd_value": "[console_scripts]\nmalformed = not a module !!\n",
     }
     for name, lines in faults.items():

@@ -242,6 +242,8 @@ def test_only_some_plugins_can_be_kept(folder, monkeypatch):
         ("tribo", "tribo.wear_law", True),
         ("tribo[x]; python_version>'3'", "other", True),
         ("tribo", "tribo", False),
+        ("tribo", "tribo.2", False),
+        ("tribo", "tribo.v1.wear_law", False),
         ("tribo-energy", "other", False),
         ("tribo; extra == 'test'", "other", False),
         ("tribo ?? 3", "other", False),

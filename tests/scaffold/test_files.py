@@ -42,8 +42,8 @@ def test_it_is_a_complete_distribution(kind, name, tmp_path):
     project = tomllib.loads((folder / "pyproject.toml").read_text())["project"]
     assert project["name"] == name
     assert not re.match("A [aeiou]", project["description"])
-    assert "tribo>=0.1,<0.2" in project["dependencies"]
-    assert project["entry-points"] == {"tribo": {names["component"]: package}}
+    assert "tribo>=0.2" in project["dependencies"]
+    assert project["entry-points"] == {"tribo.2": {names["component"]: package}}
     assert (folder / "example.toml").read_text().strip() in (folder / "README.md").read_text()
     assert "${{ matrix.python }}" in (folder / ".github/workflows/ci.yml").read_text()
 

@@ -74,6 +74,17 @@ def offered() -> dict[str, Command]:
     return found
 
 
+def refused(package: str = "") -> list[str]:
+    """Return why packages with hooks alone cannot be used: all, or the one of this name."""
+    from tribo.registry.plugins import installed
+
+    return [
+        f"{plugin} is {plugin.status}: {plugin.reason}"
+        for plugin in installed()
+        if not (plugin.usable or plugin.names) and package in ("", plugin.distribution)
+    ]
+
+
 def imported(command: Command) -> click.Command:
     """Import a command.
 

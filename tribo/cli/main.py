@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 
 import click
 
-from tribo.cli.commands import OWN, imported, offered, own_command
+from tribo.cli.commands import OWN, imported, offered, own_command, refused
 from tribo.cli.streams import STDERR, STDOUT, over, say
 from tribo.core.errors import CaseError, Interrupted, ReaderGone, TriboError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
@@ -35,10 +35,11 @@ class LazyGroup(click.Group):
             return imported(offered()[cmd_name])
         if cmd_name in COMMANDS:
             package, _ = COMMANDS[cmd_name]
-            message = f"'tribo {cmd_name}' comes with {package}: {how_to_install(package)}"
-            raise click.UsageError(message, ctx)
+            what = "; ".join(refused(package)) or how_to_install(package)
+            raise click.UsageError(f"'tribo {cmd_name}' comes with {package}: {what}", ctx)
         near = suggestion(did_you_mean(cmd_name, [*offered(), *COMMANDS]))
-        raise click.UsageError(f"No such command {cmd_name!r}{near}", ctx)
+        what = " ".join([f"No such command {cmd_name!r}{near}", *refused()])
+        raise click.UsageError(what, ctx)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List the commands without importing any."""

@@ -30,7 +30,19 @@ def solve_bounded(
     tolerance: float = 1e-8,
     max_iterations: int = 500,
 ) -> ContactSolution:
-    """Solve one contact; see `solve_together`, of which this is one position."""
+    """Minimise ½ pᵀA p + gapᵀp over 0 <= p <= cap with sum(p) * cell area = load.
+
+    A is `operator` with `compliance` added, on the same box. The gap, shape (nx, ny), is in m, up
+    to a constant, the load in N, the cap and the pressure `start` in Pa. Each of the `Residuals`
+    must fall to `tolerance`; an iteration costs one call of the operator.
+
+    Raises
+    ------
+    CaseError
+        If the load is not positive, or more than the box bears at the cap.
+    NumericalError
+        If the gap is not finite, or the residuals did not fall to the tolerance.
+    """
     return solve_together(
         operator,
         gap,

@@ -12,7 +12,7 @@ from tribo.core.contact import CycleCompliance, WearCompliance
 class Operator(Protocol):
     """A symmetric positive definite map from pressure to displacement on a box of cells.
 
-    Anything with these members can be given to `tribo.contact.bounded_cg.solve_bounded`.
+    Anything with these members can be given to `tribo.solve_bounded`.
     """
 
     @property

@@ -41,7 +41,11 @@ def check_finite(gap: Array) -> None:
 def residuals(
     pressure: Array, gap: Array, displacement: Array, approach: float, total: float, limit: float
 ) -> Residuals:
-    """Judge a pressure, shape (nx, ny), against the conditions of contact; see `judged`."""
+    """Return the errors of a pressure in the conditions of contact.
+
+    Pressure, gap and displacement have the shape (nx, ny); `total` is the sum that the pressure
+    should have, `limit` its upper bound, which may be infinite, both in Pa.
+    """
     deformed = gap + displacement - approach
     return judged(pressure, gap, displacement, deformed, np.asarray(total), limit)[0]
 

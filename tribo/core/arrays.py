@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+"""Numbers, as 64-bit floats."""
 Mask = NDArray[np.bool_]
-
+"""Truth values: which cells belong to a set."""
 Region = tuple[slice, slice]
 """Rows and columns of an array."""
 

@@ -10,19 +10,25 @@ from packaging.requirements import InvalidRequirement, Requirement
 
 
 def entry_points(group: str) -> Iterator[tuple[metadata.Distribution, metadata.EntryPoint]]:
-    """Yield the entry points of a group, each with its distribution; skip unreadable metadata."""
+    """Yield the entry points of a group and of those below it, each with its distribution.
+
+    ``tribo.2`` is below ``tribo``. Unreadable metadata are skipped.
+    """
     names: dict[str, None] = {}
     for distribution in metadata.distributions():
         with suppress(Exception):
             # Parsing everything that is installed would take most of composing a run.
-            if f"[{group}]" in (distribution.read_text("entry_points.txt") or ""):
+            text = distribution.read_text("entry_points.txt") or ""
+            if f"[{group}]" in text or f"[{group}." in text:
                 names[distribution.name] = None
     for name in names:
         # By name: of a folder that is searched twice, and of leftovers, the one in use.
         with suppress(Exception):
             found = metadata.distribution(name)
             if found.version:
-                yield from ((found, point) for point in found.entry_points.select(group=group))
+                for point in found.entry_points:
+                    if f"{point.group}.".startswith(f"{group}."):
+                        yield found, point
 
 
 def applies(requirement: str) -> bool:

@@ -167,26 +167,15 @@ class Load(Table):
         """Return the load in a few stages, held at the mean of those that they stand for."""
         if isinstance(self.normal, float) or len(self.normal) <= FEW:
             return self
-        ends = np.array([0.0, *(piece.end for piece in self.pieces)])
-        carried = np.diff(ends) * [0.5 * (piece.first + piece.last) for piece in self.pieces]
+        pieces = pieces_of(self)
+        ends = np.array([0.0, *(piece.end for piece in pieces)])
+        carried = np.diff(ends) * [0.5 * (piece.first + piece.last) for piece in pieces]
         firsts = np.arange(0, len(carried), -(-len(carried) // FEW))
         until = ends[[*firsts[1:], -1]]
         normal = np.add.reduceat(carried, firsts) / np.diff([0.0, *until])
         stages = zip(until.tolist(), normal.tolist(), strict=True)
         return self.model_copy(
             update={"normal": tuple(Stage(until=time, normal=load) for time, load in stages)}
-        )
-
-    @property
-    def pieces(self) -> tuple[Piece, ...]:
-        """The load over time, piece by piece."""
-        if isinstance(self.normal, float):
-            return (Piece(inf, self.normal, self.normal),)
-        befores = (self.normal[0], *self.normal)
-        return tuple(
-            Piece(stage.time, before.normal if stage.until is None else stage.normal, stage.normal)
-            for before, stage in zip(befores, self.normal, strict=False)
-            if stage.time > 0
         )
 
 
@@ -197,6 +186,18 @@ class Piece:
     end: float
     first: float
     last: float
+
+
+def pieces_of(load: Load) -> tuple[Piece, ...]:
+    """Return a load over time, piece by piece."""
+    if isinstance(load.normal, float):
+        return (Piece(inf, load.normal, load.normal),)
+    befores = (load.normal[0], *load.normal)
+    return tuple(
+        Piece(stage.time, before.normal if stage.until is None else stage.normal, stage.normal)
+        for before, stage in zip(befores, load.normal, strict=False)
+        if stage.time > 0
+    )
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,11 @@ if TYPE_CHECKING:
     from tribo.verification.reference import Reference
 
 PROJECT = "tribo"
-"""Name of the plugin manager, and group of the entry points that it reads."""
+"""Name of the plugin manager."""
+api_version = 2
+"""Number of the contract between tribo and its plugins; docs/contract.md lists what changed."""
+GROUP = f"{PROJECT}.{api_version}"
+"""Group of the entry points of plugins."""
 
 hookspec = pluggy.HookspecMarker(PROJECT)
 hookimpl = pluggy.HookimplMarker(PROJECT)

@@ -17,8 +17,6 @@ from tribo.wear.law import WearLaw
 _BASES: list[type[Component]] = [ContactSolver, WearLaw, Kinematics, Surface, Effect, Observer]
 KINDS: Mapping[str, type[Component]] = MappingProxyType({base.kind(): base for base in _BASES})
 """Base class of each kind, as ``"wear_law"``."""
-Classes = dict[str, type[Component]]
-"""Classes by the name in a case."""
 
 
 def check_class(cls: object) -> None:
@@ -34,9 +32,9 @@ def check_class(cls: object) -> None:
         raise TypeError(f"{cls.__qualname__} does not define {missing}")
 
 
-def offered(answers: Iterable[object]) -> Classes:
+def offered(answers: Iterable[object]) -> dict[str, type[Component]]:
     """Return the classes in the answers to the hook `tribo_components`, by name."""
-    found: Classes = {}
+    found: dict[str, type[Component]] = {}
     for answer in answers:
         if not isinstance(answer, Iterable):
             raise TypeError(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import warnings
 from collections.abc import Callable, Iterable
 from contextlib import suppress
@@ -15,11 +16,13 @@ from packaging.utils import canonicalize_name
 
 from tribo.core.distributions import applies, entry_points, lacking
 from tribo.core.errors import CaseError, TriboWarning
-from tribo.registry.hookspecs import PROJECT
+from tribo.registry.hookspecs import GROUP, PROJECT, api_version
 
 if TYPE_CHECKING:
-    from tribo.registry.kinds import Classes
+    from tribo.component import Component
 
+CONTRACT = re.compile(rf"{PROJECT}(?:\.v?(\d+)(?:\..*)?)?")
+"""Groups of the entry points of plugins, for any number of the contract; without one it is 1."""
 DISABLED = "TRIBO_DISABLE_PLUGINS"
 ONLY = "TRIBO_PLUGINS"
 
@@ -36,10 +39,10 @@ class Plugin:
     status is ``available`` (not imported yet), ``loaded``, ``disabled`` by the user, ``broken`` (it
     raised, or breaks the contract of plugins), ``not ready`` (its import in a process of its own,
     or a thread that this left running, did not end in time) or ``incompatible`` (a requirement of
-    its distribution is not met), the `reason` why it cannot be used; in lists, a name that two
-    plugins declare is in ``conflict``. `names` are those that its entry points declare, `classes`
-    the components by name once `load`, which returns the object that carries the hooks, has
-    imported it.
+    its distribution is not met, or it is for another contract), the `reason` why it cannot be used;
+    in lists, a name that two plugins declare is in ``conflict``. `names` are those that its entry
+    points declare, `classes` the components by name once `load`, which returns the object that
+    carries the hooks, has imported it.
     """
 
     distribution: str
@@ -49,8 +52,8 @@ class Plugin:
     status: Status = "available"
     reason: str = ""
     names: tuple[str, ...] = ()
-    load: Callable[[], object] = field(default=lambda: None, repr=False)
-    classes: Classes = field(default_factory=dict, repr=False)
+    load: Callable[[], object] = field(repr=False, kw_only=True)
+    classes: dict[str, type[Component]] = field(default_factory=dict, repr=False)
 
     def __str__(self) -> str:
         return f"{self.distribution} {self.version}".rstrip()
@@ -94,24 +97,31 @@ def given(plugin: object) -> Plugin:
 def installed() -> list[Plugin]:
     """Return the plugins of installed distributions, sorted; imports none.
 
-    An entry point ``acme.fretting = "acme_tribo"`` in the group ``tribo`` declares that the module
-    ``acme_tribo`` offers a component of that name; one that is named after its distribution, as
-    ``acme-tribo = "acme_tribo.hooks"``, that it has hooks and no component. The environment
-    variable TRIBO_DISABLE_PLUGINS lists distributions, or names or prefixes of components, to leave
-    out, ``*`` for all; TRIBO_PLUGINS the only ones that may take part.
+    An entry point ``acme.fretting = "acme_tribo"`` in the group ``tribo.2`` declares that the
+    module ``acme_tribo`` offers a component of that name; one that is named after its distribution,
+    as ``acme-tribo = "acme_tribo.hooks"``, that it has hooks and no component. The number is that
+    of the contract: a distribution that has groups of others alone is ``incompatible``. The
+    environment variable TRIBO_DISABLE_PLUGINS lists distributions, or names or prefixes of
+    components, to leave out, ``*`` for all; TRIBO_PLUGINS the only ones that may take part.
     """
     found: dict[tuple[str, str], Plugin] = {}
-    for distribution, point in entry_points(PROJECT):
+    declared = [each for each in entry_points(PROJECT) if CONTRACT.fullmatch(each[1].group)]
+    compatible = {distribution.name for distribution, point in declared if point.group == GROUP}
+    for distribution, point in declared:
+        if point.group != GROUP and distribution.name in compatible:
+            continue
         plugin = found.setdefault(
             (distribution.name, point.value),
             Plugin(
                 distribution.name, distribution.version, point.value, "installed", load=point.load
             ),
         )
+        if point.group != GROUP:
+            plugin.status, plugin.reason = "incompatible", _other_contract(point.group)
         if point.name == distribution.name:
             continue
         plugin.names += (point.name,)
-        if "." not in point.name:
+        if plugin.usable and "." not in point.name:
             plugin.status = "broken"
             plugin.reason = (
                 f"{point.name!r} needs a prefix, as in 'acme.fretting'; others are tribo's own"
@@ -119,6 +129,16 @@ def installed() -> list[Plugin]:
     plugins = [found[key] for key in sorted(found)]
     _choose(plugins)
     return plugins
+
+
+def _other_contract(group: str) -> str:
+    """Return why a plugin cannot be used whose entry points are in this group."""
+    match = CONTRACT.fullmatch(group)
+    number = (match and match[1]) or 1
+    return (
+        f"it speaks contract {number} (entry points {group!r}), and this tribo contract "
+        f"{api_version} ({GROUP!r}); docs/contract.md lists what changed and what to do"
+    )
 
 
 def _choose(plugins: list[Plugin]) -> None:
@@ -164,11 +184,12 @@ def undeclared() -> list[str]:
     for distribution in metadata.distributions():
         with suppress(Exception):
             needed = [Requirement(text) for text in distribution.requires or () if applies(text)]
+            groups = distribution.entry_points.groups
             requires_us = PROJECT in [requirement.name.lower() for requirement in needed]
-            if requires_us and not distribution.entry_points.select(group=PROJECT):
+            if requires_us and not any(CONTRACT.fullmatch(each) for each in groups):
                 found.add(f"{distribution.name} {distribution.version}")
     return [
         f"{which} requires tribo but declares no plugin; if it is one, add an entry point to the "
-        f"group {PROJECT!r}, and reinstall it"
+        f"group {GROUP!r}, and reinstall it"
         for which in sorted(found)
     ]

@@ -21,7 +21,7 @@ from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.words import did_you_mean, said, suggestion
 from tribo.registry import hookspecs
-from tribo.registry.kinds import Classes, offered
+from tribo.registry.kinds import offered
 from tribo.registry.plugins import Plugin, builtin, given, installed
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ class Registry:
         return cls([builtin(), *map(given, plugins)])
 
     @property
-    def components(self) -> Classes:
+    def components(self) -> dict[str, type[Component]]:
         """The usable classes of the plugins that were imported, by name."""
         return {
             name: cls
@@ -151,10 +151,9 @@ class Registry:
 
     def load_all(self) -> list[Plugin]:
         """Import every plugin that is not disabled, and return those that cannot be used."""
-        usable = [plugin for plugin in self.plugins if plugin.usable]
-        for plugin in usable:
+        for plugin in self.plugins:
             self.load(plugin)
-        return [plugin for plugin in usable if not plugin.usable]
+        return [p for p in self.plugins if not p.usable and p.status != "disabled"]
 
     def providers(self, fields: set[str]) -> list[str]:
         """Return the effects of imported plugins that provide any of `fields`, as text."""

@@ -161,8 +161,8 @@ class Implicit(Scheme):
             last = increment == remaining
             time = until if last else time_at(model, state, state.distance + increment, until)
             try:
-                trial = self.attempt(model, state, increment, time)
-                errors = self.errors(model, state, trial)
+                trial = self._attempt(model, state, increment, time)
+                errors = self._errors(model, state, trial)
                 if max(errors.depth, errors.pressure, errors.volume) <= 1:
                     ended = trial.ended(model, state)
                     break
@@ -197,9 +197,9 @@ class Implicit(Scheme):
 
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
         """Return the state after one backward Euler step; see `Scheme.step`."""
-        return self.attempt(model, state, increment, time).ended(model, state)
+        return self._attempt(model, state, increment, time).ended(model, state)
 
-    def attempt(self, model: Model, state: State, increment: float, time: float) -> Trial:
+    def _attempt(self, model: Model, state: State, increment: float, time: float) -> Trial:
         """Try one backward Euler step.
 
         The step's wear enters the contact problem as compliance; where that is
@@ -281,7 +281,7 @@ class Implicit(Scheme):
         state = accepted(model, after, contacts, loads, exact=exact)
         return Trial(state, forward, contacts, slid.plan)
 
-    def errors(self, model: Model, before: State, trial: Trial) -> Errors:
+    def _errors(self, model: Model, before: State, trial: Trial) -> Errors:
         """Return the step's depth, pressure and volume errors as multiples of their tolerances.
 
         The local error of backward Euler in depth is half of what its wear

@@ -18,12 +18,13 @@ from tribo.core import findings
 from tribo.core.errors import CaseError
 from tribo.core.findings import Finding
 from tribo.core.rounding import ROUND_OFF
+from tribo.observers.observer import Observer
 from tribo.registry.registry import Registry
 from tribo.result.read import Result
 from tribo.simulation.run import Simulation
 from tribo.study.differences import differences
 from tribo.study.matching import check_match, pairs, renamed
-from tribo.study.runs import Observers, run_variants
+from tribo.study.runs import run_variants
 from tribo.study.variation import grid, short_labels, variants
 
 MOST = 12
@@ -203,7 +204,7 @@ def compare(
     times: Sequence[float] = (),
     match: Mapping[str, str] = MappingProxyType({}),
     registry: Registry | None = None,
-    observers: Observers = list,
+    observers: Callable[[], Sequence[Observer]] = list,
     tell: Callable[[str], None] = lambda text: None,
     overwrite: bool = False,
 ) -> Comparison:

@@ -16,7 +16,6 @@ from tribo.registry.registry import Registry
 from tribo.result.read import Result
 from tribo.simulation.run import Simulation
 
-Observers = Callable[[], Sequence[Observer]]
 _LONGEST_NAME = 100
 _OTHERWISE = (
     "choose another folder with -o, or run all anew with --force (in Python overwrite=True)"
@@ -59,7 +58,7 @@ def run_variants(
     folder: Path | None,
     *,
     registry: Registry | None = None,
-    observers: Observers = list,
+    observers: Callable[[], Sequence[Observer]] = list,
     tell: Callable[[str], None] = lambda text: None,
     overwrite: bool = False,
 ) -> list[Result]:

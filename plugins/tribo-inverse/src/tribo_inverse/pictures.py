@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.figure import Figure
-from tribo import Array
-from tribo.kernel_api import DIFFERENCES, SIGNIFICANT, Look, Mask, house_style, new_figure
+from tribo import Array, Mask
+from tribo.kernel_api import DIFFERENCES, SIGNIFICANT, Look, house_style, new_figure
 
 DOUBLE = 140.0
 """Width of a picture with two panels, in mm."""

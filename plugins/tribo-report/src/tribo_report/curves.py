@@ -6,9 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from tribo import Array, Result
+from tribo import Array, Mask, Result
 from tribo.kernel_api import (
-    Mask,
     axis_units,
     kept_fields,
     layer_ends,

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from tribo import Array, Result
+from tribo import Array, BodyResult, Result
 from tribo.kernel_api import (
     TRACK,
     TRACK_PLASTIC,
-    BodyResult,
     axis_units,
     kept_fields,
     limits,

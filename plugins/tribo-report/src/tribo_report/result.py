@@ -6,11 +6,20 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from tribo import CaseError, Friction, Layer, Load, Material, NumericalError, Result, Simulation
+from tribo import (
+    CaseError,
+    Friction,
+    LabReport,
+    Layer,
+    Load,
+    Material,
+    NumericalError,
+    Result,
+    Simulation,
+)
 from tribo.kernel_api import (
     DataTable,
     Heading,
-    LabReport,
     TableRow,
     environment,
     findings_of,

@@ -8,8 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from tribo import CaseError, Result
-from tribo.kernel_api import LabReport
+from tribo import CaseError, LabReport, Result
 
 from tribo_report.amounts import amount
 from tribo_report.printed import printed_by

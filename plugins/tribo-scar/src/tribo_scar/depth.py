@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 import scipy.ndimage as ndimage
-from tribo import Array, CaseError
-from tribo.kernel_api import Mask, smoothed
+from tribo import Array, CaseError, Mask
+from tribo.kernel_api import smoothed
 
 from tribo_scar.findings import warn
 from tribo_scar.registration import Registration, quadratic

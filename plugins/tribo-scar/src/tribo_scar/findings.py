@@ -7,8 +7,8 @@ import warnings
 
 import numpy as np
 import scipy.ndimage as ndimage
-from tribo import Array, CaseError, Heights, Sphere, TriboWarning
-from tribo.kernel_api import Mask, without_form
+from tribo import Array, CaseError, Heights, Mask, Sphere, TriboWarning
+from tribo.kernel_api import without_form
 
 from tribo_scar.registration import variance_inflation
 

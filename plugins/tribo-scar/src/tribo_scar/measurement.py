@@ -9,11 +9,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.ndimage as ndimage
-from tribo import Array, CaseError, Heights, Sphere, Surface
+from tribo import Array, CaseError, Heights, InferredVolume, Mask, Sphere, Surface
 from tribo.kernel_api import (
     UNWORN,
-    InferredVolume,
-    Mask,
     Scar,
     ball_volumes,
     circular_groove_area,

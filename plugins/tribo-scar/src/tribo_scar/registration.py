@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.ndimage as ndimage
-from tribo import Array, CaseError, Heights
-from tribo.kernel_api import Mask, nearest_filled, smoothed
+from tribo import Array, CaseError, Heights, Mask
+from tribo.kernel_api import nearest_filled, smoothed
 
 from tribo_scar.alignment import OVERLAP, align, robust_deviation, rotation
 

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy.ndimage as ndimage
-from tribo import Array, CaseError
-from tribo.kernel_api import BLUR, Mask
+from tribo import Array, CaseError, Mask
+from tribo.kernel_api import BLUR
 
 from tribo_scar.registration import DEEP
 

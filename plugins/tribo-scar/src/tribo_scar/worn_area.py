@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.ndimage as ndimage
-from tribo import Array, CaseError
-from tribo.kernel_api import Mask, interpolated, smoothed
+from tribo import Array, CaseError, Mask
+from tribo.kernel_api import interpolated, smoothed
 
 from tribo_scar.alignment import robust_deviation
 from tribo_scar.registration import DEEP, Registration

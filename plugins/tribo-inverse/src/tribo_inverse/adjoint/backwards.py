@@ -7,10 +7,18 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from tribo import LOAD_SHARE, LOCAL_SLIP, Array, CaseError, ContactSolution, Explicit, Residuals
+from tribo import (
+    LOAD_SHARE,
+    LOCAL_SLIP,
+    Array,
+    Box,
+    CaseError,
+    ContactSolution,
+    Explicit,
+    Residuals,
+)
 from tribo.kernel_api import (
     CELLS,
-    Box,
     Memory,
     Model,
     assemble,

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.fft
-from tribo import Array, NumericalError, Operator
-from tribo.kernel_api import CELLS, Box, Mask, over
+from tribo import Array, Box, Mask, NumericalError, Operator
+from tribo.kernel_api import CELLS, over
 
 from tribo_inverse.increment.carriers import Carrier
 

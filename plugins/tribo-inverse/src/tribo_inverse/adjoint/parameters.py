@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 from pydantic import ValidationError
-from tribo import Array, CaseError, Operator, TriboError
-from tribo.kernel_api import Interval, Mask, Memory, Model, OverTime, assemble
+from tribo import Array, CaseError, Mask, Operator, TriboError
+from tribo.kernel_api import Interval, Memory, Model, OverTime, assemble
 
 from tribo_inverse.adjoint.numbers import ANY, changed
 from tribo_inverse.adjoint.objective import Seeds

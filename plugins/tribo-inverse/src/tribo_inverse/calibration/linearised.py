@@ -8,8 +8,7 @@ import numpy as np
 from scipy.optimize import least_squares, minimize_scalar
 from scipy.special import log_ndtr
 from scipy.stats import multivariate_normal
-from tribo import Array
-from tribo.kernel_api import Mask
+from tribo import Array, Mask
 
 LONGEST_STEP = np.log(100.0)
 """Largest change of a logarithm between two runs."""

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from scipy.fft import dctn, idctn
 from scipy.special import chdtrc, ndtri
-from tribo import Array, Case, CaseError, Finding, NumericalError, Simulation
-from tribo.kernel_api import Mask, Model, assemble, begin, march, varied
+from tribo import Array, Case, CaseError, Finding, Mask, NumericalError, Simulation
+from tribo.kernel_api import Model, assemble, begin, march, varied
 
 from tribo_inverse.adjoint.backwards import swept_back
 from tribo_inverse.adjoint.gradient import FURTHEST, ValueAndGradient

@@ -16,8 +16,8 @@ from pydantic import (
     field_validator,
     model_validator,
 )
-from tribo import Array, CaseError, Quantity, Table
-from tribo.kernel_api import Mask, by_path, case_error, read_toml
+from tribo import Array, CaseError, Mask, Quantity, Table
+from tribo.kernel_api import by_path, case_error, read_toml
 
 from tribo_inverse.calibration.exactness import Share, data_error, part_of
 from tribo_inverse.calibration.quantities import DEPTH_MAP, PROFILES, QUANTITIES

@@ -10,17 +10,8 @@ import numpy as np
 import pandas as pd
 from scipy.interpolate import Akima1DInterpolator
 from scipy.ndimage import binary_dilation, binary_erosion
-from tribo import Array, Result
-from tribo.kernel_api import (
-    TRACK,
-    BodyResult,
-    Model,
-    between_cells,
-    crown,
-    diameter,
-    profile,
-    track_section,
-)
+from tribo import Array, BodyResult, Result
+from tribo.kernel_api import TRACK, Model, between_cells, crown, diameter, profile, track_section
 
 DIAMETER_SIGMA = 0.2
 """Standard deviation of a computed diameter, in cells."""

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from tribo import Array, CaseError
-from tribo.kernel_api import Box, Model, add_from
+from tribo import Array, Box, CaseError
+from tribo.kernel_api import Model, add_from
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from tribo import Array, ContactSolution, LocalConditions
+from tribo import Array, Box, ContactSolution, LocalConditions
 from tribo.kernel_api import (
     CELLS,
-    Box,
     Kept,
     Memory,
     Model,

@@ -10,7 +10,7 @@ from tempfile import SpooledTemporaryFile
 
 import numpy as np
 from numpy.typing import NDArray
-from tribo import Array, CaseError, State
+from tribo import Array, CaseError, Region, State
 from tribo.kernel_api import (
     Division,
     Drawn,
@@ -18,7 +18,6 @@ from tribo.kernel_api import (
     Interval,
     Memory,
     Model,
-    Region,
     Worn,
     Yielded,
     begin,
