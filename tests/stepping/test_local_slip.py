@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import K, case, foundation, last, motion, pin, small
+from paper_models import K, archard, case, foundation, last, motion, pair, pin, small
 
 from tribo import Simulation
 from tribo.core.errors import BadValues, CaseError
@@ -41,6 +41,30 @@ class Tires(WearLaw):
         return WearRate(k * local.pressure, k, {"slipped": 1.0 * (local.pressure > 0)})
 
 
+class Counts(Tires):
+    """One that counts alike, and wears as at first."""
+
+    type = "test.counts"
+
+    def rate(self, local):
+        rate = super().rate(local)
+        return WearRate(self.k * local.pressure, self.k, rate.state_rates)
+
+
+class Eases(Slips):
+    """A slip that grows with a state of the contact."""
+
+    type = "test.eases"
+    state_fields = (Field("eased", "1", "How far it has.", at_least=0.0),)
+
+    def fields(self, contact):
+        slip = -np.expm1(-0.2 - contact.state["eased"] - contact.pressure / 1e9)
+        return {"local_slip": dict.fromkeys(contact.materials, slip)}
+
+    def state_rates(self, contact):
+        return {"eased": contact.speed * (contact.pressure > 0) * 0.1}
+
+
 RAMP = [{"at": 0, "normal": 100.0}, {"at": 200, "normal": 40.0}]
 
 
@@ -51,11 +75,20 @@ RAMP = [{"at": 0, "normal": 100.0}, {"at": 200, "normal": 40.0}]
         {"load": RAMP},
         {"kinematics": motion(positions=17, stroke="0.5 mm", duration=20)},
         {"stepping": Explicit(time_step=5.0)},
+        {"load": RAMP, "bodies": pair(Counts(), archard())},
+        {"load": RAMP, "effects": [Eases()]},
     ],
-    ids=["averaged", "under a ramp of the load", "resolved", "explicit"],
+    ids=[
+        "averaged",
+        "ramp",
+        "resolved",
+        "explicit",
+        "law counts",
+        "slip follows state",
+    ],
 )
 def test_worn_volume_goes_with_the_work_of_friction(changes):
-    of = case(effects=[Slips()], friction_coefficient=MU, **changes)
+    of = case(**{"effects": [Slips()], "friction_coefficient": MU, **changes})
     with Simulation(of).run() as result:
         end = result.saves()[-1]
         work = float(result.dataset["friction_energy"][-1])

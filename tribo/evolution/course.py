@@ -39,6 +39,8 @@ class Course:
         What is remembered at its end.
     plan : Division
         How it is divided for that to be accurate.
+    friction_work : float or None
+        What friction does, in J, where points slip less than the motion and anything is remembered.
     passed : Mapping[str, Mapping[int, float]]
         By body and break of its depth the first share of it at which a point reaches the break.
     """
@@ -46,6 +48,7 @@ class Course:
     rates: CycleRates
     memory: Memory
     plan: Division = field(default_factory=Division)
+    friction_work: float | None = None
     passed: Mapping[str, Mapping[int, float]] = field(default_factory=dict)
 
 
@@ -71,6 +74,8 @@ def course(
         for position in range(len(contacts))
         for name in model.laws.wear
     ]
+    if model.laws.slips_locally:
+        sums.append(Sum())
     kept = kept_in(model, before)
     found = integrated(rates, before.values, interval.length, kept, sums, plan)
     each = iter(found.sums)
@@ -83,7 +88,8 @@ def course(
         body = before.bodies[state]
         if body and kept[state].name == WORN_DEPTH.name:
             passed.setdefault(body, {})[layer] = share
-    return Course(mean, before.with_values(iter(found.values)), found.plan, passed)
+    work = float(next(each)) if model.laws.slips_locally else None
+    return Course(mean, before.with_values(iter(found.values)), found.plan, work, passed)
 
 
 def accumulated(
@@ -167,7 +173,15 @@ def _rates(
         effects = (laid(model, key, rates.between[key], position) for key in before.between)
         pairs = zip(total, (*laws, *effects), strict=True)
         total = [value + share * rate for value, rate in pairs]
-    return total + [rate.depth_rate for rates in found for rate in rates.wear.values()]
+    total += [rate.depth_rate for rates in found for rate in rates.wear.values()]
+    if model.laws.slips_locally:
+        force = sum(
+            place.share * float(np.sum(rates.friction))
+            for place, rates in zip(model.cycle, found, strict=True)
+            if rates.friction is not None
+        )
+        total.append(np.array(force * model.grid.cell_area))
+    return total
 
 
 def loaded(

@@ -14,7 +14,7 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import FRICTION_COEFFICIENT, LOCAL_SLIP
 from tribo.core.state import State
-from tribo.evolution.course import accumulated
+from tribo.evolution.course import Course, accumulated
 from tribo.evolution.interval import Moment, interval_from
 from tribo.evolution.local_fields import local_fields
 from tribo.evolution.states import Memory, remembered, under
@@ -67,42 +67,31 @@ def _mean(model: Model, pressures: Sequence[Array], memory: Memory, moment: Mome
 
 
 def with_friction_work(
-    model: Model, before: State, after: State, contacts: Sequence[ContactSolution], plan: Division
+    model: Model,
+    before: State,
+    after: State,
+    contacts: Sequence[ContactSolution],
+    course: Course,
 ) -> State:
     """Return `after`, the end of a step, with the work of friction over it.
 
     Load and pressure go in a straight line from one end of the step to the other: from after a jump
     of the load that it begins with, to before one that it ends with. What is remembered goes on
-    under `contacts`, those that the bodies wear under, in the parts of `plan`.
+    under `contacts`, those that the bodies wear under, in the parts of their `course`. Where points
+    slip less than the motion the work is done by the pressures that wear: V = (k/μ) W.
     """
-    if model.laws.slips_locally:
-        work = _work_of_slip(model, before, after, contacts, plan)
+    carried = after.load_distance - before.load_distance
+    if course.friction_work is not None:
+        work = course.friction_work
+    elif model.laws.slips_locally:
+        interval = interval_from(before, after.distance - before.distance, after.time)
+        pressures = [contact.pressure for contact in contacts]
+        work = carried * _mean(model, pressures, remembered(model, before), interval.end)
     elif model.laws.friction_varies:
-        work = _varying_work(model, before, after, contacts, plan)
+        work = _varying_work(model, before, after, contacts, course.plan)
     else:
-        friction = model.laws.friction_coefficient or 0.0
-        work = friction * (after.load_distance - before.load_distance)
+        work = (model.laws.friction_coefficient or 0.0) * carried
     return replace(after, friction_energy=before.friction_energy + work)
-
-
-def _work_of_slip(
-    model: Model, before: State, after: State, contacts: Sequence[ContactSolution], plan: Division
-) -> float:
-    """Return the work of friction over a step in which points slip less than the motion, in J.
-
-    It is done by the pressures that wear, so that both go together: V = (k/μ) W.
-    """
-    interval = interval_from(before, after.distance - before.distance, after.time)
-    pressures = [contact.pressure for contact in contacts]
-
-    def coefficient(memory: Memory, passed: float) -> float:
-        return _mean(model, pressures, memory, replace(interval.at(passed), speed=after.speed))
-
-    memory, carried = remembered(model, before), after.load_distance - before.load_distance
-    if not memory.values:
-        return coefficient(memory, 1.0) * carried
-    total = accumulated(model, memory, contacts, interval, plan, coefficient)
-    return total / interval.slides * carried
 
 
 def _varying_work(

@@ -16,6 +16,7 @@ from tribo.core.box import around_region
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError
 from tribo.core.fields import (
+    FRICTION_COEFFICIENT,
     LOAD_SHARE,
     LOCAL_SLIP,
     LocalConditions,
@@ -47,11 +48,13 @@ CycleRates = Sequence[Mapping[str, WearRate]]
 class Rates:
     """Rates per metre in the contact frame, at a position: of wear by body, of effects by field.
 
-    At rest they are per second.
+    At rest they are per second. Where points slip less than the motion, `friction` is what they
+    dissipate on it, in Pa.
     """
 
     wear: Mapping[str, WearRate]
     between: Mapping[str, Array]
+    friction: Array | None = None
 
 
 def wear_rates(
@@ -139,7 +142,10 @@ def _mean_rates(parts: Sequence[tuple[float | Array, float | Array, Rates]]) -> 
     between = {
         key: _sum((time, each.between[key]) for _, time, each in parts) for key in first.between
     }
-    return Rates(wear, between)
+    if first.friction is None:
+        return Rates(wear, between)
+    friction = _sum((of, each.friction) for of, _, each in parts if each.friction is not None)
+    return Rates(wear, between, friction)
 
 
 def by_reach(
@@ -196,8 +202,13 @@ def _rates_of(
     found = []
     still = readonly(np.zeros(model.grid.cells))
     for position, rates in enumerate(of_positions):
+        friction = None
+        if model.laws.slips_locally and FRICTION_COEFFICIENT.name in fields[position]:
+            friction = contacts[position].pressure
+            for name in (FRICTION_COEFFICIENT.name, LOCAL_SLIP.name):
+                friction = friction * next(iter(fields[position][name].values()))
         if not memories[position].between:
-            found.append(Rates(rates, {}))
+            found.append(Rates(rates, {}, friction))
             continue
         moment = moments[position]
         depths = {
@@ -214,7 +225,8 @@ def _rates_of(
             depths,
         )
         slid = moment.speed if moment.speed > 0 else np.inf
-        found.append(Rates(rates, {key: change / slid for key, change in changes.items()}))
+        between = {key: change / slid for key, change in changes.items()}
+        found.append(Rates(rates, between, friction))
     return found
 
 

@@ -59,6 +59,7 @@ def _table(*answers: Answer) -> Mapping[str, Answer]:
 
 
 _WINDOW = "(nx, ny)"
+_CYCLE = "(positions, nx, ny)"
 _OWN = "(rows, ny)"
 
 ANSWERS: Mapping[str, Mapping[str, Answer]] = MappingProxyType(
@@ -68,8 +69,8 @@ ANSWERS: Mapping[str, Mapping[str, Answer]] = MappingProxyType(
             Answer("curvature", "1/m", "Curvature along x and y, or None.", shape="(2,)"),
         ),
         "wear_law": _table(
-            Answer("depth_rate", "1", "Depth per metre.", 0.0, shape=_WINDOW, spreads=True),
-            Answer("depth_slope", "1/Pa", "Its slope, or None.", shape=_WINDOW, spreads=True),
+            Answer("depth_rate", "1", "Depth per metre.", 0.0, shape=_CYCLE, spreads=True),
+            Answer("depth_slope", "1/Pa", "Its slope, or None.", shape=_CYCLE, spreads=True),
         ),
         "contact_solver": _table(
             Answer("pressure", "Pa", "Contact pressure.", 0.0, shape=_WINDOW),
@@ -108,7 +109,8 @@ def answers_of(component: Component) -> dict[str, Answer]:
     """Return the answers of a component by name: its kind's, its fields' and its states'."""
     kind = type(component).kind()
     found = dict(ANSWERS.get(kind, {}))
-    spread = Answer("", "", "", shape=_WINDOW, spreads=True)
+    shape = _CYCLE if kind == "wear_law" else _WINDOW
+    spread = Answer("", "", "", shape=shape, spreads=True)
     uniform = replace(spread, shape="(1, 1)")
     for field in getattr(component, "provides", ()):
         known = LIMITED.get(field.name, field)

@@ -90,7 +90,11 @@ class GuardedMotion(Guard[Kinematics]):
         rate = readonly(np.ones(grid.cells))
         own = self.ask(getattr, exposure, "rows"), grid.cells[1]
         passing = self.ask(exposure.lay, rate, position)
-        mean = self.ask(exposure.lay, self.ask(exposure.average, rate), position)
+        mean = self.ask(exposure.average, rate)
+        if exposure.starts is not None and not np.array_equal(mean, rate):
+            rule = "of a body with rows of its own it must be the rate itself"
+            raise self.bad("average", "not the rate itself", where, rule)
+        mean = self.ask(exposure.lay, mean, position)
         mean = self.array("average", mean, own, where)
         self.array("envelope", self.ask(exposure.envelope, readonly(passing)), own, where)
         volume = self.number("volume", self.ask(exposure.volume, mean), where)

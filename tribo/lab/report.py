@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from math import isnan
 from typing import Any, NamedTuple
 
 from tribo.closed_forms.hertz import first_yield_pressure
@@ -138,7 +139,11 @@ def _body(result: Result, name: str) -> BodyReport:
     marks = scar(body.wear_depth[-1], result.grid)
     rate = None
     if distance > 0:
-        rate = 1e9 * volume / save["load_distance_N_m"]
+        carried = save["load_distance_N_m"]
+        if isnan(carried):
+            # Older files lack it; their load was constant.
+            carried = result.system.load * distance
+        rate = 1e9 * volume / carried
     return BodyReport(
         specific_wear_rate_mm3_per_Nm=rate,
         mass_kg=None if body.density is None else volume * body.density,

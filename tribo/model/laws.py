@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from tribo.core.fields import FRICTION_COEFFICIENT, LOCAL_SLIP, WORN_DEPTH, Field
+from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, LOCAL_SLIP, WORN_DEPTH, Field
 from tribo.guards.parts import GuardedEffect, GuardedLaw
 
 
@@ -60,13 +60,21 @@ class Laws:
     @cached_property
     def friction_varies(self) -> bool:
         """Whether an effect provides the coefficient of friction."""
-        provided = (field.name for effect in self.effects for field in effect.provides)
-        return FRICTION_COEFFICIENT.name in provided
+        return FRICTION_COEFFICIENT.name in self._provided
 
     @cached_property
     def slips_locally(self) -> bool:
         """Whether an effect provides how far each point slips."""
-        return any(f.name == LOCAL_SLIP.name for effect in self.effects for f in effect.provides)
+        return LOCAL_SLIP.name in self._provided
+
+    @cached_property
+    def shares_load(self) -> bool:
+        """Whether effects carry a part of the load."""
+        return LOAD_SHARE.name in self._provided
+
+    @cached_property
+    def _provided(self) -> frozenset[str]:
+        return frozenset(field.name for effect in self.effects for field in effect.provides)
 
     @cached_property
     def friction_remembers(self) -> bool:

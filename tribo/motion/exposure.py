@@ -46,10 +46,14 @@ class Exposure(ABC):
         """Return the row of the body's own surface at which the window begins at a position."""
         return 0 if self.starts is None else self.starts[position]
 
-    @property
-    def track(self) -> float:
-        """Mean length of the track that its points pass along, in m; 0 if they stay."""
-        return 0.0
+    def track(self, window: Grid) -> float:
+        """Return the mean length of the track that its points pass along, in m; 0 if they stay."""
+        if not self.swept:
+            return 0.0
+        if self.starts is not None:
+            return (max(self.starts) - min(self.starts)) * window.spacing[0]
+        # What one metre of depth all along it takes, over the breadth of the window.
+        return self.volume(np.ones((1, window.cells[1]))) / window.size[1]
 
     def own_grid(self, window: Grid) -> Grid:
         """Return the grid of the body's first surface: the window, or its rows along the path."""
@@ -174,11 +178,6 @@ class Track(Exposure):
         self.length = length
         self.shape_stays = shape_stays
 
-    @property
-    def track(self) -> float:
-        """Mean length of the rows' tracks, in m."""
-        return float(np.mean(self.length))
-
     def average(self, rate: Array) -> Array:
         """Return the track average, shape (1, ny)."""
         line = np.sum(rate, axis=0, keepdims=True)
@@ -232,11 +231,6 @@ class Passing(Stationary):
         self.starts = tuple(starts)
         self.rows = grid.period or grid.cells[0] + max(starts)
         self._length = length if grid.period is None else min(length, grid.size[0])
-
-    @property
-    def track(self) -> float:
-        """Length of the path in whole cells, in m."""
-        return (max(self.starts) - min(self.starts)) * self._grid.spacing[0]
 
     def see(self, field: Array, position: int) -> Array:
         """Return the rows of the window, from the start of the position on."""

@@ -84,11 +84,14 @@ class _Header(BaseModel):
 
 def read_header(attributes: Mapping[str, Any]) -> dict[str, Any]:
     """Return the attributes of a file with their JSON read; ValueError if one is wrong."""
-    # Files of before findings have none.
-    plain = {"findings": "[]"} | {
+    plain = {
         name: value.tolist() if isinstance(value, np.ndarray | np.generic) else value
         for name, value in attributes.items()
     }
+    if "findings" not in plain:
+        # An older file has sentences alone.
+        words = json.loads(plain["notices"])
+        plain["findings"] = json.dumps([{"kind": "notice", "words": each} for each in words])
     plain |= {name: json.loads(plain[name]) for name in _JSON}
     try:
         read = _Header.model_validate(plain)

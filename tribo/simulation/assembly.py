@@ -64,7 +64,7 @@ def assemble(case: Case) -> Model:
             surfaces[name] = GuardedSurface(body.surface, name, exposure.own_grid(grid))
             _check_sliding(surfaces[name], exposure)
             if isinstance(case.kinematics, Unidirectional) and case.kinematics.turns:
-                _check_ring(surfaces[name], exposure, exposure.track, grid)
+                _check_ring(surfaces[name], exposure, exposure.track(grid), grid)
         if body.wear is not None:
             laws[name] = _law(body, name, grid, exposure)
     shares = (1.0,) * len(cycle)

@@ -21,8 +21,8 @@ FIELDS_IF_PLASTIC = 16
 """What yielding takes besides; 14 were measured."""
 FIELDS_PER_FIELD = 8
 """What each state field of a law, or each field of an effect, takes besides; 7 were measured."""
-FIELDS_PER_POSITION = 34
-"""What each position of a resolved cycle takes; 27 were measured, and 30 where bodies yield."""
+FIELDS_PER_POSITION = 40
+"""What each position of a resolved cycle takes; 38 were measured, of a body in layers."""
 BESIDES = 24 * 2.0**20
 """What does not grow with the grid, in bytes; 18 MiB were measured."""
 

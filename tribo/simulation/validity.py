@@ -100,7 +100,7 @@ def short_of_a_lap(model: Model) -> Finding | None:
     """Return a finding if the whole run slides over a part of a body's track only."""
     distance = model.end_distance
     for name in [name for name in model.laws.wear if name in model.cycle.swept]:
-        length = model.cycle.maps[name].track
+        length = model.cycle.maps[name].track(model.grid)
         if distance < (1 - ROUND_OFF) * length:
             return findings.short_of_a_lap(name, distance, length)
     return None
@@ -133,10 +133,11 @@ def _unlike_the_period(model: Model) -> Finding | None:
     """Return a finding if a body of an endless contact is averaged over another length."""
     period = model.grid.size[0]
     for name in model.changing:
-        track = model.cycle.maps[name]
-        unlike = track.averaged and abs(track.track - period) > findings.UNLIKE * period
+        exposure = model.cycle.maps[name]
+        length = exposure.track(model.grid)
+        unlike = exposure.averaged and abs(length - period) > findings.UNLIKE * period
         if unlike and name in model.laws.wear:
-            return findings.unlike_the_period(name, track.track, period)
+            return findings.unlike_the_period(name, length, period)
     return None
 
 

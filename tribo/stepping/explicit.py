@@ -116,7 +116,7 @@ class Explicit(Scheme):
         )
         model.tell(Solved(contacts))
         after = accepted(model, counted(after, contacts), contacts, loads)
-        return with_friction_work(model, state, after, state.contacts, slid.plan)
+        return with_friction_work(model, state, after, state.contacts, slid)
 
     def _instability(self, model: Model, state: State, moment: Moment) -> Finding | None:
         """Return a warning of a step that is beyond the limit where the case allows it.
@@ -187,7 +187,8 @@ def _steepest(model: Model, rates: Mapping[str, WearRate], contact: ContactSolut
 
 def _steepened(model: Model, state: State, rates: CycleRates, moment: Moment) -> CycleRates:
     """Return `rates` with the derivative in all, where laws follow the fields of effects."""
-    following = [name for name, law in model.laws.wear.items() if law.requires]
+    shared = model.laws.slips_locally or model.laws.shares_load
+    following = [name for name, law in model.laws.wear.items() if shared or law.requires]
     if not model.laws.effects or not following:
         return rates
     nudged, stripes = in_stripes(state.contacts)

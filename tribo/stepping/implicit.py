@@ -23,7 +23,6 @@ from tribo.evolution.interval import Moment, interval_from
 from tribo.evolution.rates import wear_rates
 from tribo.evolution.repeated import check_repeatable
 from tribo.evolution.states import filling, remembered
-from tribo.integration.division import Division
 from tribo.model.events import Worn
 from tribo.stepping.contacts import counted, extrapolated, solve_cycle, undeformed
 from tribo.stepping.linear_wear import linear_wear
@@ -71,17 +70,17 @@ class Trial:
     """The state after a backward Euler step, and what forward Euler would have worn.
 
     `forward` has the depth by body, on the body's surface, in m; `contacts` are those that the
-    bodies wore under, and `plan` is how the step was divided for what is remembered.
+    bodies wore under in their `course`.
     """
 
     state: State
     forward: Mapping[str, Array]
     contacts: Sequence[ContactSolution]
-    plan: Division
+    course: Course
 
     def ended(self, model: Model, before: State) -> State:
         """Return its end, with the work of friction over it."""
-        return with_friction_work(model, before, self.state, self.contacts, self.plan)
+        return with_friction_work(model, before, self.state, self.contacts, self.course)
 
 
 @dataclass(frozen=True)
@@ -279,7 +278,7 @@ class Implicit(Scheme):
         little, linear = LEFT_OVER * self.pressure_tolerance, self.nonlinear_tolerance * deepest
         exact = mismatch <= linear or mismatch <= little * _deformed(contacts, base + implied)
         state = accepted(model, after, contacts, loads, exact=exact)
-        return Trial(state, forward, contacts, slid.plan)
+        return Trial(state, forward, contacts, slid)
 
     def _errors(self, model: Model, before: State, trial: Trial) -> Errors:
         """Return the step's depth, pressure and volume errors as multiples of their tolerances.

@@ -17,6 +17,8 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSystem
 from tribo.core.fields import (
     FRICTION_COEFFICIENT,
+    LOAD_SHARE,
+    LOCAL_SLIP,
     PLACE_X,
     PLACE_Y,
     ContactConditions,
@@ -103,7 +105,7 @@ def field(
 
 def declared(name: str) -> Field | None:
     """Return the declaration of a field that the case or a loaded model provides or requires."""
-    known = [FRICTION_COEFFICIENT, PLACE_X, PLACE_Y]
+    known = [FRICTION_COEFFICIENT, LOAD_SHARE, LOCAL_SLIP, PLACE_X, PLACE_Y]
     models: list[type[Effect | WearLaw]] = [*Effect.__subclasses__(), *WearLaw.__subclasses__()]
     for model in models:
         models += model.__subclasses__()

@@ -1,7 +1,7 @@
 """Effects of each kind that a gradient goes through, and three that it does not."""
 
 import numpy as np
-from tribo.core.fields import LOAD_SHARE, Field
+from tribo.core.fields import LOAD_SHARE, LOCAL_SLIP, Field
 from tribo.effects.effect import Effect
 from tribo.wear.archard import Archard
 from tribo.wear.modified import times
@@ -72,6 +72,19 @@ class Sinks(Heat):
     def power(self, contact):
         leads = sum(material.conductivity for material in contact.materials.values())
         return 90.0 / leads * super().power(contact)
+
+
+class Slips(Effect):
+    """Points slip the more the more they bear, and the flatter the bodies are."""
+
+    type = "slips"
+    reach = "point"
+    most: float = 3e9
+    provides = (LOCAL_SLIP,)
+
+    def fields(self, contact):
+        slip = (contact.pressure / self.most) ** 2 * 5e-3 * contact.system.curvature[0]
+        return {"local_slip": dict.fromkeys(contact.materials, slip)}
 
 
 class Softens(Archard):

@@ -4,7 +4,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from gradient_effects import Blurs, Creeps, Dust, Far, Grains, Grows, Heat, Mirrors, Sinks, Softens
+from gradient_effects import (
+    Blurs,
+    Creeps,
+    Dust,
+    Far,
+    Grains,
+    Grows,
+    Heat,
+    Mirrors,
+    Sinks,
+    Slips,
+    Softens,
+)
 from gradients import (
     BASE,
     CLOSE,
@@ -88,6 +100,12 @@ KINDS = {
         1e-5,
     ),
 }
+KINDS["slip"] = Kind(
+    run(effects=[Slips()], kinematics=motion(duration=1.5), stepping=SLOW),
+    Depth("disk"),
+    [*BASE, *SHAPE, "effects.0.most"],
+    1e-5,
+)
 METAL = {"young": "207 GPa", "poisson": 0.3, "conductivity": 45.0}
 KINDS["explicit, beside heat that no law follows"] = Kind(
     run(

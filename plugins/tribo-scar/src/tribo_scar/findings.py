@@ -60,6 +60,19 @@ def warn_of_outliers(count: int, which: str) -> None:
     )
 
 
+def check_scales(before: Heights, after: Heights) -> None:
+    """Refuse maps of which one has a whole part of the other's pixels along both axes."""
+    ratios = np.divide(before.heights.shape, after.heights.shape)
+    for ratio in (ratios, 1 / ratios):
+        whole = round(float(ratio[0]))
+        if whole > 1 and np.all(ratio == whole) and np.allclose(before.pitch, after.pitch):
+            raise CaseError(
+                f"one map has {whole} times as many pixels along both axes as the other, and the "
+                "same pitch: if both show the same area, average the finer one over blocks, or "
+                "state each pitch in its file; else cut the larger one"
+            )
+
+
 def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
     """Warn if what is unworn differs by a form, beyond what relief and noise make of it.
 

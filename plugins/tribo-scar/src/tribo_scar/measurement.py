@@ -23,6 +23,7 @@ from tribo.kernel_api import (
 
 from tribo_scar.depth import deepest, sum_uncertainty
 from tribo_scar.findings import (
+    check_scales,
     may_be_ball,
     radius_across,
     warn,
@@ -202,6 +203,7 @@ def measured_scar(
     else:
         if np.array_equal(before.heights, after.heights, equal_nan=True):
             raise CaseError("the maps before and after are the same; give two that differ")
+        check_scales(before, after)
         warn_of_zeros(before, "before")
         before, count_of_outliers = _without_outliers(before, "before")
     warn_of_zeros(after, "after")

@@ -78,7 +78,8 @@ def covered(model: Model) -> Model:
     # Explicit steps follow a load along themselves only where something is remembered.
     if followed or not model.laws.effects or isinstance(model.case.stepping, Explicit):
         return model
-    return assemble(varied(model.case, effects=()))
+    bare = assemble(varied(model.case, effects=()))
+    return replace(bare, laws=replace(bare.laws, effects=()))
 
 
 Increment = Plain | Alone | Together

@@ -275,6 +275,9 @@ def _varied(
     for place in places:
         case = changed(case, place, number)
     model = unreached(localised(assemble(case), factors), base)
+    if not base.laws.effects:
+        # Those of the motion too: no law follows them.
+        model = replace(model, laws=replace(model.laws, effects=()))
     ways, others = (
         [(e.rows, None if e.starts is None else tuple(e.starts)) for e in each.cycle.maps.values()]
         for each in (base, model)
@@ -308,6 +311,9 @@ def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
         # What is remembered follows a load that changes along a step.
         return everything
     if one.friction != other.friction or one.effects != other.effects:
+        return everything
+    if model.laws.effects and base.contact.system != model.contact.system:
+        # An effect may look at all of it.
         return everything
     if one.kinematics != other.kinematics or not np.array_equal(
         Stops.of(base).times, Stops.of(model).times
