@@ -11,7 +11,7 @@ import numpy as np
 
 from tribo.component import components
 from tribo.core.contact import ContactSystem
-from tribo.core.errors import CaseError, NumericalError, OverTime, PluginError, TriboError
+from tribo.core.errors import CaseError, NumericalError, OverTime, PluginError, TooWorn, TriboError
 from tribo.core.findings import Finding, outgrown, trial_failed, worn_through, would_stop
 from tribo.core.measures import Measures
 from tribo.core.state import State
@@ -232,7 +232,7 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             continue
         try:
             state, when = _worn(model, coarse, state)
-        except CaseError as error:
+        except (CaseError, TooWorn) as error:
             # Refused on its way: that does not hang on the cells.
             return CoarseRun(None, error=error, on_any_cells=True)
         except NumericalError as error:
