@@ -47,16 +47,21 @@ class Registry:
     """
 
     def __init__(self, plugins: Iterable[Plugin]) -> None:
-        self.plugins = tuple(plugins)
+        self.plugins: tuple[Plugin, ...] = ()
         self._manager = pluggy.PluginManager(hookspecs.PROJECT)
         self._manager.add_hookspecs(hookspecs)
         self._owners: defaultdict[str, list[Plugin]] = defaultdict(list)
-        for plugin in self.plugins:
-            if plugin.origin != "installed":
-                self._register(plugin)
-            if plugin.usable:
-                for name in plugin.names:
-                    self._owners[name].append(plugin)
+        for plugin in plugins:
+            self.add(plugin)
+
+    def add(self, plugin: Plugin) -> None:
+        """Let one more plugin take part."""
+        if plugin.origin != "installed":
+            self._register(plugin)
+        self.plugins += (plugin,)
+        if plugin.usable:
+            for name in plugin.names:
+                self._owners[name].append(plugin)
 
     @classmethod
     def with_plugins(cls, *plugins: object) -> Registry:
@@ -176,7 +181,7 @@ class Registry:
         items: list[Any] = []
         for each in getattr(self._manager.hook, hook).get_hookimpls():
             try:
-                with _process_kept():
+                with process_kept():
                     answer = each.function(*(arguments[name] for name in each.argnames))
                     answered = answer.items() if isinstance(answer, Mapping) else answer or ()
                     items += map(partial(_item, hook), answered)
@@ -207,7 +212,7 @@ class Registry:
             if lacks := unmet(plugin.distribution):
                 plugin.status, plugin.reason = "incompatible", lacks
                 return
-            with _process_kept():
+            with process_kept():
                 self._register(plugin)
         except KeyboardInterrupt:
             raise
@@ -284,7 +289,7 @@ def place(error: BaseException, *entry_points: str) -> str:
 
 
 @contextmanager
-def _process_kept() -> Iterator[None]:
+def process_kept() -> Iterator[None]:
     """Restore folder, warning filters and numpy's errors afterwards; print to stderr meanwhile."""
     with ExitStack() as kept, redirect_stdout(sys.stderr), warnings.catch_warnings(), np.errstate():
         # The folder may have been deleted.
