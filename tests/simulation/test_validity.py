@@ -1,6 +1,7 @@
 """What check and the run say where a case leaves what its models hold for."""
 
 import re
+import tomllib
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,12 +10,14 @@ from paper_models import archard, flat, named, pair, pin, small, steel
 
 from tribo import Grid, Result, Simulation, TriboWarning
 from tribo.case import Stop
+from tribo.config.load import validate_case
 from tribo.contact.periodic import Periodic
 from tribo.core.errors import TooWorn
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.predict import predict
 from tribo.simulation.validity import of_case, peak_at_the_edge
 from tribo.surfaces.sphere import Sphere
+from tribo.templates import TEMPLATES, template
 
 
 def ball(radius, load, size):
@@ -111,8 +114,9 @@ def sliding(metres, k, **changes):
     [(1, 3e-11, "depth", 0.2e-3), (1e-3, 2e-9, "wear rate", 1e-9)],
 )
 def test_implausible_wear_is_warned_of_once_with_its_place_and_time(metres, k, kind, limit):
+    model = sliding(metres, k)
     with pytest.warns(TriboWarning, match=f"{kind}: at ") as warned:
-        result = Simulation(sliding(metres, k)).run()
+        result = Simulation(model).run()
     (found,) = result.findings
     assert (found.kind, found.place, found.limit) == (kind, "bodies.pin", limit)
     assert found.value > found.limit
@@ -120,6 +124,15 @@ def test_implausible_wear_is_warned_of_once_with_its_place_and_time(metres, k, k
     assert 0 < found.distance < metres
     assert len(warned) == 1
     assert result.status == "done"
+    assert [(each.kind, each.limit) for each in predict(model).problems] == [(kind, limit)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [name for name in TEMPLATES if name != "sweep"])
+def test_no_template_wears_implausibly(name):
+    model = Simulation(validate_case(tomllib.loads(template(name)))).model
+    kinds = {problem.kind for problem in predict(model).problems}
+    assert kinds.isdisjoint({"depth", "wear rate", "trial"})
 
 
 @pytest.mark.filterwarnings("ignore::tribo.TriboWarning")

@@ -29,6 +29,7 @@ from tribo.simulation.memory import memory_needed, size_of_fields
 from tribo.simulation.validity import (
     check_stroke,
     few_cells,
+    implausible,
     limitation,
     positions_for,
     too_wide,
@@ -91,6 +92,7 @@ class CoarseRun:
     outgrown: float | None = None
     limitation: Finding | None = None
     worn_through: tuple[Mapping[str, Any], ...] = ()
+    implausible: tuple[Finding, ...] = ()
     error: TriboError | None = None
     on_any_cells: bool = False
     run_time: float | None = None
@@ -119,6 +121,7 @@ def predict(model: Model) -> Prediction:
         few_cells(model, state.contact),
         warned,
         *(too_wide(model, first) or too_wide(model, last or first)),
+        *coarse.implausible,
         coarse.limitation,
     )
     facts = {place: Guard(c).ask(stated_facts, c) for place, c in components(model.case)}
@@ -244,6 +247,7 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             when,
             limitation(replace(coarse, motion=model.motion), state),
             tuple(worn_through(state.findings)),
+            tuple(finding for finding, _ in implausible(coarse, state)),
             run_time=_run_time(model, coarse, took)
             if isinstance(model.case.stepping, Implicit)
             else None,
