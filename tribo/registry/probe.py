@@ -128,11 +128,8 @@ def _imported(plugins: Sequence[Plugin], limit: float | None) -> list[Plugin]:
     status: Status = "broken"
     reason = f"its import {how_it_ended(child.returncode)}"
     if child.returncode in _LATE:
-        status, within = (
-            "not ready",
-            f"{limit:g} s" if limit else f"{TIMES} times tribo's own import",
-        )
-        reason = f"within {within} (--time-limit SECONDS, or {LIMIT}, allows more)"
+        within = f"{limit:g} s" if limit else f"{TIMES} times what tribo's own import takes"
+        status, reason = "not ready", f"within {within}; {LIMIT}, in s, sets another limit"
     return [replace(plugins[0], status=status, reason=reason)]
 
 
