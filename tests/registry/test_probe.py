@@ -99,3 +99,14 @@ def test_a_busy_machine_gives_an_import_more_time_and_no_more_cpu_time():
     assert allowed(0.5, 0.5, 0) == (TIMES * 0.5, TIMES * 0.5)
     assert allowed(0.5, 2.0, 0) == (TIMES * 0.5, TIMES * 2.0)
     assert allowed(0.5, 2.0, 3.0) == (3.0, 12.0)
+
+
+def test_where_no_process_starts_plugins_are_imported_untried(folder, monkeypatch):
+    def refuse(*args, **options):
+        raise OSError("no processes here")
+
+    monkeypatch.setattr(module.subprocess, "run", refuse)
+    registry = three(folder, "1 / 0")
+    (out,) = import_all(registry)
+    assert (out.distribution, out.status) == ("middle", "broken")
+    assert set(registry.components) == {"first.calm", "third.calm"}

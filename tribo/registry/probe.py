@@ -67,9 +67,11 @@ def import_all(registry: Registry) -> list[Plugin]:
     A child process imports them first, and what ends it is not imported here.
     """
     usable = [plugin for plugin in registry.plugins if plugin.usable]
-    for plugin, tried in zip(usable, probe_all(usable), strict=True):
-        if not tried.usable:
-            plugin.status, plugin.reason = tried.status, tried.reason
+    # Where no process can be started, as in a browser, they are imported untried.
+    with suppress(OSError):
+        for plugin, tried in zip(usable, probe_all(usable), strict=True):
+            if not tried.usable:
+                plugin.status, plugin.reason = tried.status, tried.reason
     registry.load_all()
     return [plugin for plugin in usable if not plugin.usable]
 
