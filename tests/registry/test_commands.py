@@ -99,6 +99,37 @@ def test_the_doctor_tells_of_every_fault_and_none_hurts_a_list_or_a_check(folder
     assert f"hint  {hint}" in doctor.stdout
 
 
+FORMAT = """
+from tribo import CaseTemplate, ExportFormat, hookimpl
+
+@hookimpl
+def tribo_templates():
+    return [CaseTemplate("calm", "A calm case.", "# calm")]
+
+@hookimpl
+def tribo_export_formats():
+    return [ExportFormat("calm", "Nothing.", lambda result, folder: [])]
+"""
+
+
+@pytest.mark.slow
+def test_a_plugin_that_crashes_is_named_and_ends_no_command_that_asks_every_plugin(
+    folder, monkeypatch
+):
+    monkeypatch.setenv("TRIBO_PLUGINS", "deadly,calm")
+    cases(folder)
+    install(folder, "deadly", "import os; os.abort()", name="odd.deadly")
+    distribute(folder, "calm", "1.0", {"calm": "calm"}, **{"calm": FORMAT})
+    assert asked(folder, "run", "plain.toml", *SHORT).returncode == 0
+    for command in (["schema"], ["new", "calm", "-"], ["export", "plain.h5", "--format", "calm"]):
+        done = asked(folder, *command)
+        assert done.returncode == 0, done.stderr
+        (line,) = [line for line in done.stderr.splitlines() if "left out" in line]
+        assert line.startswith("warning: deadly 1.0 is left out: ")
+        assert "SIGABRT" in line
+    assert asked(folder, "plugins", "list").returncode == 0
+
+
 @pytest.mark.parametrize(
     "choice", [["--no-plugin", "odd"], ["--no-plugin", "odd-tribo"], ["--plugins", "none"]]
 )

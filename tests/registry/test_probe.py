@@ -1,10 +1,14 @@
 """What importing a plugin in a process of its own shows, however it behaves."""
 
+import subprocess
+
 import pytest
 from fake_distributions import distribute, observer, plugins
 
 from tribo import CaseError
-from tribo.registry.probe import probe
+from tribo.registry import probe as module
+from tribo.registry.probe import TIMES, allowed, import_all, probe, probe_all
+from tribo.registry.registry import Registry
 
 CALM = observer("probe.calm")
 FORKS = "import os, time\nif os.fork() == 0:\n    time.sleep(20)\n    os._exit(0)\n"
@@ -34,6 +38,13 @@ def test_a_time_limit_that_is_none_is_one_clear_error(folder, monkeypatch, limit
         ("threads_and_hangs", THREAD + CALM, "not ready", "1.5 s"),
         ("leaves", "import os; os._exit(7)", "broken", "exit code 7"),
         ("asks", "input()" + CALM, "broken", "asks.py, line 1)"),
+        ("ends_badly", "import atexit, os; atexit.register(os.abort)" + CALM, "broken", "SIGABRT"),
+        (
+            "keeps_no_core",
+            "import resource; raise ValueError(resource.getrlimit(resource.RLIMIT_CORE))",
+            "broken",
+            "ValueError: (0, 0)",
+        ),
     ],
 )
 def test_a_plugin_cannot_hold_up_who_tries_it(folder, name, code, status, reason):
@@ -42,3 +53,60 @@ def test_a_plugin_cannot_hold_up_who_tries_it(folder, name, code, status, reason
     assert not tried.usable or status == "loaded"
     assert reason in tried.reason
     assert tried.reason.count(".py, line") <= 1
+
+
+@pytest.fixture
+def children(monkeypatch):
+    """The calls of child processes, as a list that grows."""
+    calls, run = [], subprocess.run
+
+    def counted(*args, **options):
+        calls.append(args)
+        return run(*args, **options)
+
+    monkeypatch.setattr(module.subprocess, "run", counted)
+    return calls
+
+
+def three(folder, code):
+    """Return a registry of two calm plugins, and between them one of this code."""
+    for name, text in (("first", CALM), ("middle", code), ("third", CALM)):
+        named = text.replace("probe.calm", f"{name}.calm")
+        distribute(folder, name, "1.0", {f"{name}.calm": name}, **{name: named})
+    return Registry(plugins("first", "middle", "third"))
+
+
+def test_one_child_tries_all_plugins_that_end_it_not(folder, children):
+    registry = three(folder, "1 / 0")
+    statuses = [each.status for each in probe_all(registry.plugins)]
+    assert statuses == ["loaded", "broken", "loaded"]
+    assert len(children) == 1
+    assert [each.status for each in registry.plugins] == ["available"] * 3
+
+
+def test_of_plugins_one_that_crashes_is_left_out_alone(folder, children):
+    registry = three(folder, "import os; os.abort()")
+    (out,) = import_all(registry)
+    assert (out.distribution, out.status) == ("middle", "broken")
+    assert "SIGABRT" in out.reason
+    assert set(registry.components) == {"first.calm", "third.calm"}
+    assert len(children) == 1 + 3
+    assert import_all(registry) == []
+    assert len(children) == 1 + 3
+
+
+def test_a_busy_machine_gives_an_import_more_time_and_no_more_cpu_time():
+    assert allowed(0.5, 0.5, 0) == (TIMES * 0.5, TIMES * 0.5)
+    assert allowed(0.5, 2.0, 0) == (TIMES * 0.5, TIMES * 2.0)
+    assert allowed(0.5, 2.0, 3.0) == (3.0, 12.0)
+
+
+def test_where_no_process_starts_plugins_are_imported_untried(folder, monkeypatch):
+    def refuse(*args, **options):
+        raise OSError("no processes here")
+
+    monkeypatch.setattr(module.subprocess, "run", refuse)
+    registry = three(folder, "1 / 0")
+    (out,) = import_all(registry)
+    assert (out.distribution, out.status) == ("middle", "broken")
+    assert set(registry.components) == {"first.calm", "third.calm"}

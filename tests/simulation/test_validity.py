@@ -1,17 +1,23 @@
 """What check and the run say where a case leaves what its models hold for."""
 
 import re
+import tomllib
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from paper_models import archard, flat, named, pair, small, steel
+from paper_models import archard, flat, named, pair, pin, small, steel
 
-from tribo import Grid, Simulation, TriboWarning
+from tribo import Grid, Result, Simulation, TriboWarning
+from tribo.case import Stop
+from tribo.config.load import validate_case
+from tribo.contact.periodic import Periodic
+from tribo.core.errors import TooWorn
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.predict import predict
 from tribo.simulation.validity import of_case, peak_at_the_edge
 from tribo.surfaces.sphere import Sphere
+from tribo.templates import TEMPLATES, template
 
 
 def ball(radius, load, size):
@@ -95,3 +101,72 @@ def test_a_largest_pressure_at_the_edge_alone_is_told():
     found = peak_at_the_edge(contact)
     assert (found.kind, found.value) == ("resolution", np.max(sharp))
     assert found.value > found.limit
+
+
+def sliding(metres, k, **changes):
+    """A square pin of 2 mm under 10 MPa: its depth is 1e7 Pa k s, its specific wear rate is k."""
+    motion = Unidirectional(speed="0.1 m/s", track_length="8 mm", distance=metres)
+    return pin(archard(k), kinematics=motion, **changes)
+
+
+@pytest.mark.parametrize(
+    ("metres", "k", "kind", "limit"),
+    [(1, 3e-11, "depth", 0.2e-3), (1e-3, 2e-9, "wear rate", 1e-9)],
+)
+def test_implausible_wear_is_warned_of_once_with_its_place_and_time(metres, k, kind, limit):
+    model = sliding(metres, k)
+    with pytest.warns(TriboWarning, match=f"{kind}: at ") as warned:
+        result = Simulation(model).run()
+    (found,) = result.findings
+    assert (found.kind, found.place, found.limit) == (kind, "bodies.pin", limit)
+    assert found.value > found.limit
+    assert 0 < found.time < metres / 0.1
+    assert 0 < found.distance < metres
+    assert len(warned) == 1
+    assert result.status == "done"
+    assert [(each.kind, each.limit) for each in predict(model).problems] == [(kind, limit)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [name for name in TEMPLATES if name != "sweep"])
+def test_no_template_wears_implausibly(name):
+    model = Simulation(validate_case(tomllib.loads(template(name)))).model
+    kinds = {problem.kind for problem in predict(model).problems}
+    assert kinds.isdisjoint({"depth", "wear rate", "trial"})
+
+
+@pytest.mark.filterwarnings("ignore::tribo.TriboWarning")
+@pytest.mark.parametrize(
+    ("metres", "k", "limit"), [(1, 5.2e8, 0.2e-3), (10, 3e-11, 0.2e-3), (1e-9, 2e-5, 1e-9)]
+)
+def test_impossible_wear_stops_a_run_and_a_check(tmp_path, metres, k, limit):
+    model, path = sliding(metres, k), tmp_path / "pin.h5"
+    with pytest.raises(TooWorn) as failure:
+        Simulation(model).run(path)
+    stopped = failure.value.finding
+    assert (stopped.place, stopped.limit) == ("bodies.pin", limit)
+    assert stopped.value >= 10 * limit
+    assert 0 < stopped.time < metres / 0.1
+    with Result.open(path) as result:
+        assert result.status == "failed"
+        assert result.times[-1] < stopped.time
+        last = result.findings[-1]
+    assert (last.kind, last.place, last.value) == ("failed", "bodies.pin", stopped.value)
+    assert predict(model).exit_code == TooWorn.exit_code == 3
+
+
+def test_a_deep_groove_counts_by_the_radius_of_its_body():
+    bodies = [
+        named("ring", Sphere(radius="1 mm"), steel(), archard(1e-12)),
+        named("block", flat(), steel()),
+    ]
+    grid = Grid((1.3e-3, 1.3e-3), (24, 24))
+    model = small(bodies=bodies, load=40, grid=grid, stop=Stop(depth=0.12e-3))
+    with pytest.warns(TriboWarning):
+        result = Simulation(model).run()
+    assert {each.limit for each in result.findings if each.kind == "depth"} == {1e-4}
+
+
+def test_a_window_that_repeats_bounds_no_depth():
+    repeats = {"contact": Periodic(), "grid": Grid((2e-3, 2e-3), (8, 8))}
+    assert Simulation(sliding(10, 3e-11, **repeats, ends_at_window=False)).run().findings == ()

@@ -13,7 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from tribo.cli.console import Console
-from tribo.cli.options import CASE, JSON, SET, echo_json
+from tribo.cli.options import CASE, JSON, PLUGIN, SET, echo_json
 from tribo.cli.waiting import waiting_for
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.findings import Finding
@@ -37,6 +37,7 @@ SPREAD = 3.0
 @click.command()
 @CASE
 @SET
+@PLUGIN
 @JSON
 def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     """Validate CASE and predict its first contact, its final scar, and its size.

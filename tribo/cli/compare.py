@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tribo.cli.options import JSON, PATH, SET, echo_json
+from tribo.cli.options import JSON, PATH, PLUGIN, SET, echo_json
 from tribo.core.errors import CaseError, located
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ _GAP = 3
 @click.argument("files", nargs=-1, required=True, type=PATH)
 @click.option("--vary", multiple=True, metavar="PATH=A,B", help="Values that take turns.")
 @SET
+@PLUGIN
 @click.option("-o", "--output", type=PATH, help="Folder; CASE-compare.")
 @click.option("--at", "at", multiple=True, metavar="TIME", help="Save to show, as '1 h'.")
 @click.option("--match", multiple=True, metavar="NAME=NAME", help="First's body=another's.")

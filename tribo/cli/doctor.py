@@ -18,10 +18,10 @@ SHORT = ("grid={ size = 0.7e-3, cells = 64 }", "kinematics.duration=20", "output
     "--time-limit",
     type=float,
     metavar="SECONDS",
-    help="What a plugin's import may take.  [default: TRIBO_PLUGIN_TIME_LIMIT, or 20]",
+    help="CPU time of a plugin's import.  [default: TRIBO_PLUGIN_TIME_LIMIT, or 30 times tribo's]",
 )
 def doctor(as_json: bool, time_limit: float | None) -> None:
-    """Test the installation, and try every plugin anew, in a process of its own.
+    """Test the installation, and try every plugin anew, in another process.
 
     Exit codes: 0 all is well, 3 something is not.
 
@@ -29,17 +29,14 @@ def doctor(as_json: bool, time_limit: float | None) -> None:
     Example:
       tribo doctor
     """
-    from concurrent.futures import ThreadPoolExecutor
-
     from tribo.core.errors import NumericalError
     from tribo.registry.plugins import installed, undeclared
-    from tribo.registry.probe import probe
+    from tribo.registry.probe import probe_all
     from tribo.registry.registry import Registry
     from tribo.result.provenance import environment
 
-    with ThreadPoolExecutor(2) as pool:
-        registry = Registry(installed())
-        records = list(pool.map(lambda plugin: probe(plugin, time_limit), registry.plugins))
+    registry = Registry(installed())
+    records = probe_all(registry.plugins, time_limit)
     checks = _self_test()
     conflicts = registry.conflicts
     found: dict[str, Any] = {

@@ -29,7 +29,7 @@ def export(output: Path, directory: Path | None, name: str) -> None:
       tribo export my.h5 -d csv
     """
     from tribo.core.writing import writing
-    from tribo.registry.registry import choose
+    from tribo.registry.all_plugins import choose
     from tribo.result.export import export_csv
     from tribo.result.read import Result
 

@@ -33,7 +33,7 @@ def new(name: str | None, file: Path | None, force: bool) -> None:
     if name is None:
         raise click.UsageError(f"Missing argument 'TEMPLATE'. Templates:\n{_LISTED}")
     from tribo.core.writing import check_new, write_file
-    from tribo.registry.registry import choose
+    from tribo.registry.all_plugins import choose
 
     plugged = None if name in TEMPLATES else choose("tribo_templates", name, "template", TEMPLATES)
     text = plugged.text if plugged else template(name)

@@ -16,7 +16,23 @@ RESULT = click.argument("output", type=PATH)
 SET = click.option(
     "--set", "overrides", multiple=True, metavar="PATH=VALUE", help="Change a value."
 )
+PLUGIN = click.option(
+    "--plugin",
+    multiple=True,
+    type=PATH,
+    metavar="FILE",
+    expose_value=False,
+    callback=lambda _, __, files: _add(files),
+    help="Run a Python file, and let its classes and hooks take part.",
+)
 JSON = click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
+
+
+def _add(files: tuple[Path, ...]) -> None:
+    if files:
+        from tribo.registry.plugin_file import add_files
+
+        add_files(files)
 
 
 def echo_json(data: Any) -> None:

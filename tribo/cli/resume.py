@@ -6,11 +6,12 @@ from pathlib import Path
 
 import click
 
-from tribo.cli.options import RESULT
+from tribo.cli.options import PLUGIN, RESULT
 
 
 @click.command()
 @RESULT
+@PLUGIN
 @click.option("--allow-changed", is_flag=True, help="Go on with other versions of components.")
 def resume(output: Path, allow_changed: bool) -> None:
     """Go on with the stopped run whose result file is OUTPUT.
@@ -25,16 +26,19 @@ def resume(output: Path, allow_changed: bool) -> None:
     from tribo.cli.streams import printing
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
+    from tribo.result.provenance import plugin_files
     from tribo.result.read import Result
     from tribo.simulation.run import Simulation
 
     with Result.open(output) as stopped:
-        case, origins = stopped.case, stopped.provenance["components"].values()
+        case, made = stopped.case, stopped.provenance
     try:
         simulation = Simulation(case)
     except CaseError as error:
-        makers = sorted({f"{o['distribution']} {o['version']}" for o in origins})
-        raise CaseError(f"{error} (the run was begun with {', '.join(makers)})") from error
+        makers = {f"{o['distribution']} {o['version']}" for o in made["components"].values()}
+        makers |= {f"--plugin {name}" for name in plugin_files(made)}
+        listed = ", ".join(sorted(makers - {" "}))
+        raise CaseError(f"{error} (the run was begun with {listed})") from error
     resumed = simulation.resume(output, observers=[Progress()], allow_changed=allow_changed)
     with resumed as result, printing(output):
         print_report(result)

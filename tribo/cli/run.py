@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from tribo.cli.options import CASE, PATH, SET
+from tribo.cli.options import CASE, PATH, PLUGIN, SET
 from tribo.cli.waiting import waiting_for
 
 
@@ -14,6 +14,7 @@ from tribo.cli.waiting import waiting_for
 @CASE
 @click.option("-o", "--output", type=PATH, help="Result file; CASE.h5.")
 @SET
+@PLUGIN
 @click.option("--force", is_flag=True, help="Replace a result; one to resume gets another name.")
 def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool) -> None:
     """Run CASE, a TOML file, and print what a lab would report.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tribo.cli.options import JSON, PATH, echo_json
+from tribo.cli.options import JSON, PATH, PLUGIN, echo_json
 from tribo.core.errors import CaseError, NumericalError
 
 if TYPE_CHECKING:
@@ -28,6 +28,7 @@ NAMED = 5
 @click.option("--retry", is_flag=True, help="Run again what failed before.")
 @click.option("--yes", is_flag=True, help="More than 1000 runs are meant.")
 @JSON
+@PLUGIN
 def sweep(
     study: Path,
     output: Path | None,

@@ -12,6 +12,7 @@ from pydantic import BaseModel
 from tribo.component import KIND
 from tribo.core.errors import TriboWarning
 from tribo.core.words import said
+from tribo.registry.probe import import_all
 from tribo.registry.registry import Registry, default_registry
 
 Schema = dict[str, Any]
@@ -25,7 +26,7 @@ def json_schema(model: type[BaseModel], registry: Registry | None = None) -> Sch
     made, is left out, with a warning that names its plugin.
     """
     known = registry or default_registry()
-    for plugin in known.load_all():
+    for plugin in import_all(known):
         warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=2)
     whole: Schema = model.model_json_schema()
     defs = whole.setdefault("$defs", {})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import ClassVar
+from typing import Any, ClassVar
 
 
 class TriboError(Exception):
@@ -43,6 +43,12 @@ class NumericalError(TriboError):
 
 class OutOfWindow(NumericalError):
     """A contact reached the edge of the window."""
+
+
+class TooWorn(NumericalError):
+    """A body has lost more than it can; `finding` states what, where and when."""
+
+    finding: Any = None
 
 
 class PluginError(NumericalError):

@@ -14,6 +14,11 @@ FEW_CELLS = 8
 """Cells across a first contact, below which its pressure is inaccurate."""
 STEEP = 0.3
 """Half-width of a contact over the radius of a body, above which the half-space is doubted."""
+DEEP = 0.1
+"""Part of the window's edge or of a radius that wear may reach, as slopes are small."""
+FAST, IMPOSSIBLE = 1e-9, 1e-5
+"""Specific wear rates in 1/Pa: K = kH = 0.1, the most in abrasive wear, at H = 100 MPa, and
+Archard's K ≤ 1 at 0.1 MPa."""
 SHARP = 1.2
 """Largest pressure at the edge of a contact over that inside, above which it is an artefact."""
 COARSE, FINE = 0.05, 0.01
@@ -106,6 +111,24 @@ def too_wide(body: str, ratio: float, radius: float, time: float) -> Finding:
         place=f"bodies.{body}",
         time=time,
     )
+
+
+def too_deep(body: str, depth: float, size: float) -> Finding:
+    """Word a wear depth that is no small part of a radius or of the window's edge, both in m."""
+    words = (
+        f"{body} is worn {1e6 * depth:.4g} µm deep, more than {DEEP:g} of {1e6 * size:.4g} µm, the "
+        "smallest of its radii and the window's edges; at the whole of it a run stops"
+    )
+    return Finding("depth", words, value=depth, limit=DEEP * size, place=f"bodies.{body}")
+
+
+def too_fast(body: str, rate: float) -> Finding:
+    """Word a specific wear rate (1/Pa) that no test has."""
+    words = (
+        f"the specific wear rate of {body} is {1e9 * rate:.4g} mm³/(N m), above {1e9 * FAST:g}; at "
+        f"{1e9 * IMPOSSIBLE:g} a run stops: is the unit of a wear coefficient wrong or missing?"
+    )
+    return Finding("wear rate", words, value=rate, limit=FAST, place=f"bodies.{body}")
 
 
 def unusual(place: str, question: str, value: float, limit: float) -> Finding:
@@ -307,9 +330,10 @@ def of_runs(finding: Finding, labels: Sequence[str]) -> Finding:
     return replace(finding, words=f"{'; '.join(labels)}: {finding}")
 
 
-def failed(error: object) -> Finding:
-    """Word what ended a run."""
-    return Finding("failed", str(error))
+def failed(error: BaseException) -> Finding:
+    """Word what ended a run, with the numbers of an error that has a finding."""
+    finding = getattr(error, "finding", Finding("failed", ""))
+    return replace(finding, kind="failed", words=str(error))
 
 
 def damaged(damage: str) -> Finding:

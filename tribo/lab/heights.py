@@ -14,6 +14,7 @@ from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.grid import Grid
 from tribo.core.number_tables import table_of_numbers
+from tribo.registry.probe import import_all
 from tribo.registry.registry import default_registry
 
 OWN = (".npy", ".csv", ".txt", ".h5", ".hdf5")
@@ -136,7 +137,7 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
 
 def _by_plugin(path: Path) -> Heights:
     registry = default_registry()
-    registry.load_all()
+    import_all(registry)
     formats = registry.ask("tribo_height_formats")
     if not formats:
         raise CaseError(

@@ -48,7 +48,7 @@ class Plugin:
     distribution: str
     version: str
     entry_point: str
-    origin: Literal["built-in", "installed", "given"]
+    origin: Literal["built-in", "installed", "given", "file"]
     status: Status = "available"
     reason: str = ""
     names: tuple[str, ...] = ()

@@ -47,16 +47,21 @@ class Registry:
     """
 
     def __init__(self, plugins: Iterable[Plugin]) -> None:
-        self.plugins = tuple(plugins)
+        self.plugins: tuple[Plugin, ...] = ()
         self._manager = pluggy.PluginManager(hookspecs.PROJECT)
         self._manager.add_hookspecs(hookspecs)
         self._owners: defaultdict[str, list[Plugin]] = defaultdict(list)
-        for plugin in self.plugins:
-            if plugin.origin != "installed":
-                self._register(plugin)
-            if plugin.usable:
-                for name in plugin.names:
-                    self._owners[name].append(plugin)
+        for plugin in plugins:
+            self.add(plugin)
+
+    def add(self, plugin: Plugin) -> None:
+        """Let one more plugin take part."""
+        if plugin.origin != "installed":
+            self._register(plugin)
+        self.plugins += (plugin,)
+        if plugin.usable:
+            for name in plugin.names:
+                self._owners[name].append(plugin)
 
     @classmethod
     def with_plugins(cls, *plugins: object) -> Registry:
@@ -175,7 +180,7 @@ class Registry:
         items: list[Any] = []
         for each in getattr(self._manager.hook, hook).get_hookimpls():
             try:
-                with _process_kept():
+                with process_kept():
                     answer = each.function(*(arguments[name] for name in each.argnames))
                     answered = answer.items() if isinstance(answer, Mapping) else answer or ()
                     items += map(partial(_item, hook), answered)
@@ -206,7 +211,7 @@ class Registry:
             if lacks := unmet(plugin.distribution):
                 plugin.status, plugin.reason = "incompatible", lacks
                 return
-            with _process_kept():
+            with process_kept():
                 self._register(plugin)
         except KeyboardInterrupt:
             raise
@@ -238,32 +243,6 @@ class Registry:
 def default_registry() -> Registry:
     """Return the registry of the built-in and the installed plugins."""
     return Registry([builtin(), *installed()])
-
-
-def choose(hook: str, name: str, words: str, own: Mapping[str, str] | None = None) -> Any:
-    """Return the format or template of this name that a plugin offers by `hook`.
-
-    `words` is what it is, for the message: ``"format"`` or ``"template"``; `own` are those of tribo
-    itself, none of them called so, with what each is.
-    """
-    known = {each.name: each for each in from_all_plugins(hook)}
-    if name not in known:
-        summaries = {**(own or {}), **{each.name: each.summary for each in known.values()}}
-        listed = "; ".join(f"{each} ({said.rstrip('.')})" for each, said in summaries.items())
-        meant = suggestion(did_you_mean(name, summaries))
-        raise CaseError(f"no {words} is called {name!r}{meant} Known: {listed}")
-    return known[name]
-
-
-def from_all_plugins(hook: str, own: object = None) -> list[Any]:
-    """Return the items that `own` and all installed plugins answer to a hook; see `Registry.ask`.
-
-    One that is broken is named.
-    """
-    registry = default_registry()
-    for plugin in registry.load_all():
-        warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=3)
-    return registry.ask(hook, own)
 
 
 def _item(hook: str, item: object) -> object:
@@ -309,7 +288,7 @@ def place(error: BaseException, *entry_points: str) -> str:
 
 
 @contextmanager
-def _process_kept() -> Iterator[None]:
+def process_kept() -> Iterator[None]:
     """Restore folder, warning filters and numpy's errors afterwards; print to stderr meanwhile."""
     with ExitStack() as kept, redirect_stdout(sys.stderr), warnings.catch_warnings(), np.errstate():
         # The folder may have been deleted.

@@ -58,7 +58,17 @@ def changed_components(
         differing = [key for key in _IDENTITY if was.get(key) != is_now.get(key)]
         if differing:
             changes.append((place, _words(was, differing), _words(is_now, differing)))
+    was_given, given = plugin_files(before), plugin_files(now)
+    for name in {**was_given, **given}:
+        if was_given.get(name) != given.get(name):
+            was, is_now = (files.get(name, "not given") for files in (was_given, given))
+            changes.append((f"--plugin {name}", was, is_now))
     return changes
+
+
+def plugin_files(made: Mapping[str, Any]) -> dict[str, str]:
+    """Return the hash of each file that a command line named as a plugin, by its name."""
+    return {p["distribution"]: p["version"] for p in made["plugins"] if p.get("origin") == "file"}
 
 
 def stated_facts(component: Component) -> dict[str, str]:

@@ -18,6 +18,7 @@ from tribo.simulation.validity import (
     check_stroke,
     coarse_cycle,
     few_cells,
+    hold_wear,
     limitation,
     of_case,
     peak_at_the_edge,
@@ -66,7 +67,8 @@ def _stops(model: Model) -> list[float]:
 def march(model: Model, state: State) -> Iterator[Accepted]:
     """Yield the accepted states after `state`, to the end of the run.
 
-    `NumericalError` if the contact reaches the edge of the window, or a step cannot be carried out.
+    `NumericalError` if the contact reaches the edge of the window, a body wears more than it can,
+    or a step cannot be carried out.
     """
     limit = _limit(model)
     if _depth(model, state) >= limit:
@@ -99,7 +101,7 @@ def _advanced(model: Model, state: State, until: float, limit: float) -> State:
         raise
     after = hold(model, state, after)
     _check_window(model, after)
-    return _with_findings(model, after)
+    return _with_findings(model, hold_wear(model, after))
 
 
 def _up_to_depth(model: Model, state: State, after: State, limit: float) -> State:

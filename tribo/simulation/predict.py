@@ -11,7 +11,7 @@ import numpy as np
 
 from tribo.component import components
 from tribo.core.contact import ContactSystem
-from tribo.core.errors import CaseError, NumericalError, OverTime, PluginError, TriboError
+from tribo.core.errors import CaseError, NumericalError, OverTime, PluginError, TooWorn, TriboError
 from tribo.core.findings import Finding, outgrown, trial_failed, worn_through, would_stop
 from tribo.core.measures import Measures
 from tribo.core.state import State
@@ -29,6 +29,7 @@ from tribo.simulation.memory import memory_needed, size_of_fields
 from tribo.simulation.validity import (
     check_stroke,
     few_cells,
+    implausible,
     limitation,
     positions_for,
     too_wide,
@@ -91,6 +92,7 @@ class CoarseRun:
     outgrown: float | None = None
     limitation: Finding | None = None
     worn_through: tuple[Mapping[str, Any], ...] = ()
+    implausible: tuple[Finding, ...] = ()
     error: TriboError | None = None
     on_any_cells: bool = False
     run_time: float | None = None
@@ -119,6 +121,7 @@ def predict(model: Model) -> Prediction:
         few_cells(model, state.contact),
         warned,
         *(too_wide(model, first) or too_wide(model, last or first)),
+        *coarse.implausible,
         coarse.limitation,
     )
     facts = {place: Guard(c).ask(stated_facts, c) for place, c in components(model.case)}
@@ -232,7 +235,7 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             continue
         try:
             state, when = _worn(model, coarse, state)
-        except CaseError as error:
+        except (CaseError, TooWorn) as error:
             # Refused on its way: that does not hang on the cells.
             return CoarseRun(None, error=error, on_any_cells=True)
         except NumericalError as error:
@@ -244,6 +247,7 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             when,
             limitation(replace(coarse, motion=model.motion), state),
             tuple(worn_through(state.findings)),
+            tuple(finding for finding, _ in implausible(coarse, state)),
             run_time=_run_time(model, coarse, took)
             if isinstance(model.case.stepping, Implicit)
             else None,

@@ -263,7 +263,9 @@ class Simulation:
         except KeyboardInterrupt as error:
             reason = "interrupted"
             where = recorder.path
-            option = " --allow-changed" if changed else ""
+            files = (each.distribution for each in self._plugins if each.origin == "file")
+            option = "".join(f" --plugin {name}" for name in files)
+            option += " --allow-changed" if changed else ""
             raise Interrupted(
                 f"stopped at {snapshot.measures.time:.6g} s of {self.model.end_time:g} s"
                 + (f"; go on with: tribo resume {where}{option}" if where else "")

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from tribo.core import findings
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
-from tribo.core.errors import located
+from tribo.core.errors import TooWorn, located
 from tribo.core.findings import Finding
 from tribo.core.measures import Measures, half_widths
 from tribo.core.rounding import ROUND_OFF
@@ -182,6 +184,36 @@ def peak_at_the_edge(state: State) -> Finding | None:
     if largest <= findings.SHARP * within or not within:
         return None
     return findings.peak_at_the_edge(largest, within)
+
+
+def hold_wear(model: Model, state: State) -> State:
+    """Return a state with each implausible wear as a finding; `TooWorn` if it is impossible."""
+    for finding, impossible in implausible(model, state):
+        if impossible:
+            when = f"at {state.time:.6g} s ({state.distance:.6g} m)"
+            error = TooWorn(f"{when} {finding.words}")
+            error.finding = replace(finding, time=state.time)
+            raise error
+        if (finding.kind, finding.place) not in {
+            (each.kind, each.place) for each in state.findings
+        }:
+            state = state.from_here(finding)
+    return state
+
+
+def implausible(model: Model, state: State) -> Iterator[tuple[Finding, bool]]:
+    """Yield a finding for each implausible wear depth and rate, and whether it is impossible."""
+    # A window that repeats is a part of a larger contact.
+    edges = () if model.case.contact.periodic else model.grid.size
+    for name in model.laws.wear:
+        wear, exposure = state.bodies[name].wear, model.cycle.maps[name]
+        radii = (1 / abs(each) for each in model.surfaces[name].curvature or () if each)
+        size, depth = min((*edges, *radii), default=np.inf), float(np.max(wear))
+        if depth > findings.DEEP * size:
+            yield findings.too_deep(name, depth, size), depth >= size
+        if (volume := exposure.volume(wear)) > findings.FAST * state.load_distance:
+            rate = volume / state.load_distance
+            yield findings.too_fast(name, rate), rate >= findings.IMPOSSIBLE
 
 
 def positions_for(model: Model, first: ContactSolution) -> int | None:

@@ -16,6 +16,8 @@ from typing import Any
 from tribo.registry.probe import how_it_ended, time_limit_of_plugins
 
 _READY = b"ready"
+TIME_LIMIT = 20.0
+"""Seconds, of which a call may take three times as much."""
 
 
 class Lost(Exception):
@@ -39,7 +41,7 @@ class Child:
         except Exception as error:
             raise Unknown(str(error)) from error
         # A check may be some runs.
-        limit = 3 * time_limit_of_plugins()
+        limit = 3 * (time_limit_of_plugins() or TIME_LIMIT)
         process = self._process = self._process or _begin()
         assert process.stdin is not None
         assert process.stdout is not None

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 
 from tribo.core.errors import PluginError
+from tribo.registry.all_plugins import from_all_plugins
 from tribo.registry.hookspecs import hookimpl
-from tribo.registry.registry import from_all_plugins
 from tribo.verification import codes, contacts, formulas, plasticity, punches, strokes, wear
 from tribo.verification.reference import Reference
 

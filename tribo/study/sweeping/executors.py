@@ -8,7 +8,7 @@ import signal
 import sys
 import threading
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -18,6 +18,7 @@ from multiprocessing.connection import wait
 from typing import Any, ParamSpec, TypeVar
 
 from tribo.core.errors import CaseError, TriboWarning
+from tribo.registry.plugin_file import add_files, added_files
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -102,7 +103,8 @@ class _Processes(ThreadPoolExecutor):
     def _in_process(self, call: Callable[[], R]) -> R:
         if getattr(self._mine, "pool", None) is None:
             spawned = get_context("spawn")
-            self._mine.pool = ProcessPoolExecutor(1, spawned, _begin, (self._lifeline,))
+            begin = _begin, (self._lifeline, added_files())
+            self._mine.pool = ProcessPoolExecutor(1, spawned, *begin)
             self._pools.append(self._mine.pool)
         try:
             return self._mine.pool.submit(call).result()  # type: ignore[no-any-return]
@@ -135,8 +137,8 @@ def _environment() -> Iterator[None]:
         os.environ.update(before)
 
 
-def _begin(lifeline: Any) -> None:
-    """Prepare a process: ignore Ctrl-C, and end with the parent."""
+def _begin(lifeline: Any, files: Sequence[str]) -> None:
+    """Prepare a process: ignore Ctrl-C, end with the parent, and let plugins of files take part."""
 
     def end() -> None:
         wait([lifeline])
@@ -145,6 +147,7 @@ def _begin(lifeline: Any) -> None:
     _be_quiet()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=end, daemon=True).start()
+    add_files(files)
 
 
 def _be_quiet() -> None:

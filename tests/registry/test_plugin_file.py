@@ -1,0 +1,127 @@
+"""A Python file beside a case takes part where the command line names it, and nowhere else."""
+
+import sys
+
+import pytest
+from command_line import tribo
+
+from tribo import Result
+from tribo.core.errors import CaseError
+from tribo.registry.plugin_file import add_files
+from tribo.registry.registry import default_registry
+from tribo.result import provenance
+from tribo.templates import template
+
+LAW = """
+import numpy as np
+from tribo import LabRow, WearLaw, WearRate, hookimpl
+
+class Plain(WearLaw):
+    k: float = 3e-16
+
+    def rate(self, local):
+        STOP
+        return WearRate(self.k * local.pressure, np.full_like(local.pressure, self.k))
+
+@hookimpl
+def tribo_lab_rows(result):
+    return [LabRow("answer", 42.0, "m")]
+"""
+STOP = "CALLS.append(1)\n        if len(CALLS) > 5: raise KeyboardInterrupt\n"
+SHORT = ("kinematics.duration=0.1", "output.save_times=[]", "grid.size=0.7 mm", "grid.cells=32")
+SHORT = tuple(word for change in SHORT for word in ("--set", change))
+
+
+@pytest.fixture
+def asked(folder):
+    """A function that runs a command, as in a new process, in a folder with a case and a law."""
+    case = template("ball_on_disk").replace('{ type = "archard", k = "3.11e-16 1/Pa" }', '"plain"')
+    (folder / "my.toml").write_text(case)
+    (folder / "law.py").write_text(LAW.replace("STOP", ""))
+
+    def ask(*words):
+        forget()
+        return tribo(*words, cwd=folder)
+
+    yield ask
+    forget()
+
+
+def forget():
+    sys.modules.pop("plugin_law", None)
+    provenance._code.cache_clear()
+    default_registry.cache_clear()
+
+
+def test_a_law_of_a_file_runs_where_the_command_names_it_and_the_result_names_the_file(
+    asked, folder
+):
+    refused = asked("run", "my.toml", *SHORT)
+    assert refused.returncode == 2
+    assert "plain" in refused.stderr
+    done = asked("run", "my.toml", "--plugin", "law.py", *SHORT)
+    assert done.returncode == 0, done.stderr
+    assert "answer: 42 m" in done.stdout
+    with Result.open(folder / "my.h5") as result:
+        made = result.provenance
+    (plugin,) = [each for each in made["plugins"] if each["origin"] == "file"]
+    code = made["components"]["bodies.ball.wear"]["code"]
+    assert (plugin["distribution"], plugin["version"]) == ("law.py", code[:12])
+    assert not (folder / "__pycache__").exists()
+
+
+@pytest.mark.slow
+def test_resume_needs_the_same_file_again(asked, folder):
+    (folder / "law.py").write_text(f"CALLS = []\n{LAW}".replace("STOP", STOP))
+    stopped = asked("run", "my.toml", "--plugin", "law.py", *SHORT)
+    assert stopped.returncode == 130
+    assert "tribo resume my.h5 --plugin law.py" in stopped.stderr
+    without = asked("resume", "my.h5")
+    assert without.returncode == 2
+    assert "--plugin law.py" in without.stderr
+    (folder / "law.py").write_text(LAW.replace("STOP", ""))
+    changed = asked("resume", "my.h5", "--plugin", "law.py")
+    assert changed.returncode == 2
+    assert "--plugin law.py was" in changed.stderr
+    allowed = asked("resume", "my.h5", "--plugin", "law.py", "--allow-changed")
+    assert allowed.returncode == 0, allowed.stderr
+
+
+@pytest.mark.slow
+def test_check_compare_and_the_workers_of_a_sweep_take_a_file_too(asked, folder):
+    vary = ("--vary", "load.normal=50,60", "--no-plots")
+    (folder / "study.toml").write_text(
+        'case = "my.toml"\n[settings]\nkinematics.duration = 0.1\noutput.save_times = []\n'
+        'grid.size = "0.7 mm"\ngrid.cells = 32\n[grid]\nload.normal = [50]\n'
+    )
+    for command in (
+        ("check", "my.toml", *SHORT),
+        ("compare", "my.toml", *vary, *SHORT),
+        ("sweep", "study.toml", "--jobs", "1"),
+    ):
+        done = asked(*command, "--plugin", "law.py")
+        assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("x = (", "SyntaxError"),
+        ("def f():\n    1 / 0\nf()", "line 2)"),
+        ("raise SystemExit(0)", "SystemExit"),
+        (
+            LAW + LAW.replace("Plain", "Other").replace("k: float", "type = 'plain'\n    k: float"),
+            "",
+        ),
+        (None, "No such file"),
+    ],
+)
+def test_a_file_that_cannot_take_part_is_one_clear_error(folder, text, words):
+    forget()
+    if text is not None:
+        (folder / "law.py").write_text(text.replace("STOP", ""))
+    with pytest.raises(CaseError, match=r"law\.py") as failure:
+        add_files([folder / "law.py"])
+    assert words in str(failure.value)
+    assert [each for each in default_registry().plugins if each.origin == "file"] == []
+    forget()
