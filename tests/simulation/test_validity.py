@@ -12,7 +12,7 @@ from tribo import Grid, Result, Simulation, TriboWarning
 from tribo.case import Stop
 from tribo.config.load import validate_case
 from tribo.contact.periodic import Periodic
-from tribo.core.errors import TooWorn
+from tribo.core.errors import OutOfWindow, TooWorn
 from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.predict import predict
 from tribo.simulation.validity import of_case, peak_at_the_edge
@@ -143,6 +143,8 @@ def test_impossible_wear_stops_a_run_and_a_check(tmp_path, metres, k, limit):
     model, path = sliding(metres, k), tmp_path / "pin.h5"
     with pytest.raises(TooWorn) as failure:
         Simulation(model).run(path)
+    # A fit takes a shorter step there.
+    assert isinstance(failure.value, OutOfWindow)
     stopped = failure.value.finding
     assert (stopped.place, stopped.limit) == ("bodies.pin", limit)
     assert stopped.value >= 10 * limit

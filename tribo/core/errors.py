@@ -45,8 +45,8 @@ class OutOfWindow(NumericalError):
     """A contact reached the edge of the window."""
 
 
-class TooWorn(NumericalError):
-    """A body has lost more than it can; `finding` states what, where and when."""
+class TooWorn(OutOfWindow):
+    """A body has lost more than its shape and the window hold; `finding` states where and when."""
 
     finding: Any = None
 
