@@ -3,33 +3,34 @@
 from __future__ import annotations
 
 import io
-import random
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import redirect_stdout
 from copy import deepcopy
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
 from tribo.component import Component
 from tribo.core.arrays import Array
 from tribo.core.dimensions import scale
-from tribo.core.errors import CaseError
 from tribo.guards.answers import answers_of
 from tribo.testing.child import Lost, Unknown, child
 from tribo.testing.compare import (
     CheckFailed,
-    NotApplicable,
     expect_close,
     first_difference,
     locked,
+    renamed,
     require,
+    values_in,
 )
+from tribo.testing.process import process_restored, process_state
 from tribo.testing.rescaling import UNITS, in_other_units, rescaled, units_of
 
 BODIES = ("ball", "disk")
 """Names of the bodies that components are tried with."""
+OTHER_NAMES = ("upper", "lower")
 FieldValue = float | Callable[[Array], Array]
 """The value of a local field, or how it follows from the pressure."""
 
@@ -66,6 +67,7 @@ class Checks(ABC):
         self._config = config
         self._fields = dict(fields)
         self._others = [*others]
+        self._bodies = BODIES
         self._lost = ""
         self._kept: dict[int, Any] = {}
 
@@ -88,17 +90,19 @@ class Checks(ABC):
     def _sample(self, number: int = 0) -> Any:
         """Return the inputs of a number, which cannot be written to."""
         if number not in self._kept:
-            self._kept[number] = locked(self._inputs(self._make(), number))
+            with process_restored():
+                self._kept[number] = locked(self._inputs(self._make(), number))
         return self._kept[number]
 
     def _samples(self) -> list[Any]:
         return [self._sample(number) for number in self._numbers]
 
-    def _refused(self, error: CaseError) -> Exception:
-        """Return what bodies of other names come to, which a component refused."""
-        if any(f'"{name}"' in self._config.model_dump_json() for name in BODIES):
-            return NotApplicable(f"its configuration names the bodies: {error}")
-        return CheckFailed(f"its configuration names no body, but it refuses other names: {error}")
+    def _among(self, names: tuple[str, str]) -> Self:
+        """Return the checks of a component whose configuration calls the bodies otherwise."""
+        data = renamed(self._config.model_dump(), BODIES, names)
+        other = type(self)(self._cls.model_validate(data), self._fields)
+        other._bodies = names
+        return other
 
     def objects_are_frozen_and_know_their_keys(self) -> None:
         """An object cannot be changed, and a key that it does not have is an error."""
@@ -167,25 +171,26 @@ class Checks(ABC):
                 require(size == 1, f"{where}: the unit {field.unit!r} is not SI")
 
     def calls_leave_no_trace(self) -> None:
-        """A call changes no input, prints nothing, and draws no global random number."""
-        component, given = self._make(), deepcopy(self._sample())
-        before = deepcopy(_changeable(given))
-        with redirect_stdout(io.StringIO()) as printed:
-            self._call(component, given)
-        where = first_difference(before, _changeable(given))
-        require(
-            where is None,
-            f"{where} was changed; work on a copy, and draw from numpy.random.default_rng with a "
-            "seed from the configuration",
-        )
-        said = printed.getvalue()
-        require(not said, f"it printed {said[:60]!r}; leave it out, or use sys.stderr or logging")
+        """A call prints nothing, and changes neither its inputs nor the state of the process.
+
+        That is: global random numbers, numpy's treatment of errors, filters of warnings, the
+        working folder and the environment.
+        """
+        for given in map(deepcopy, self._samples()):
+            before = deepcopy({"inputs": given, **process_state()})
+            with redirect_stdout(io.StringIO()) as printed:
+                self._call(self._make(), given)
+            where = first_difference(before, {"inputs": given, **process_state()})
+            require(where is None, f"{where} was changed")
+            said = printed.getvalue()
+            require(not said, f"it printed {said[:60]!r}; leave it out, or use logging")
 
     def same_inputs_give_same_bits(self) -> None:
         """The answer follows from the inputs alone, whatever was asked before."""
-        used = self._make()
+        used, answers = self._make(), []
         for given in self._samples():
             first = deepcopy(self._call(self._make(), given))
+            answers.append((first, self._call(used, given)))
             for when, component in (
                 ("asked of one that was asked others before", used),
                 ("asked again", used),
@@ -193,6 +198,13 @@ class Checks(ABC):
             ):
                 where = first_difference(first, self._call(component, given))
                 require(where is None, f"{where} differs when {when}; keep nothing that evolves")
+        for first, answer in answers:
+            for where, value in values_in(answer).items():
+                kind = getattr(value, "dtype", None)
+                exact = kind not in (np.float16, np.float32)
+                require(exact, f"{where} is in {kind}; answer in double precision")
+            where = first_difference(first, answer)
+            require(where is None, f"{where}, an answer, was changed as others were asked for")
 
     def units_may_be_rescaled(self) -> None:
         """In other units of length, mass, time and temperature it answers the same."""
@@ -228,9 +240,3 @@ def _is_bare(schema: Mapping[str, Any]) -> bool:
     inner = [*schema.get("anyOf", ()), *schema.get("prefixItems", ())]
     inner += [schema[key] for key in ("items", "additionalProperties") if key in schema]
     return any(_is_bare(part) for part in inner if isinstance(part, Mapping))
-
-
-def _changeable(given: Any) -> dict[str, Any]:
-    """Return what a call must leave as it is."""
-    legacy: Any = np.random.get_state
-    return {"inputs": given, "random": random.getstate(), "numpy.random": legacy()}

@@ -13,11 +13,16 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution, CycleCompliance, WearCompliance
 from tribo.core.grid import Grid
 from tribo.guards.parts import GuardedSolver
+from tribo.stepping.explicit import Explicit
 from tribo.testing import samples
 from tribo.testing.checks import BODIES, Checks
 from tribo.testing.compare import apply_if, expect_close, locked, require
 from tribo.testing.samples import GRID, LOAD, ball, problem
 
+_SHORT = 0.1
+"""Sliding distance of a run, in m."""
+_TOUCH = 1e-6
+"""Part of the load under which bodies just touch."""
 TOLERANCE = 1e-4
 """A tenth of what the step control allows as error of the wear depth."""
 
@@ -111,10 +116,16 @@ class ContactSolverChecks(Checks):
         expect_close("approach on cells half as large", found.approach, approach, FINER)
 
     def more_load_goes_deeper(self) -> None:
-        """With the load grow approach, contact and the pressure in every cell."""
+        """With the load grow pressures and approach, from the lowest gap at a first touch."""
         less, more = self._solve(load=0.5 * LOAD), self._plain
         deeper = more.approach - less.approach
         require(deeper > 0, f"the approach changes by {deeper:.6g} m as the load is doubled")
+        touch, lowest = self._solve(load=_TOUCH * LOAD).approach, float(np.min(ball(GRID)))
+        require(
+            abs(touch - lowest) <= 10 * TOLERANCE * (more.approach - lowest),
+            f"the approach of a first touch, by {_TOUCH:g} of the load, is {touch:.6g} m, but the "
+            f"lowest gap {lowest:.6g} m",
+        )
         fall = float(np.max(less.pressure - more.pressure))
         lowers = f"doubling the load lowered the pressure by up to {fall:.3g} Pa"
         require(fall <= TOLERANCE * self._peak, lowers)
@@ -171,6 +182,11 @@ class ContactSolverChecks(Checks):
             require(not idle, "there is overlap where the cap does not act")
             acts = np.any(solution.overlap) or cap > self._peak
             require(acts, "nothing overlaps although the cap acts")
+            flat = self._solve(gap=ball(GRID) + solution.overlap)
+            for name in ("pressure", "approach"):
+                what = f"{name} under a cap, and that without with the overlap in the gap"
+                found, needed = getattr(solution, name), getattr(flat, name)
+                expect_close(what, found, needed, 10 * TOLERANCE)
         expect_close(
             "pressure under a high cap", solution.pressure, self._plain.pressure, TOLERANCE
         )
@@ -204,3 +220,11 @@ class ContactSolverChecks(Checks):
             f"smallest_compliance is {stated:.4g} m/Pa, but the contact answers a chequerboard in "
             f"the gap with {shown:.4g} m/Pa: explicit steps would be allowed too long",
         )
+
+    def runs_a_case(self) -> None:
+        """In a small case each step has a contact that carries the load."""
+        motion = samples.sliding(_SHORT)
+        steps = Explicit(time_step=0.1 * motion.end_time, allow_unstable=True)
+        stepping = samples.LONG_STEPS if self._cls.accepts_wear_compliance else steps
+        parts: dict[str, Any] = {"kinematics": motion, "stepping": stepping}
+        samples.run(lambda: samples.small_case({}, contact=self._make(), **parts))

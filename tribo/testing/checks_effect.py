@@ -11,17 +11,20 @@ import numpy as np
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError
 from tribo.core.fields import ContactConditions
+from tribo.core.grid import Grid
 from tribo.guards.answers import initial
 from tribo.guards.parts import GuardedEffect
 from tribo.testing import samples
-from tribo.testing.checks import BODIES
+from tribo.testing.checks import BODIES, OTHER_NAMES
 from tribo.testing.checks_local import LocalChecks
 from tribo.testing.compare import (
+    CheckFailed,
     apply_if,
     expect_close,
     first_difference,
     locked,
     mapped,
+    renamed,
     require,
     values_in,
 )
@@ -31,6 +34,7 @@ from tribo.wear.archard import Archard
 _LONGEST = 60.0
 """Time for which a state has been there at most, in s."""
 _FAR = 100.0
+_FINER, _ROUND_OFF = 0.1, 1e-9
 _VARIED, _SLIGHT = 1e-3, 1e-6
 """Part by which a cell is varied, and of an answer that beyond `reach` may change: rounding."""
 
@@ -40,14 +44,21 @@ class EffectChecks(LocalChecks):
 
     _numbers = (0, 1, 2, 3)
 
-    def _inputs(
-        self, component: Any, number: int, names: tuple[str, ...] = BODIES
-    ) -> ContactConditions:
+    _longest_run = 1e6 / samples.SPEED
+
+    def _guarded(self) -> GuardedEffect:
+        return GuardedEffect(self._make(), self._bodies)
+
+    def _old(self, given: Any, part: float = 1.0) -> Any:
+        # Where points act on each other, each cannot age by itself.
+        apart = self._config.reach in ("point", "contact")
+        return super()._old(given, part) if apart else given
+
+    def _inputs(self, component: Any, number: int) -> ContactConditions:
         """Return conditions by number, with a state of some age at each point; 3: come to rest."""
-        given = samples.contact_conditions(component, self._fields, number % 3, names)
+        given = samples.contact_conditions(component, self._fields, number % 3, self._bodies)
         if given.state:
-            effect = GuardedEffect(self._make(), names)
-            given = self._remembering(effect, given, _LONGEST * samples.pattern(GRID.cells) ** 3)
+            given = self._remembering(given, _LONGEST * samples.pattern(GRID.cells) ** 3)
         return replace(given, speed=0.0) if number == 3 else given
 
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
@@ -64,43 +75,81 @@ class EffectChecks(LocalChecks):
     def answers_fit_a_run(self) -> None:
         """Each declared field comes for each body, finite, within its limits, on the window.
 
-        At rest too, and however far its state has gone.
+        At rest too, whichever bodies move, and however far its state has gone.
         """
-        effect = GuardedEffect(self._make(), BODIES)
+        effect = self._guarded()
         for given in self._samples():
-            for at in (given, _gone_far(effect, given)):
+            moving = ((), BODIES[:1], BODIES)
+            turns = [replace(given, swept=frozenset(names)) for names in moving]
+            for at in (given, *turns, _gone_far(effect, given), self._old(given)):
                 effect.fields(replace(at, wear_rates={}))
                 effect.state_rates(at)
 
     def bodies_may_have_any_names(self) -> None:
-        """Nothing depends on names and order of the bodies, unless its configuration has names."""
-        effect, names = self._make(), ("upper", "lower")
-        usual = self._call(effect, self._sample())
+        """Nothing depends on names and order of the bodies but by what its configuration names."""
+        usual = self._call(self._make(), self._sample())
+        others = self._among(OTHER_NAMES)
         try:
-            GuardedEffect(effect, names)
-            given = samples.contact_conditions(effect, self._fields, names=names)
+            effect, given = others._guarded().component, others._sample()
             effect.check(given.system, given.swept, samples.SOLVER)
         except CaseError as error:
-            raise self._refused(error) from error
-        given = locked(self._inputs(effect, 0, names))
+            raise CheckFailed(f"bodies called {OTHER_NAMES} are refused: {error}") from error
         turned = replace(
             given,
             system=replace(given.system, materials=_turned(given.materials)),
             wear_rates=_turned(given.wear_rates),
             fields={name: _turned(values) for name, values in given.fields.items()},
         )
-        back = dict(zip(names, BODIES, strict=True))
-        for asked, how in ((given, f"are called {names}"), (turned, "change places")):
-            answers = mapped(self._call(effect, asked), lambda _, value: value, back)
+        for asked, how in ((given, f"are called {OTHER_NAMES}"), (turned, "change places")):
+            answers = renamed(self._call(effect, asked), OTHER_NAMES, BODIES)
+            for name, usual_name in zip(OTHER_NAMES, BODIES, strict=True):
+                # A state may have the name of a body in its own.
+                answers = {key.replace(name, usual_name): of for key, of in answers.items()}
             changed = first_difference(answers, usual)
             require(not changed, f"{changed} changes when the bodies {how}")
 
     def larger_window_has_the_same_fields(self) -> None:
         """A wider rim round the contact, without pressure, changes nothing within."""
-        effect, given = self._make(), self._sample()
-        wide = self._call(effect, locked(_widened(given)))
-        found = mapped(wide, lambda _, values: samples.inside(values))
-        expect_close("in a larger window", found, self._call(effect, given), 1e-9)
+        effect, inner = self._make(), samples.wider(GRID, -1)
+        for given in self._samples():
+            usual, wide = (
+                self._call(effect, _on(grid, given)) for grid in (GRID, samples.wider(GRID))
+            )
+            needed = mapped(usual, lambda _, v: samples.inside(v, inner))
+            found = mapped(wide, lambda _, v: samples.inside(samples.inside(v), inner))
+            expect_close("in a larger window", found, needed, 1e-9)
+
+    def finer_cells_change_little(self) -> None:
+        """On finer cells the same fields have the same answers at the same points."""
+        effect, (along, across) = self._make(), samples.FINE
+        fine, inner = samples.finer(GRID, samples.FINE), samples.wider(GRID, -1)
+        for given in self._samples():
+            usual, less, usual_fine, less_fine = (
+                values_in(self._call(effect, _on(grid, given, part)))
+                for grid in (GRID, fine)
+                for part in (1.0, 0.5)
+            )
+            # How it follows pressure, state and wear: to a temperature of the air all is small.
+            for where, value in usual.items():
+                needed = np.broadcast_to(value - less[where], GRID.cells)
+                found = np.broadcast_to(usual_fine[where] - less_fine[where], fine.cells)
+                same_points = found[along // 2 :: along, across // 2 :: across]
+                off = np.max(np.abs(samples.inside(same_points - needed, inner)))
+                size = np.max(np.abs(needed))
+                require(
+                    off <= _FINER * size + _ROUND_OFF * np.max(np.abs(value)),
+                    f"{where} follows pressure, state and wear by up to {size:.3g}, and differs by "
+                    f"{off:.3g} from that where {along} x {across} cells take the place of each",
+                )
+
+    def state_is_all_that_remembers(self) -> None:
+        """What keeps a state follows no distance slid: a run that begins from another lacks it."""
+        effect = self._make()
+        apply_if(effect.state_fields, "it keeps no state")
+        for given in self._samples():
+            later = self._call(effect, replace(given, distance=3 * given.distance))
+            where = first_difference(later, self._call(effect, given))
+            require(where is None, f"{where} follows contact.distance beside the state")
 
     def reach_is_as_declared(self) -> None:
         """Nothing follows pressure, state or wear of points further away than `reach` says."""
@@ -162,7 +211,8 @@ class EffectChecks(LocalChecks):
             type = "tribo.testing.reads"
             requires = tuple(field.name for field in effect.provides)
 
-        samples.run(self._fields, law=Reads(k=samples.ARCHARD.k), effects=[effect])
+        law = Reads(k=samples.ARCHARD.k)
+        samples.run(lambda: samples.small_case(self._fields, law=law, effects=[self._make()]))
 
 
 def _varied(
@@ -184,10 +234,28 @@ def _varied(
         fields: Mapping[str, Array] = getattr(given, what)
         for name, values in fields.items():
             if values.shape == GRID.cells:
-                other = values.copy()
-                other[here] += _VARIED * float(np.max(np.abs(values)))
-                varied: dict[str, Any] = {what: {**fields, name: other}}
-                yield repr(name), [here], replace(given, **varied)
+                for cell in (here, (0, 0)):
+                    other = values.copy()
+                    other[cell] += _VARIED * float(np.max(np.abs(values)))
+                    varied: dict[str, Any] = {what: {**fields, name: other}}
+                    yield repr(name), [cell], replace(given, **varied)
+
+
+def _on(grid: Grid, given: ContactConditions, part: float = 1.0) -> ContactConditions:
+    """Return conditions in another window, with a part of what varies, which is smooth there."""
+    x, y = (axis / length for axis, length in zip(grid.mesh, GRID.size, strict=True))
+    wave = 0.5 + 0.5 * np.sin(4 * x + 3 * y + 1) * np.cos(3 * y - 2 * x)
+
+    def smooth(path: tuple[Any, ...], value: Any) -> Any:
+        if not isinstance(value, np.ndarray):
+            return value
+        whole = 1.0 if path[0] == "fields" else part
+        return whole * (np.min(value) + np.ptp(value) * wave if value.size > 1 else value)
+
+    # With an edge without a jump of its slope.
+    pressure = part * np.max(given.pressure) * (samples.hertz_pressure(grid) / samples.PEAK) ** 4
+    system = replace(given.system, grid=grid)
+    return locked(replace(mapped(given, smooth), system=system, pressure=pressure))
 
 
 def _within(reach: tuple[int, int], cell: tuple[int, int]) -> Mask:
@@ -214,15 +282,3 @@ def _gone_far(effect: GuardedEffect, given: ContactConditions) -> ContactConditi
         far = start + _FAR * (given.state[field.name] - start)
         state[field.name] = np.clip(far, *effect.answers[initial(field.name)].range)
     return locked(replace(given, state=state))
-
-
-def _widened(given: ContactConditions) -> ContactConditions:
-    """Return conditions with a rim on each side of the window, without pressure."""
-
-    def widened(_: tuple[Any, ...], value: Any) -> Any:
-        is_map = isinstance(value, np.ndarray) and value.shape == GRID.cells
-        return np.pad(value, samples.RIM, mode="edge") if is_map else value
-
-    pressure = np.pad(given.pressure, samples.RIM)
-    system = replace(given.system, grid=samples.wider(GRID))
-    return replace(mapped(given, widened), system=system, pressure=pressure)

@@ -15,12 +15,14 @@ from tribo.core.grid import Grid, RepeatingGrid
 from tribo.guards.motion import GuardedMotion
 from tribo.motion.exposure import Exposure
 from tribo.testing import samples
-from tribo.testing.checks import BODIES, Checks
-from tribo.testing.compare import apply_if, expect_close, require
+from tribo.testing.checks import BODIES, OTHER_NAMES, Checks
+from tribo.testing.compare import CheckFailed, apply_if, expect_close, renamed, require
+from tribo.testing.rescaling import renewed
 from tribo.testing.samples import GRID
 
 _PARTS = np.linspace(0.0, 1.0, 201)
 _TIMES = 0.999 * samples.pattern((2000,))
+_FEW, _SAME = 100, 1e-6
 
 
 class KinematicsChecks(Checks):
@@ -110,7 +112,14 @@ class KinematicsChecks(Checks):
         cycle = GuardedMotion(self._make()).cycle(GRID)
         rates = [1e-7 * samples.pattern(GRID.cells), samples.hertz_pressure(GRID) / samples.PEAK]
         rates.append(2 * rates[0] + 3 * rates[1])
+        extent = self._make().track_extent
         for name, exposure in self._exposures().items():
+            long = exposure.averaged and np.isfinite(extent) and exposure.track > 1.01 * extent
+            require(not long, f"{name!r}: its track is longer than track_extent, {extent:.4g} m")
+            row = np.zeros(GRID.cells)
+            row[:, 4] = 1.0
+            other = np.delete(exposure.average(row), 4, axis=1)
+            require(not np.any(other), f"{name!r}: wear in one row of cells is laid in others too")
             worn: list[Array] = []
             for rate in rates:
                 total = None
@@ -130,7 +139,7 @@ class KinematicsChecks(Checks):
         usual, finer, wider = (self._exposures(grid) for grid in (GRID, fine, wide))
         for name in BODIES:
             needed = np.broadcast_to(usual[name].average(rate), GRID.cells)
-            rimmed = wider[name].average(np.pad(rate, samples.RIM))
+            rimmed = wider[name].average(np.pad(rate, [(rim, rim) for rim in samples.RIM]))
             what = f"{name!r}: average in a larger window"
             expect_close(what, samples.inside(rimmed), needed, 1e-9)
             split = finer[name].average(rate.repeat(2, axis=0).repeat(2, axis=1))
@@ -139,15 +148,43 @@ class KinematicsChecks(Checks):
             expect_close(f"{name!r}: average on cells of half the size", four, needed, 1e-6)
 
     def bodies_may_have_any_names(self) -> None:
-        """Nothing depends on what the bodies are called, unless the configuration names them."""
-        names, rate = ("upper", "lower"), samples.hertz_pressure(GRID)
+        """Nothing depends on what the bodies are called but by what its configuration names."""
+        rate = samples.hertz_pressure(GRID)
+        others = self._among(OTHER_NAMES)
         try:
-            renamed = self._exposures(bodies=names)
+            exposures = others._exposures(bodies=OTHER_NAMES)
         except CaseError as error:
-            raise self._refused(error) from error
-        for name, usual in zip(names, self._exposures().values(), strict=True):
-            found = renamed[name].average(rate)
+            raise CheckFailed(f"bodies called {OTHER_NAMES} are refused: {error}") from error
+        for name, usual in zip(OTHER_NAMES, self._exposures().values(), strict=True):
+            found = exposures[name].average(rate)
             expect_close(f"average of a body called {name!r}", found, usual.average(rate), 0.0)
+
+    def bodies_change_places_as_named(self) -> None:
+        """The body called `swept` moves; if it is the other, each meets what the other met."""
+        apply_if("swept" in self._cls.model_fields, "it has no key `swept`")
+        rate, met = samples.pattern(GRID.cells), {}
+        for name in BODIES:
+            exposures = type(self)(renewed(self._config, {"swept": name}), {})._exposures()
+            require(exposures[name].swept, f"{name!r} does not move although `swept` names it")
+            met[name] = {body: exposures[body].average(rate) for body in BODIES}
+        first, second = BODIES
+        turned = renamed(renamed(met, BODIES, OTHER_NAMES), OTHER_NAMES, (second, first))
+        expect_close("as the other body moves", met, turned, 1e-12)
+
+    def time_is_the_first_at_its_distance(self) -> None:
+        """`time_at` is the first time at which it has slid so far, at rests and reversals too."""
+        motion = GuardedMotion(self._make())
+        end = motion.end_time(None)
+        for part in (1.0, 0.01):
+            for time in part * end * _TIMES[:_FEW]:
+                distance = motion.distance_at(time)
+                first = motion.time_at(distance)
+                back = motion.distance_at(first)
+                require(
+                    first <= time + _SAME * end and abs(back - distance) <= _SAME * distance,
+                    f"at {time:.9g} s it has slid {distance:.9g} m, for which time_at gives "
+                    f"{first:.9g} s, when it has slid {back:.9g} m; the first such time is needed",
+                )
 
     def envelope_covers_the_field(self) -> None:
         """No point meets less than what it meets now, and meeting it twice adds nothing."""
@@ -192,5 +229,5 @@ class KinematicsChecks(Checks):
     def runs_a_case(self) -> None:
         """In a small case each body loses just what its law says."""
         motion = self._make()
-        distance = min(3.0, 0.999 * motion.distance_at(motion.end_time))
-        samples.run(self._fields, kinematics=motion, stop=Stop(distance=distance))
+        stop = Stop(distance=min(3.0, 0.999 * motion.distance_at(motion.end_time)))
+        samples.run(lambda: samples.small_case({}, kinematics=self._make(), stop=stop))

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from itertools import product
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -29,6 +29,9 @@ from tribo.testing.compare import (
 )
 from tribo.testing.rescaling import renewed, units_of
 
+_DECADE, _GROWS, _MUCH = 0.1, 5.0, 20.0
+"""A rate that grows as much over the last decade of a run, and in all, grows without end."""
+_ABOVE = 1e-9
 _RUNGS = 33
 """Values of a state between which a jump of the rates is looked for."""
 
@@ -38,6 +41,9 @@ Altered = Callable[[Any, Any, str], Iterator[tuple[Any, Any]]]
 
 class LocalChecks(Checks):
     """Checks of what answers at each point, from fields and from a state of its own."""
+
+    _longest_run: ClassVar[float]
+    """How far a state goes in the longest runs: in m for a law, in s for an effect."""
 
     def _units(self, component: Any) -> Mapping[str, float]:
         known = {name: samples.declared(name) for name in names_of(component.requires)}
@@ -51,13 +57,24 @@ class LocalChecks(Checks):
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
         """Return the rates of the state."""
 
-    def _remembering(self, model: GuardedEffect | GuardedLaw, given: Any, far: Array) -> Any:
-        """Return conditions with a state that each point has had as `far` as that."""
+    @abstractmethod
+    def _guarded(self) -> GuardedEffect | GuardedLaw:
+        """Return a new component, held to its contract."""
+
+    def _remembering(self, given: Any, far: Array) -> Any:
+        """Return conditions with a state that each point has had as `far` as that, from there."""
+        if not given.state:
+            return given
+        model = self._guarded()
 
         def rates(state: Mapping[str, Array]) -> Mapping[str, Array]:
             return self._rates(model, locked(replace(given, state=state)))
 
-        return replace(given, state=aged(model, rates, given.state, far))
+        return locked(replace(given, state=aged(model, rates, given.state, far)))
+
+    def _old(self, given: Any, part: float = 1.0) -> Any:
+        """Return conditions after a part of the longest runs at each point."""
+        return self._remembering(given, np.full(given.pressure.shape, part * self._longest_run))
 
     def _state_answers(self, component: Any, rates: Mapping[str, Array]) -> dict[str, Any]:
         """Return what a component answers of its state, by what that is called."""
@@ -123,7 +140,9 @@ class LocalChecks(Checks):
         for given, field in product(self._samples()[:2], component.state_fields):
             values = given.state[field.name]
             ladder = np.linspace(np.min(values), np.max(values), _RUNGS)
-            for name in _arrays(self._call(component, given)) if np.ptp(ladder) else ():
+            # A kink of the depth is no jump.
+            names = _arrays(self._call(component, given)) - {"depth_slope"}
+            for name in sorted(names) if np.ptp(ladder) else ():
 
                 def answer(
                     value: float, given: Any = given, field: Field = field, name: str = name
@@ -138,9 +157,18 @@ class LocalChecks(Checks):
                     f"as {field.name!r} passes {where:.6g} {field.unit}, {name!r} jumps by "
                     f"{part:.3g} of its size; declare that with its field, as breaks",
                 )
+                for limit in field.breaks:
+                    at, above = (answer(value) for value in (limit, limit * (1 + _ABOVE)))
+                    require(
+                        np.allclose(at, above, rtol=1e-6, atol=0),
+                        f"at its break {limit:.6g}, {field.name!r} has not the {name!r} above it",
+                    )
 
     def states_can_last(self) -> None:
-        """A rate does not lead beyond a limit of its state; without one it does not run away."""
+        """A rate does not lead beyond a limit of its state; without one it does not run away.
+
+        Nor does the wear: over 1e6 m of sliding no rate grows without end.
+        """
         component = self._make()
         apply_if(component.state_fields, "it keeps no state")
         sides = (("at_least", -1.0), ("at_most", 1.0))
@@ -161,6 +189,19 @@ class LocalChecks(Checks):
                 f"{name!r} changes the faster the further it has gone, without end: is the "
                 "sign of its rate right? A limit that it keeps is declared with its field",
             )
+        for given in self._samples():
+            ages = given, self._old(given, _DECADE), self._old(given)
+            answers = [self._call(component, at) for at in ages]
+            names = {"depth_rate", *(rate_of(field.name) for field in component.state_fields)}
+            for name in names & {*answers[0]}:
+                first, later, last = (np.abs(each[name]) for each in answers)
+                grows = (last > _GROWS * later) & (last > _MUCH * first)
+                require(
+                    np.count_nonzero(grows) <= 0.5 * np.count_nonzero(last),
+                    f"{name!r} is up to {np.max(first):.3g} after some metres, {np.max(later):.3g} "
+                    f"and {np.max(last):.3g} after a tenth and all of the longest runs: it has no "
+                    "end",
+                )
 
     def only_declared_fields_are_asked_for(self) -> None:
         """It asks for no field but those in `requires`."""
@@ -197,6 +238,6 @@ def _is_given(config: Any, name: str) -> bool:
     return marked and isinstance(value, float) and value not in (0, field.default)
 
 
-def _arrays(answers: Mapping[str, Any]) -> list[str]:
+def _arrays(answers: Mapping[str, Any]) -> set[str]:
     """Return the names of the answers that are arrays."""
-    return [name for name, values in answers.items() if np.ndim(values) > 0]
+    return {name for name, values in answers.items() if np.ndim(values) > 0}

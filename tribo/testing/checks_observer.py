@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
 from copy import deepcopy
@@ -15,9 +16,10 @@ from pydantic import PrivateAttr
 from tribo.case import Output
 from tribo.core.state import RunInfo, Snapshot
 from tribo.observers.observer import Observer
+from tribo.simulation.run import Simulation
 from tribo.testing import samples
 from tribo.testing.checks import BODIES, Checks
-from tribo.testing.compare import NotApplicable, first_difference, locked, mapped, require
+from tribo.testing.compare import NotApplicable, first_difference, locked, renamed, require
 
 
 class Keeps(Observer):
@@ -63,25 +65,19 @@ class ObserverChecks(Checks):
         _show(self._make(), run, (), "failed")
         resumed = replace(run, resumed_from=snapshots[1], wall_time=5.0)
         _show(self._make(), resumed, snapshots[2:])
-        _show(self._make(), *locked(_renamed((run, snapshots))))
+        _show(self._make(), *locked(renamed((run, snapshots), BODIES, ("upper", "lower"))))
         observer = self._make()
         for _ in range(2):
             _show(observer, run, snapshots)
-
-
-def _renamed(given: Any) -> Any:
-    """Return a run and its snapshots with bodies of other names."""
-    names = dict(zip(BODIES, ("upper", "lower"), strict=True))
-    return mapped(given, lambda _, v: names.get(v, v) if isinstance(v, str) else v, names)
 
 
 @cache
 def _watched(*observers: Observer) -> list[Any]:
     """Return what a small run tells at its start and in each step, with `observers` too."""
     keeps = Keeps()
+    case = samples.small_case({}, observers=observers, output=Output(save_times=(5.0,)))
     with TemporaryDirectory() as folder, chdir(folder):
-        output = Output(save_times=(5.0,))
-        samples.run({}, observers=observers, watcher=keeps, output=output)
+        Simulation(case).run(observers=[keeps]).close()
     return keeps._seen
 
 
@@ -94,3 +90,4 @@ def _show(observer: Any, run: RunInfo, snapshots: Sequence[Snapshot], reason: st
             if number in (0, len(snapshots) - 1):
                 observer.on_save(snapshot)
         observer.on_finish(snapshots[-1] if snapshots else None, reason)
+        require(os.path.samefile(folder, "."), "it changed the working folder")

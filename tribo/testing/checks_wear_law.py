@@ -11,7 +11,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.core.fields import LocalConditions, names_of
+from tribo.core.fields import WORN_DEPTH, LocalConditions, names_of
 from tribo.guards.parts import GuardedLaw
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
@@ -20,6 +20,7 @@ from tribo.testing.compare import apply_if, expect_close, largest_jump, locked, 
 
 _SHAPE = (2, 7, 6)
 """Two positions of a cycle, each with a speed of its own."""
+_SQUARE = (9, 9)
 # Not an order of magnitude apart, so that a pressure between two is like both.
 _LADDER = np.geomspace(1e5, samples.PEAK, 160)
 _APPROACH = 2.2e-6
@@ -32,6 +33,10 @@ class WearLawChecks(LocalChecks):
     """Checks of a wear law, at several speeds, fresh and after some metres."""
 
     _numbers = (0, 1, 2, 3)
+    _longest_run = 1e6
+
+    def _guarded(self) -> GuardedLaw:
+        return GuardedLaw(self._make(), BODIES[0], samples.STEEL)
 
     def _inputs(self, component: Any, number: int) -> LocalConditions:
         """Return conditions of points that each have slid a distance of their own; 3: none."""
@@ -41,9 +46,7 @@ class WearLawChecks(LocalChecks):
         speed = np.array(np.roll(samples.SPEEDS, -number)[:2]).reshape(2, 1, 1)
         local = LocalConditions(pressure, speed, samples.STEEL, fields, state)
         if number < 3 and state:
-            law = GuardedLaw(self._make(), BODIES[0], local.material)
-            far = _FARTHEST * samples.pattern(_SHAPE, number) ** 3
-            local = self._remembering(law, local, far)
+            local = self._remembering(local, _FARTHEST * samples.pattern(_SHAPE, number) ** 3)
         # In every third point there is no pressure any more.
         touching = (np.arange(pressure.size) % 3 > 0).reshape(_SHAPE)
         return replace(local, pressure=np.where(touching, pressure, 0.0))
@@ -74,7 +77,10 @@ class WearLawChecks(LocalChecks):
         )
 
     def answers_fit_a_run(self) -> None:
-        """Rates are finite and not negative, 0 where the pressure is, one for each state field."""
+        """Rates are finite and not negative, 0 where the pressure is, one for each state field.
+
+        However far its points have slid.
+        """
         for material in (samples.STEEL, samples.BARE):
             try:
                 guarded = GuardedLaw(self._make(), BODIES[0], material)
@@ -83,7 +89,11 @@ class WearLawChecks(LocalChecks):
                     return
                 raise
             for local in self._samples():
-                guarded.rate(replace(local, material=material))
+                for at in (local, self._old(local)):
+                    rate = guarded.rate(replace(at, material=material))
+                    stated = guarded.component.rate(at).state_rates.get(WORN_DEPTH.name)
+                    same = stated is None or np.array_equal(stated, rate.depth_rate)
+                    require(same, f"the rate of {WORN_DEPTH.name!r} is not depth_rate")
 
     def derivative_is_that_of_the_depth(self) -> None:
         """The derivative agrees with the differences of the depth in pressure."""
@@ -128,13 +138,18 @@ class WearLawChecks(LocalChecks):
     def points_are_independent(self) -> None:
         """A point wears the same wherever it lies and whatever the other points do."""
         law = self._make()
-        order = np.argsort(samples.pattern((_SHAPE[0] * _SHAPE[1],)))
+        order = np.argsort(samples.pattern((int(np.prod(_SHAPE)),)))
         for local in self._samples():
             answers = self._call(law, local)
             whole = {name: np.broadcast_to(values, _SHAPE) for name, values in answers.items()}
-            for what, chosen in (("in another order", order), ("left out by half", order[::2])):
-                part = self._call(law, locked(_chosen(local, chosen)))
-                expect_close(f"with points {what}", part, _chosen(whole, chosen), 1e-12)
+            for what, chosen, shape in (
+                ("in another order", order, (-1, 1)),
+                # Those that have slid least, in the first sample.
+                ("left out by half", order[: order.size // 2], (-1, 1)),
+                ("in a square", order[: _SQUARE[0] * _SQUARE[1]], _SQUARE),
+            ):
+                part = self._call(law, locked(_chosen(local, chosen, shape)))
+                expect_close(f"with points {what}", part, _chosen(whole, chosen, shape), 1e-12)
 
     def runs_under_implicit_stepping(self) -> None:
         """Under implicit steps and stroke averaging each body loses just what the law says."""
@@ -142,7 +157,7 @@ class WearLawChecks(LocalChecks):
         depth = float(self._wear(law, 3, samples.PEAK)[0].flat[0])
         distance = 0.3 * _APPROACH / depth if depth > 0 else 1.0
         motion = samples.sliding(float(np.clip(distance, 1e-3, 1e6)))
-        samples.run(self._fields, law=law, kinematics=motion)
+        samples.run(lambda: samples.small_case(self._fields, law=self._make(), kinematics=motion))
 
     def _when(self, number: int) -> str:
         """Return at which speed, and when, a sample is."""
@@ -151,12 +166,12 @@ class WearLawChecks(LocalChecks):
         return f" and {speeds} m/s{slid}"
 
 
-def _chosen(given: Any, chosen: Any) -> Any:
-    """Return conditions or answers at some of the points, one below the other."""
+def _chosen(given: Any, chosen: Any, shape: tuple[int, int]) -> Any:
+    """Return conditions or answers at some of the points, in another shape."""
 
     def choose(_: tuple[Any, ...], value: Any) -> Any:
         if not isinstance(value, np.ndarray):
             return value
-        return np.broadcast_to(value, _SHAPE).reshape(-1, 1)[chosen]
+        return np.broadcast_to(value, _SHAPE).reshape(-1)[chosen].reshape(shape)
 
     return mapped(given, choose)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
 from types import MappingProxyType
 from typing import Any, TypeVar
@@ -60,6 +60,12 @@ def mapped(
     else:
         new = change(path, value)
     return new  # type: ignore[no-any-return]
+
+
+def renamed(value: T, names: Sequence[str], others: Sequence[str]) -> T:
+    """Return nested values with other names in place of some, among the keys and the values."""
+    new = dict(zip(names, others, strict=True))
+    return mapped(value, lambda _, v: new.get(v, v) if isinstance(v, str) else v, new)
 
 
 def values_in(value: object) -> dict[str, Any]:

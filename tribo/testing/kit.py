@@ -25,6 +25,8 @@ from tribo.testing.checks_surface import SurfaceChecks
 from tribo.testing.checks_wear_law import WearLawChecks
 from tribo.testing.child import Lost, Unknown, child
 from tribo.testing.compare import CheckFailed, NotApplicable
+from tribo.testing.likely import LIKELY
+from tribo.testing.process import process_restored
 
 SUITES: Mapping[str, type[Checks]] = MappingProxyType(
     {
@@ -311,11 +313,13 @@ def outcome_of(checks: Checks, name: str) -> Outcome:
 
 def _outcome(checks: Checks, name: str) -> Outcome:
     try:
-        perform(checks, name)
+        with process_restored():
+            perform(checks, name)
     except NotApplicable as reason:
         return _came(checks, name, "not applicable", str(reason))
     except CheckFailed as fault:
-        return _came(checks, name, "failed", " ".join(str(fault).split()))
+        likely = f" (often: {LIKELY[name]})" if name in LIKELY else ""
+        return _came(checks, name, "failed", " ".join(str(fault).split()) + likely)
     except KeyboardInterrupt:
         raise
     except BaseException as error:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import warnings
 from collections import UserDict
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -27,30 +28,34 @@ from tribo.core.fields import (
 )
 from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
-from tribo.core.state import Snapshot
 from tribo.effects.effect import Effect
+from tribo.evolution.local_fields import effect_fields
 from tribo.motion.reciprocating import Reciprocating
-from tribo.observers.observer import Observer
+from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 from tribo.stepping.implicit import Implicit
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.sphere import Sphere
 from tribo.testing.checks import BODIES, FieldValue
-from tribo.testing.compare import locked, require
+from tribo.testing.compare import first_difference, locked, require
 from tribo.wear.archard import Archard
 from tribo.wear.law import WearLaw
 
 # Neither square nor of square cells, so that swapped axes are noticed.
 GRID = Grid((0.72e-3, 0.8e-3), (24, 20))
-RIM = 3
-"""Cells on each side by which a window is wider than another."""
+RIM = (3, 5)
+"""Cells on each side, along x and y, by which a window is wider; `GRID` becomes square by them."""
+FINE = (3, 5)
+"""Cells along x and y that take the place of one; its middle is that of the middle one."""
 LOAD = 100.0
 RADIUS = 5e-3
 SOLVER = "winkler"
 """The contact solver of the samples and of runs."""
 STEPS = 2000
 """Of a run, at most; most take fewer than a hundred."""
+RESUMED = 3
+"""Steps that are made again after a run is resumed."""
 LONG_STEPS = Implicit(depth_tolerance=0.01, pressure_tolerance=0.3)
 """Few of them in a run, for what a run tries is not how exact it is."""
 SPEED = 0.1
@@ -148,28 +153,28 @@ def sized(grid: Grid, times: float) -> Grid:
     return Grid((times * grid.size[0], times * grid.size[1]), grid.cells)
 
 
-def finer(grid: Grid, times: int = 2) -> Grid:
+def finer(grid: Grid, times: tuple[int, int] = (2, 2)) -> Grid:
     """Return a window of the same size with so many times as many cells along each axis."""
-    nx, ny = grid.cells
-    return Grid(grid.size, (times * nx, times * ny))
+    return Grid(grid.size, (times[0] * grid.cells[0], times[1] * grid.cells[1]))
 
 
-def wider(grid: Grid, rim: int = RIM) -> Grid:
-    """Return a window with some more cells of the same size on each side."""
-    cells = (grid.cells[0] + 2 * rim, grid.cells[1] + 2 * rim)
+def wider(grid: Grid, way: int = 1) -> Grid:
+    """Return a window that is wider by a rim of cells of the same size, or, by -1, narrower."""
+    cells = (grid.cells[0] + 2 * way * RIM[0], grid.cells[1] + 2 * way * RIM[1])
     dx, dy = grid.spacing
     return Grid((cells[0] * dx, cells[1] * dy), cells)
 
 
-def inside(field: Array | float) -> Array:
-    """Return what lies in `GRID` of a field of the window that is wider by a rim."""
-    return np.broadcast_to(field, wider(GRID).cells)[RIM:-RIM, RIM:-RIM]
+def inside(field: Array | float, grid: Grid = GRID) -> Array:
+    """Return what lies in a window of a field of the window that is wider by a rim."""
+    wide = np.broadcast_to(field, wider(grid).cells)
+    return wide[RIM[0] : -RIM[0], RIM[1] : -RIM[1]]
 
 
 def hertz_pressure(grid: Grid) -> Array:
     """Return a half-ellipsoid of pressure in the middle of the window."""
     x, y = grid.mesh
-    r2 = (x / (0.2 * grid.size[0])) ** 2 + (y / (0.25 * grid.size[1])) ** 2
+    r2 = (x / (0.2 * GRID.size[0])) ** 2 + (y / (0.25 * GRID.size[1])) ** 2
     pressure: Array = PEAK * np.sqrt(np.maximum(1 - r2, 0.0))
     return pressure
 
@@ -247,20 +252,36 @@ def problem(
     return locked(ContactProblem(system, ball(grid), LOAD))
 
 
-def run(
+def run(made: Callable[[], Case]) -> None:
+    """Run a case of a few steps, and once more from the middle with new objects.
+
+    The run itself holds in each step that a body loses just what its law says.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        model, resumed = (Simulation(made()).model for _ in range(2))
+        states = [begin(model)]
+        for accepted in march(model, states[0]):
+            states.append(accepted.state)
+            require(len(states) <= STEPS, f"a small run is not done after {STEPS} steps")
+        effect_fields(model, states[-1])
+        middle = len(states) // 2
+        later = zip(states[middle + 1 :], march(resumed, states[middle]), strict=True)
+        for state, again in islice(later, RESUMED):
+            where = first_difference(state, again.state)
+            lost = f"{where} differs in a run that was resumed: what no state keeps is lost then"
+            require(where is None, lost)
+
+
+def small_case(
     given: Mapping[str, FieldValue],
     *,
     law: Any = ARCHARD,
     kinematics: Any = None,
     effects: Sequence[Any] = (),
-    observers: Sequence[Observer] = (),
-    watcher: Observer | None = None,
     **more: Any,
-) -> None:
-    """Run a few steps on elastic springs, both bodies under one law, if both have places for it.
-
-    The run itself holds in each step that a body loses just what its law says.
-    """
+) -> Case:
+    """Return a case on elastic springs, both bodies under one law, if both have places for it."""
     kinematics = kinematics or sliding(3.0)
     provided = {f.name for e in effects for f in (*e.provides, *e.state_fields)}
     friction = FRICTION_COEFFICIENT.name
@@ -270,33 +291,18 @@ def run(
     needed = sorted(
         {*names_of(law.requires)}.union(*(names_of(e.requires) for e in effects)) - known
     )
-    case = Case(
+    return Case(
         grid=GRID.model_copy(update={"ends_at_window": True}),
         load=LOAD,
         bodies={
             name: Body(surface=surface, material=STEEL, wear=law if name in wearing else None)
             for name, surface in zip(BODIES, _shapes(kinematics), strict=True)
         },
-        contact=Winkler(),
         kinematics=kinematics,
-        stepping=LONG_STEPS,
         friction=None if friction in provided else float(field(friction, (), given, np.zeros(()))),
         effects=[*([_providing(needed, given)] if needed else []), *effects],
-        observers=observers,
-        **more,
+        **{"contact": Winkler(), "stepping": LONG_STEPS, **more},
     )
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        Simulation(case).run(observers=[_Limit(), *([watcher] if watcher else [])]).close()
-
-
-class _Limit(Observer):
-    """Ends a run that does not come to its end by itself."""
-
-    type = "tribo.testing.limit"
-
-    def on_step(self, snapshot: Snapshot) -> None:
-        require(snapshot.state.steps <= STEPS, f"a small run is not done after {STEPS} steps")
 
 
 def sliding(distance: float) -> Reciprocating:

@@ -1,0 +1,43 @@
+"""The state of the process, which no component may alter."""
+
+from __future__ import annotations
+
+import os
+import random
+import warnings
+from collections.abc import Iterator
+from contextlib import chdir, contextmanager
+from typing import Any
+
+import numpy as np
+
+_legacy: Any = np.random
+
+
+def process_state() -> dict[str, Any]:
+    """Return what a call must leave as it is."""
+    return {
+        "random": random.getstate(),
+        "numpy.random": _legacy.get_state(),
+        "numpy.geterr()": np.geterr(),
+        "os.getcwd()": os.getcwd(),
+        "warnings.filters": [*map(str, warnings.filters)],
+        "os.environ": dict(os.environ),
+    }
+
+
+@contextmanager
+def process_restored() -> Iterator[None]:
+    """Put the process back as it was, whatever is done inside."""
+    before = process_state()
+    try:
+        with warnings.catch_warnings(), np.errstate(), chdir("."):
+            # A filter of a warning that never comes: another that is put first is seen.
+            warnings.filterwarnings("ignore", "a sample of tribo's checks")
+            yield
+    finally:
+        random.setstate(before["random"])
+        _legacy.set_state(before["numpy.random"])
+        if before["os.environ"] != os.environ:
+            os.environ.clear()
+            os.environ.update(before["os.environ"])
