@@ -72,8 +72,7 @@ def import_all(registry: Registry) -> list[Plugin]:
         for plugin, tried in zip(usable, probe_all(usable), strict=True):
             if not tried.usable:
                 plugin.status, plugin.reason = tried.status, tried.reason
-    registry.load_all()
-    return [plugin for plugin in usable if not plugin.usable]
+    return registry.load_all()
 
 
 def time_limit_of_plugins(given: float | None = None) -> float | None:
