@@ -114,7 +114,9 @@ class KinematicsChecks(Checks):
         rates.append(2 * rates[0] + 3 * rates[1])
         extent = self._make().track_extent
         for name, exposure in self._exposures().items():
-            long = exposure.averaged and np.isfinite(extent) and exposure.track(GRID) > 1.01 * extent
+            long = (
+                exposure.averaged and np.isfinite(extent) and exposure.track(GRID) > 1.01 * extent
+            )
             require(not long, f"{name!r}: its track is longer than track_extent, {extent:.4g} m")
             row = np.zeros(GRID.cells)
             row[:, 4] = 1.0
