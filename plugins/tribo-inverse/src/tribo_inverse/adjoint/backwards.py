@@ -7,16 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from tribo import (
-    LOAD_SHARE,
-    LOCAL_SLIP,
-    Array,
-    Box,
-    CaseError,
-    ContactSolution,
-    Explicit,
-    Residuals,
-)
+from tribo import Array, Box, CaseError, ContactSolution, Explicit, Residuals
 from tribo.kernel_api import (
     CELLS,
     Memory,
@@ -58,7 +49,7 @@ def covered(model: Model) -> Model:
         for field in (*effect.provides, *effect.state_fields)
     }
     laws = model.laws.wear.values()
-    followed = bool(given & {LOAD_SHARE.name, LOCAL_SLIP.name})
+    followed = model.laws.shares_load or model.laws.slips_locally
     followed = followed or any(set(law.requires) & given for law in laws)
     followed = followed or any(field.fills for f in model.laws.effects for field in f.state_fields)
     if model.contact.hardness:
