@@ -11,7 +11,7 @@ from contextvars import ContextVar
 from tribo.core.errors import OverTime
 
 TRIAL_TIME = 30.0
-"""Most time of a trial, in s: five times the slowest of the templates, 5.4 s."""
+"""Most CPU time of a trial, in s: five times the slowest of the templates, 5.4 s."""
 
 _end = ContextVar("_end", default=math.inf)
 
@@ -20,9 +20,9 @@ _end = ContextVar("_end", default=math.inf)
 def limited() -> Iterator[None]:
     """Limit what is calculated inside to `TRIAL_TIME`: `OverTime` at the next call of a component.
 
-    A run has no limit: only what is an estimate may depend on the clock.
+    A run has no limit: only what is an estimate may depend on the machine.
     """
-    token = _end.set(time.monotonic() + TRIAL_TIME)
+    token = _end.set(time.thread_time() + TRIAL_TIME)
     try:
         yield
     finally:
@@ -31,5 +31,5 @@ def limited() -> Iterator[None]:
 
 def check_time() -> None:
     """Raise `OverTime` if the trial around has taken too long."""
-    if time.monotonic() > _end.get():
+    if time.thread_time() > _end.get():
         raise OverTime(f"it took over {TRIAL_TIME:g} s")
