@@ -157,7 +157,7 @@ def test_starts_that_do_not_fit_the_cycle_are_refused(starts):
         resolved(kinematics=Odd(stroke=1e-3, frequency=1.0, cycles=1))
 
 
-def test_an_average_of_another_volume_than_the_rate_is_refused():
+def test_an_average_of_a_body_with_rows_that_is_not_the_rate_is_refused():
     class Scaled(Passing):
         def average(self, rate):
             return 0.5 * rate
@@ -169,7 +169,7 @@ def test_an_average_of_another_volume_than_the_rate_is_refused():
             passing = Scaled(grid, self._stroke(grid).starts, self.stroke)
             return {bodies[0]: Stationary(grid), bodies[1]: passing}
 
-    with pytest.raises(PluginError, match="'volume' for body"):
+    with pytest.raises(PluginError, match="'average' for body"):
         resolved(kinematics=Odd(stroke=STROKE, frequency=1.0, cycles=1, positions=13))
 
 
