@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import reduce
-from operator import mul
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,7 +14,7 @@ from tribo.core.fields import FRICTION_COEFFICIENT, LOCAL_SLIP
 from tribo.core.state import State
 from tribo.evolution.course import Course, accumulated
 from tribo.evolution.interval import Moment, interval_from
-from tribo.evolution.local_fields import local_fields
+from tribo.evolution.local_fields import local_fields, weighed
 from tribo.evolution.states import Memory, remembered, under
 from tribo.integration.division import Division, integrated
 from tribo.integration.kept import Sum
@@ -59,9 +57,7 @@ def _mean(model: Model, pressures: Sequence[Array], memory: Memory, moment: Mome
         for speed, share in place.speeds or [(moment.speed, 1.0)]:
             at_speed = replace(moment, speed=speed)
             fields = local_fields(model, pressure, at_speed, position, here)
-            # They act on both bodies alike.
-            weighed = reduce(mul, (next(iter(fields[name].values())) for name in weights), pressure)
-            force += share * place.share * float(np.sum(weighed))
+            force += share * place.share * float(np.sum(weighed(pressure, fields, weights)))
             load += share * place.share * float(np.sum(pressure))
     return even * (force / load)
 

@@ -23,7 +23,7 @@ from tribo.core.fields import (
     WearRate,
 )
 from tribo.evolution.interval import Moment
-from tribo.evolution.local_fields import conditions, local_fields
+from tribo.evolution.local_fields import conditions, local_fields, weighed
 from tribo.evolution.states import Memory, under
 from tribo.motion.cycle import Speeds
 
@@ -204,9 +204,8 @@ def _rates_of(
     for position, rates in enumerate(of_positions):
         friction = None
         if model.laws.slips_locally and FRICTION_COEFFICIENT.name in fields[position]:
-            friction = contacts[position].pressure
-            for name in (FRICTION_COEFFICIENT.name, LOCAL_SLIP.name):
-                friction = friction * next(iter(fields[position][name].values()))
+            names = FRICTION_COEFFICIENT.name, LOCAL_SLIP.name
+            friction = weighed(contacts[position].pressure, fields[position], names)
         if not memories[position].between:
             found.append(Rates(rates, {}, friction))
             continue

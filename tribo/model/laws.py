@@ -78,11 +78,11 @@ class Laws:
 
     @cached_property
     def friction_remembers(self) -> bool:
-        """Whether friction or the slip of points follows what laws or effects remember."""
+        """Whether the coefficient of friction follows what laws or effects remember."""
         following = {field.name for law in self.wear.values() for field in law.state_fields}
         following.update(self.between)
         # In the order in which they are asked.
         for effect in self.effects:
             if effect.state_fields or following & set(effect.requires):
                 following.update(field.name for field in effect.provides)
-        return not following.isdisjoint({FRICTION_COEFFICIENT.name, LOCAL_SLIP.name})
+        return FRICTION_COEFFICIENT.name in following
