@@ -8,6 +8,7 @@ import numpy as np
 from paper_models import archard, case, half_space, motion, pair
 from scipy.optimize import newton
 from tribo.case import Case, Layer
+from tribo.core.errors import NumericalError
 from tribo.core.grid import Grid
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
@@ -140,6 +141,14 @@ class Kind:
             for name, change in of_bodies.items():
                 follows += float(np.sum(getattr(found, which)[name] * change))
         return abs(follows - direct) / abs(direct)
+
+
+def off_or_refused(kind):
+    """By how much the gradient of a kind misses; without end where a step backwards fails."""
+    try:
+        return kind.off()
+    except NumericalError:
+        return np.inf
 
 
 CLOSE = 1e-6
