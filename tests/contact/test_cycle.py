@@ -10,7 +10,7 @@ from tribo.core.contact import ContactProblem, ContactSystem, CycleCompliance
 CELLS = (24, 20)
 GRID = Grid((0.96e-3, 0.8e-3), CELLS)
 SHARES = np.array([0.15, 0.5, 0.35])
-STARTS = (6, 4, 0)
+PLACES = ((6, 0), (4, 3), (0, -2))
 MODULUS, LOADS = 1.1e11, (20.0, 35.0, 26.0)
 
 
@@ -23,7 +23,7 @@ def rough_gaps(seed=0):
 def coupling(size, rows=30):
     rng = np.random.default_rng(1)
     stays, passes = (size * (0.5 + rng.random((n, CELLS[1]))) for n in (CELLS[0], rows))
-    return CycleCompliance(SHARES, [(stays, (0, 0, 0)), (passes, STARTS)], slice(0, CELLS[0]))
+    return CycleCompliance(SHARES, [(stays, ((0, 0),) * 3), (passes, PLACES)], slice(0, CELLS[0]))
 
 
 def problems(gaps, cap=None):
@@ -52,10 +52,12 @@ def test_its_depth_is_what_each_body_has_lost_under_the_window():
     wear, p = coupling(1e-15), np.random.default_rng(3).random((3, *CELLS))
     (stays, _), (passes, _) = wear.bodies
     lost = np.zeros((30, CELLS[1]))
-    for share, start, each in zip(SHARES, STARTS, p, strict=True):
-        lost[start : start + CELLS[0]] += share * passes[start : start + CELLS[0]] * each
+    # Columns are counted round.
+    for share, (row, column), each in zip(SHARES, PLACES, p, strict=True):
+        lost[row : row + CELLS[0]] += share * np.roll(each, column, axis=1)
+    lost *= passes
     stayed = stays * np.tensordot(SHARES, p, axes=1)
-    needed = [stayed + lost[start : start + CELLS[0]] for start in STARTS]
+    needed = [stayed + np.roll(lost[r : r + CELLS[0]], -c, axis=1) for r, c in PLACES]
     np.testing.assert_allclose(wear.depth(p, 1.0), needed, rtol=1e-12)
 
 
@@ -65,7 +67,9 @@ def test_each_position_is_in_contact_with_what_all_of_them_wear(solver, cap):
     given = problems(rough_gaps(), cap)
     if solver.periodic:
         wear = coupling(5e-16, rows=CELLS[0])
-        wear = CycleCompliance(SHARES, [(c, (0, 3, -5)) for c, _ in wear.bodies], wear.rows)
+        wear = CycleCompliance(
+            SHARES, [(c, ((0, 0), (3, 1), (-5, 0))) for c, _ in wear.bodies], wear.rows
+        )
     else:
         wear = coupling(5e-16)
     contacts = solved(solver, given, wear)

@@ -11,6 +11,8 @@ Mask = NDArray[np.bool_]
 """Truth values: which cells belong to a set."""
 Region = tuple[slice, slice]
 """Rows and columns of an array."""
+Cell = tuple[int, int]
+"""Row and column of a cell."""
 
 
 def readonly(array: Array) -> Array:
@@ -39,25 +41,35 @@ def union(first: Region, second: Region) -> Region:
     )
 
 
-def rows_from(field: Array, first: int, count: int) -> Array:
-    """Return `count` rows of a field, of which row `first` is the first.
+def part_from(field: Array, first: Cell, count: Cell) -> Array:
+    """Return `count` rows and columns of a field, of which those of the cell `first` are the first.
 
-    After its last row a field goes on with its first.
+    After its last row a field goes on with its first, and so do its columns.
     """
-    first %= len(field)
-    beyond = first + count - len(field)
-    if beyond <= 0:
-        return field[first : first + count]
-    return np.concatenate([field[first:], field[:beyond]])
+    for axis in (0, 1):
+        start, cells = first[axis] % field.shape[axis], count[axis]
+        beyond = start + cells - field.shape[axis]
+        parts = [field[(slice(None),) * axis + (slice(start, start + cells),)]]
+        if beyond > 0:
+            parts.append(field[(slice(None),) * axis + (slice(0, beyond),)])
+        field = parts[0] if beyond <= 0 else np.concatenate(parts, axis)
+    return field
 
 
-def add_from(field: Array, part: Array, first: int) -> None:
-    """Add `part` to a field in place, from row `first` on, as `rows_from` counts them."""
-    first %= len(field)
-    until = len(field) - first
-    field[first : first + len(part)] += part[:until]
-    if until < len(part):
-        field[: len(part) - until] += part[until:]
+def add_from(field: Array, part: Array, first: Cell) -> None:
+    """Add `part` to a field in place, from the cell `first` on, as `part_from` counts them."""
+    pairs = zip(first, part.shape, field.shape, strict=True)
+    rows, columns = (_stretches(start % whole, count, whole) for start, count, whole in pairs)
+    for row, own_row in rows:
+        for column, own_column in columns:
+            field[own_row, own_column] += part[row, column]
+
+
+def _stretches(first: int, count: int, whole: int) -> list[tuple[slice, slice]]:
+    """Return where each unbroken stretch of `count` cells lies, in the part and in the whole."""
+    until = whole - first
+    inside = slice(0, min(count, until)), slice(first, min(first + count, whole))
+    return [inside] if count <= until else [inside, (slice(until, count), slice(0, count - until))]
 
 
 def middle_rows(field: Array, count: int) -> Array:

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from tribo.core.arrays import Array, Region, add_from, bounds, rows_from
+from tribo.core.arrays import Array, Cell, Region, add_from, bounds, part_from
 from tribo.core.box import Box
 from tribo.core.coating import Coating
 from tribo.core.grid import Grid
@@ -67,9 +67,10 @@ class CycleCompliance:
     ----------
     shares : ndarray, shape (positions,)
         ω, which add up to 1.
-    bodies : sequence of tuple of ndarray
+    bodies : sequence of (ndarray, sequence of Cell)
         For each body that wears: c, shape (rows, ny), its depth per pressure on its own surface,
-        in m/Pa, not negative; and the row at which the window begins there, by position.
+        in m/Pa, not negative; and the cell at which the window begins there, by position. Rows and
+        columns are counted round.
     rows : slice
         Rows of the window in which there is pressure.
     mirrored : bool, optional
@@ -78,28 +79,28 @@ class CycleCompliance:
     """
 
     shares: Array
-    bodies: Sequence[tuple[Array, Sequence[int]]]
+    bodies: Sequence[tuple[Array, Sequence[Cell]]]
     rows: slice
     mirrored: bool = False
 
     def depth(self, pressure: Array, dx: float) -> Array:
         """Return the depth worn under `pressure` (positions, nx, ny); it does not depend on dx."""
-        first, count = self.rows.start, self.rows.stop - self.rows.start
-        starts = [rows for _, rows in self.bodies]
+        first, count = self.rows.start, pressure.shape[1:]
+        starts = [cells for _, cells in self.bodies]
         worn = [np.zeros_like(compliance) for compliance, _ in self.bodies]
         # All bodies at one position after the other: its part stays in the processor's cache.
-        for share, part, *rows in zip(self.shares, pressure, *starts, strict=True):
+        for share, part, *cells in zip(self.shares, pressure, *starts, strict=True):
             weighed = share * part
-            for own, row in zip(worn, rows, strict=True):
-                add_from(own, weighed, first + row)
+            for own, (row, column) in zip(worn, cells, strict=True):
+                add_from(own, weighed, (first + row, column))
         if self.mirrored:
             worn = [own + own[::-1] for own in worn]
         for own, (compliance, _) in zip(worn, self.bodies, strict=True):
             own *= compliance
         depth = np.zeros_like(pressure)
-        for part, *rows in zip(depth, *starts, strict=True):
-            for own, row in zip(worn, rows, strict=True):
-                part += rows_from(own, first + row, count)
+        for part, *cells in zip(depth, *starts, strict=True):
+            for own, (row, column) in zip(worn, cells, strict=True):
+                part += part_from(own, (first + row, column), count)
         return depth
 
     def on(self, box: Box) -> CycleCompliance:
@@ -108,16 +109,22 @@ class CycleCompliance:
         return replace(self.beside(columns), rows=along)
 
     def beside(self, columns: slice) -> CycleCompliance:
-        """Return what of it lies on some columns."""
-        bodies = [(compliance[:, columns], starts) for compliance, starts in self.bodies]
+        """Return what of it lies on some columns of the window."""
+        bodies: list[tuple[Array, Sequence[Cell]]] = []
+        for compliance, cells in self.bodies:
+            if any(column for _, column in cells):
+                moved = [(row, column + columns.start) for row, column in cells]
+                bodies.append((compliance, moved))
+            else:
+                bodies.append((compliance[:, columns], cells))
         return replace(self, bodies=bodies)
 
     def typical(self, length: float) -> tuple[float, float]:
         """Return its means, in m/Pa: of what a cell wears, and of what all rows do."""
         local = swept = 0.0
-        for compliance, starts in self.bodies:
+        for compliance, cells in self.bodies:
             mean = _mean_where_positive(compliance)
-            passed = (max(starts) - min(starts)) * (2 if self.mirrored else 1)
+            passed = int(np.max(np.ptp(cells, axis=0))) * (2 if self.mirrored else 1)
             if passed:
                 swept += mean * min(1.0, (self.rows.stop - self.rows.start) / passed)
             else:

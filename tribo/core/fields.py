@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
@@ -134,6 +134,22 @@ PLACE_X = Field(
 PLACE_Y = Field(
     "place_y", "m", "Place along y on the body's own surface, 0 in its middle.", typical=1e-4
 )
+HEADING_X = Field(
+    "heading_x",
+    "1",
+    "Which way the other body slides over the body, along x: that of a vector of length 1.",
+    at_least=-1.0,
+    at_most=1.0,
+    typical=0.6,
+)
+HEADING_Y = replace(
+    HEADING_X,
+    name="heading_y",
+    description="Which way the other body slides over the body, along y.",
+    typical=0.8,
+)
+OF_MOTION = {field.name: field for field in (PLACE_X, PLACE_Y, HEADING_X, HEADING_Y)}
+"""What the motion of a case provides to all that require it."""
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,7 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.fields import (
     FRICTION_COEFFICIENT,
     LOAD_SHARE,
-    PLACE_X,
-    PLACE_Y,
+    OF_MOTION,
     ContactConditions,
 )
 from tribo.core.state import State
@@ -50,8 +49,8 @@ def local_fields(
     `memory` is that of the window at this position; what is remembered is among the fields.
     """
     fields = fields_of(model, memory)
-    if model.laws.required & {PLACE_X.name, PLACE_Y.name}:
-        fields |= model.cycle.places(position)
+    if model.laws.required & OF_MOTION.keys():
+        fields |= model.cycle.fields(position)
     friction = model.laws.friction_coefficient
     if friction is not None:
         uniform = readonly(np.full(pressure.shape, friction))

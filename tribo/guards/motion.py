@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from tribo.core.arrays import readonly
+from tribo.core.arrays import Array, readonly
 from tribo.core.contact import WearCompliance
 from tribo.core.errors import BadValues, PluginError
 from tribo.core.grid import Grid
@@ -38,6 +38,7 @@ class GuardedMotion(Guard[Kinematics]):
                     self._speeds(position.speeds),
                     None if reach is None else self.array("reach", reach, grid.cells),
                     self.number("rest", position.rest),
+                    self._heading(position.heading, grid),
                 )
             )
         self._add_up("share", [position.share for position in positions])
@@ -47,6 +48,13 @@ class GuardedMotion(Guard[Kinematics]):
         """Return the effects that it brings along."""
         answer = self.ask(lambda: tuple(self.component.effects()))
         return tuple(self.typed(each, Effect, "an effect of its own") for each in answer)
+
+    def _heading(self, answer: Any, grid: Grid) -> tuple[Array, Array]:
+        pair = self.typed(self.ask(tuple, answer), tuple, "a heading")
+        x, y = (self.array("heading", part, np.shape(part)) for part in pair)
+        if np.any(np.abs(np.hypot(x, y) - 1) > SAME):
+            raise BadValues(f"{self} gave a 'heading' that is no vector of length 1")
+        return x, y
 
     def _speeds(self, answer: Speeds | None) -> Speeds | None:
         if answer is None:
@@ -75,6 +83,9 @@ class GuardedMotion(Guard[Kinematics]):
             self.array("length", length, length.shape, where)
             if exposure.starts is not None:
                 self._check_starts(exposure, exposure.starts, positions, grid)
+                across = exposure.across
+                if across is not None:
+                    self.array("across", across, (positions,), where)
             elif exposure.swept and exposure.rows != 1:
                 raise PluginError(
                     f"{self} has points of body {body!r} pass through the contact, but keeps them "

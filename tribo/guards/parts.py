@@ -193,7 +193,7 @@ class GuardedSolver(Guard[ContactSolver]):
         """Solve each position of a cycle; as `solve`."""
         asked = [_unwritable(problem) for problem in problems]
         if coupling is not None:
-            bodies = [(readonly(compliance), rows) for compliance, rows in coupling.bodies]
+            bodies = [(readonly(compliance), cells) for compliance, cells in coupling.bodies]
             coupling = replace(coupling, shares=readonly(coupling.shares), bodies=bodies)
         answers: object = self.ask(self.component.solve_cycle, asked, starts, coupling)
         if not isinstance(answers, Sequence) or len(answers) != len(problems):

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from tribo.core.arrays import Array, readonly
-from tribo.core.fields import PLACE_X, PLACE_Y
+from tribo.core.fields import OF_MOTION
 from tribo.core.grid import Grid
 from tribo.motion.cycle import Position, missed_shares
 from tribo.motion.exposure import Exposure
@@ -60,16 +60,31 @@ class Cycle:
 
     @cached_property
     def offsets(self) -> Array:
-        """Where the body that passes is at each position, in cells from the middle one."""
-        starts = ([each.first_row(i) for i in range(len(self))] for each in self.maps.values())
-        rows = np.array(max(starts, key=np.ptp), dtype=float)
+        """Where the body that passes is at each position, from the middle one, in cells.
+
+        Shape (positions, 2): along x and y.
+        """
+        places = ([each.first_cell(i) for i in range(len(self))] for each in self.maps.values())
+        cells = np.array(max(places, key=lambda each: np.max(np.ptp(each, axis=0))), dtype=float)
         # The window's place on the body moves against the body itself.
-        return readonly(rows[self.middle] - rows)
+        return readonly(cells[self.middle] - cells)
+
+    @cached_property
+    def path(self) -> Array:
+        """Distance from the first position to each, in lengths of a cell, shape (positions,)."""
+        dx, dy = self.grid.spacing
+        along, across = np.diff(self.offsets, axis=0).T
+        return readonly(np.concatenate([[0.0], np.cumsum(np.hypot(along, across * (dy / dx)))]))
+
+    @cached_property
+    def across(self) -> int:
+        """How far the body that passes goes across, in cells."""
+        return int(np.ptp(self.offsets[:, 1]))
 
     @cached_property
     def apart(self) -> float:
         """Largest distance between neighbouring positions, in m; 0 of an average."""
-        return float(np.max(np.abs(np.diff(self.offsets)), initial=0)) * self.grid.spacing[0]
+        return float(np.max(np.diff(self.path), initial=0)) * self.grid.spacing[0]
 
     @cached_property
     def missed_shares(self) -> Array | None:
@@ -79,17 +94,25 @@ class Cycle:
         """
         if self.apart <= self.grid.spacing[0]:
             return None
-        return missed_shares(self.offsets, np.array([position.share for position in self]))
+        return missed_shares(self.path, np.array([position.share for position in self]))
 
-    def places(self, position: int) -> dict[str, dict[str, Array]]:
-        """Return where each body's own surface lies in the window at a position, in m.
+    def fields(self, position: int) -> dict[str, dict[str, Array]]:
+        """Return what the motion provides at a position, by field and body, shape (nx, ny).
 
-        x is 0 on a body of which every point of a track is the same.
+        It is where each body's own surface lies in the window, in m, and which way the other body
+        slides over it. x is 0 on a body of which every point of a track is the same.
         """
         dx, cells = self.grid.spacing[0], self.grid.cells
-        along, across = {}, {}
+        found: dict[str, dict[str, Array]] = {name: {} for name in OF_MOTION}
         for name, each in self.maps.items():
             own = dx * (np.arange(float(each.rows))[:, None] - 0.5 * (each.rows - 1))
-            along[name] = readonly(np.broadcast_to(each.see(own, position), cells))
-            across[name] = readonly(np.broadcast_to(self.grid.y, cells))
-        return {PLACE_X.name: along, PLACE_Y.name: across}
+            breadth = np.broadcast_to(self.grid.y, (each.rows, cells[1]))
+            # A body that passes meets the other one the other way.
+            way = -1.0 if each.swept else 1.0
+            values = (
+                *(each.see(place, position) for place in (own, breadth)),
+                *(way * np.asarray(part) for part in self[position].heading),
+            )
+            for of_field, each_value in zip(found.values(), values, strict=True):
+                of_field[name] = readonly(np.broadcast_to(each_value, cells))
+        return found

@@ -10,8 +10,10 @@ from typing import Any
 from tribo.case import Case
 from tribo.component import components
 from tribo.core.arrays import Array
+from tribo.core.contact import ContactSolution
 from tribo.core.findings import Finding
 from tribo.core.grid import Grid
+from tribo.core.measures import reaches_border
 from tribo.guards.guard import Guard
 from tribo.guards.motion import GuardedMotion
 from tribo.guards.parts import GuardedLaw, GuardedSurface
@@ -57,6 +59,18 @@ class Model:
     def couples(self) -> bool:
         """Whether the positions of the cycle are solved together, with the wear they share."""
         return self.case.contact.couples and self.cycle.shares_points
+
+    def leaves_window(self, contact: ContactSolution) -> bool:
+        """Whether a contact reaches the border of a window that goes on, or has no room across.
+
+        The path across has to fit in beside it, as columns of a body are counted round.
+        """
+        columns = contact.extent[1]
+        if self.case.contact.periodic:
+            return False
+        if columns.stop - columns.start + self.cycle.across > self.grid.cells[1]:
+            return True
+        return not self.grid.ends_at_window and reaches_border(contact.pressure)
 
     @cached_property
     def rough(self) -> frozenset[str]:

@@ -29,12 +29,16 @@ class Position:
         motion. None: all slide by those of the motion.
     rest : float, optional
         Time at rest here, in s, for each metre of the path spent here; beside `speeds`.
+    heading : pair of float or of ndarray, shape (nx, ny), optional
+        Which way the body that passes moves here: the x and y of a vector of length 1. Where it
+        moves both ways, as on a stroke, one of them.
     """
 
     share: float = 1.0
     speeds: Speeds | None = None
     reach: Array | None = None
     rest: float = 0.0
+    heading: tuple[Array | float, Array | float] = (1.0, 0.0)
 
 
 def missed_shares(nodes: Array, shares: Array) -> Array:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tribo.core.arrays import Array, add_from, rows_from
+from tribo.core.arrays import Array, Cell, add_from, part_from
 from tribo.core.contact import WearCompliance
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
@@ -34,6 +34,10 @@ class Exposure(ABC):
     None where the body has no rows but those of the window, or one for all. In a window that
     repeats, rows are counted round."""
 
+    across: Sequence[int] | None = None
+    """The column at which the window begins, as `starts` has the row; None where that is the first.
+    A body has the columns of the window, which are counted round."""
+
     rows: int
     """Cells along x on the body's own surface; 1 where every point of a track sees the same."""
 
@@ -42,9 +46,12 @@ class Exposure(ABC):
         """Whether its points pass and are all taken as one, which has no place along x."""
         return self.swept and self.starts is None
 
-    def first_row(self, position: int) -> int:
-        """Return the row of the body's own surface at which the window begins at a position."""
-        return 0 if self.starts is None else self.starts[position]
+    def first_cell(self, position: int) -> Cell:
+        """Return the cell of the body's own surface at which the window begins at a position."""
+        row, column = (
+            0 if starts is None else starts[position] for starts in (self.starts, self.across)
+        )
+        return row, column
 
     def track(self, window: Grid) -> float:
         """Return the mean length of the track that its points pass along, in m; 0 if they stay."""
@@ -211,7 +218,7 @@ class Passing(Stationary):
     rows its points stay, so that averages, envelopes and volumes are those of `Stationary`.
 
     In a window that repeats, the body repeats with it: it has the rows of the window, and one that
-    leaves the window comes in again at the other end.
+    leaves the window comes in again at the other end. So do columns of a body that moves across.
 
     Parameters
     ----------
@@ -221,25 +228,35 @@ class Passing(Stationary):
         The row of the body at which the window begins, at each position.
     length : float
         Length of the path, in m.
+    across : sequence of int, optional
+        The column at which the window begins, at each position.
     """
 
     swept = True
     starts: Sequence[int]
 
-    def __init__(self, grid: Grid, starts: Sequence[int], length: float) -> None:
+    def __init__(
+        self,
+        grid: Grid,
+        starts: Sequence[int],
+        length: float,
+        across: Sequence[int] | None = None,
+    ) -> None:
         super().__init__(grid)
         self.starts = tuple(starts)
+        self.across = None if across is None else tuple(across)
         self.rows = grid.period or grid.cells[0] + max(starts)
         self._length = length if grid.period is None else min(length, grid.size[0])
 
     def see(self, field: Array, position: int) -> Array:
         """Return the rows of the window, from the start of the position on."""
-        return rows_from(field, self.starts[position], self._grid.cells[0])
+        count = self._grid.cells[0], field.shape[1]
+        return part_from(field, self.first_cell(position), count)
 
     def lay(self, field: Array, position: int) -> Array:
         """Return the field on the body's rows, from the start of the position on."""
         own = np.zeros((self.rows, *field.shape[1:]))
-        add_from(own, field, self.starts[position])
+        add_from(own, field, self.first_cell(position))
         return own
 
     def gather(
@@ -248,7 +265,7 @@ class Passing(Stationary):
         """Return the rate's part on the body's rows, added to `total` in place."""
         if total is None:
             return self.lay(part * rate, position)
-        add_from(total, part * rate, self.starts[position])
+        add_from(total, part * rate, self.first_cell(position))
         return total
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:

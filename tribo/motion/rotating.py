@@ -44,8 +44,10 @@ class Rotating(ClosedTrack):
 
     def cycle(self, grid: Grid) -> Sequence[Position]:
         """Return the one position, in which points slide as far as they are from the axis."""
-        x, _ = grid.mesh
-        return [Position(reach=np.hypot(x, self._rows(grid)) / self.track_radius)]
+        x, out = grid.mesh[0], self._rows(grid)
+        radius = np.hypot(x, out)
+        heading = np.broadcast_to(out / radius, grid.cells), np.asarray(-x / radius)
+        return [Position(reach=radius / self.track_radius, heading=heading)]
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return a closed track for the swept body, each row of its own length."""

@@ -77,7 +77,7 @@ def assemble(case: Case) -> Model:
                 "load.along",
             )
         dx = grid.spacing[0]
-        shares = case.load.shares_at(dx * cycle.offsets, dx)
+        shares = case.load.shares_at(dx * cycle.offsets[:, 0], dx)
     loads = Loads(pieces_of(case.load), shares, tuple(position.share for position in cycle))
     known = [each.curvature for each in surfaces.values() if each.curvature is not None]
     system = ContactSystem(
@@ -200,7 +200,7 @@ def _gaps(cycle: Cycle, surfaces: Mapping[str, GuardedSurface]) -> tuple[Array, 
         return gap
 
     lowest = float(np.min(gap_at(cycle.middle)))
-    if not any(_varies_along_x(surfaces[name].height) for name in cycle.swept):
+    if not any(_varies(surfaces[name].height, cycle.maps[name]) for name in cycle.swept):
         return (readonly(gap_at(cycle.middle) - lowest),) * len(cycle)
     return tuple(readonly(gap_at(position) - lowest) for position in range(len(cycle)))
 
@@ -242,6 +242,12 @@ def _check_ring(surface: GuardedSurface, exposure: Exposure, lap: float, grid: G
 
 def _varies_along_x(height: Array) -> bool:
     return bool(np.any(height != height[:1]))
+
+
+def _varies(height: Array, exposure: Exposure) -> bool:
+    """Whether a height that passes is not the same at each position."""
+    breadth = exposure.across is not None and np.any(height != height[:, :1])
+    return bool(breadth or _varies_along_x(height))
 
 
 def _check_ends(model: Model) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence, Set
 
 from tribo.case import Case
 from tribo.core.errors import CaseError
-from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, PLACE_X, PLACE_Y, Field, names_of
+from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, OF_MOTION, Field, names_of
 from tribo.effects.effect import Effect
 
 
@@ -19,7 +19,7 @@ def in_order(case: Case, effects: Sequence[Effect]) -> tuple[Effect, ...]:
     of the load is provided twice, or has the name of what a wear law remembers.
     """
     of_laws = {f.name for b in case.bodies.values() if b.wear for f in b.wear.state_fields}
-    known = {PLACE_X.name, PLACE_Y.name}
+    known = {*OF_MOTION}
     if case.friction is not None:
         known.add(FRICTION_COEFFICIENT.name)
     for effect in effects:

@@ -9,7 +9,7 @@ import numpy as np
 
 from tribo.core.errors import OutOfWindow, PluginError
 from tribo.core.findings import chattering, ended
-from tribo.core.measures import half_widths, reaches_border
+from tribo.core.measures import half_widths
 from tribo.core.state import State
 from tribo.model.model import Model
 from tribo.simulation.beginning import first_state
@@ -149,8 +149,8 @@ def _depth(model: Model, state: State) -> float:
 
 
 def _check_window(model: Model, state: State) -> None:
-    reaching = [each for each in state.contacts if reaches_border(each.pressure)]
-    if model.contact.may_reach_edge or not reaching:
+    reaching = [each for each in state.contacts if model.leaves_window(each)]
+    if not reaching:
         return
     width, breadth = half_widths(reaching[0], model.grid)
     raise OutOfWindow(

@@ -223,6 +223,6 @@ def positions_for(model: Model, first: ContactSolution) -> int | None:
     """
     if len(model.cycle) == 1:
         return None
-    path = float(np.ptp(model.cycle.offsets))
+    path = float(model.cycle.path[-1])
     spacing = spacing_for(first.pressure, findings.FINE, repeats=model.case.contact.periodic)
     return 2 * math.ceil(0.5 * path / spacing) + 1

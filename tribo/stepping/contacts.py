@@ -113,11 +113,13 @@ def _bodies_mirror(coupling: CycleCompliance) -> bool:
     shares = coupling.shares
     if np.max(np.abs(shares - shares[::-1])) > MIRRORED:
         return False
-    for compliance, starts in coupling.bodies:
+    for compliance, cells in coupling.bodies:
         rows = len(compliance)
         beyond = rows - (coupling.rows.stop - coupling.rows.start)
-        pairs = zip(starts, reversed(starts), strict=True)
-        if not _mirrors(compliance, compliance) or any((a + b - beyond) % rows for a, b in pairs):
+        pairs = zip(cells, reversed(cells), strict=True)
+        if not _mirrors(compliance, compliance) or any(
+            (a + b - beyond) % rows or across != other for (a, across), (b, other) in pairs
+        ):
             return False
     return True
 
@@ -131,7 +133,7 @@ def _one_side(coupling: CycleCompliance, half: int) -> CycleCompliance:
     shares = coupling.shares[:half].copy()
     # The middle position mirrors itself.
     shares[-1] *= 0.5
-    bodies = [(compliance, starts[:half]) for compliance, starts in coupling.bodies]
+    bodies = [(compliance, cells[:half]) for compliance, cells in coupling.bodies]
     return replace(coupling, shares=shares, bodies=bodies, mirrored=True)
 
 

@@ -11,7 +11,6 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution
 from tribo.core.errors import CaseError
-from tribo.core.measures import reaches_border
 from tribo.core.state import BodyState, State
 from tribo.evolution.states import first_memory
 from tribo.model.events import Solved
@@ -71,9 +70,11 @@ def first_contact(
             start = next(reversed(solutions.values()), None)
             solutions[key] = model.contact.solver.solve(problem, start)
     contacts = tuple(solutions[key] for key in asked)
-    if any(reaches_border(each.pressure) for each in contacts) and not model.contact.may_reach_edge:
+    if any(map(model.leaves_window, contacts)):
         size = f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm"
         remedy = "make it larger (or, for a body that ends there, set grid.ends_at_window = true)"
+        if model.cycle.across:
+            remedy = "make it larger: the path and the contact have to fit into it along y"
         forms = [surface.ask(surface.component.smoothed) for surface in model.surfaces.values()]
         if all(form.curvature == (0, 0) for form in forms):
             remedy = (

@@ -92,5 +92,5 @@ def _coupling(
             np.maximum(nearby, np.max(exposure.average(slope), axis=0), out=nearby)
         # A point that is yet to be touched has the slope that its law gives near it, on its row.
         slope = np.where(load > 0, weighed / np.where(load > 0, load, 1.0), nearby)
-        bodies.append((increment * slope, [*map(exposure.first_row, range(len(shares)))]))
+        bodies.append((increment * slope, [*map(exposure.first_cell, range(len(shares)))]))
     return CycleCompliance(shares, bodies, slice(0, model.grid.cells[0]))

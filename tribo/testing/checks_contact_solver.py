@@ -159,10 +159,10 @@ class ContactSolverChecks(Checks):
         """Solved as one, each position of a cycle is in contact with what all of them wear."""
         solver = self._make()
         apply_if(solver.couples, "couples is False")
-        (nx, ny), starts = GRID.cells, [4, 2, 0]
+        (nx, ny), cells = GRID.cells, [(4, 0), (2, 1), (0, 0)]
         stays, passes = (self._soft * (0.5 + samples.pattern((n, ny))) for n in (nx, nx + 4))
         shares = np.array([0.2, 0.3, 0.5])
-        coupling = CycleCompliance(shares, [(stays, [0, 0, 0]), (passes, starts)], slice(0, nx))
+        coupling = CycleCompliance(shares, [(stays, [(0, 0)] * 3), (passes, cells)], slice(0, nx))
         gaps = [ball(GRID, cells=(row, 0)) for row in (0, 1, 2)]
         problems = [replace(problem(), gap=gap) for gap in gaps]
         contacts = GuardedSolver(solver).solve_cycle(problems, [self._plain] * 3, coupling)

@@ -20,8 +20,8 @@ from tribo.core.fields import (
     FRICTION_COEFFICIENT,
     LOAD_SHARE,
     LOCAL_SLIP,
+    OF_MOTION,
     PLACE_X,
-    PLACE_Y,
     ContactConditions,
     Field,
     names_of,
@@ -110,7 +110,7 @@ def field(
 
 def declared(name: str) -> Field | None:
     """Return the declaration of a field that the case or a loaded model provides or requires."""
-    known = [FRICTION_COEFFICIENT, LOAD_SHARE, LOCAL_SLIP, PLACE_X, PLACE_Y]
+    known = [FRICTION_COEFFICIENT, LOAD_SHARE, LOCAL_SLIP, *OF_MOTION.values()]
     models: list[type[Effect | WearLaw]] = [*Effect.__subclasses__(), *WearLaw.__subclasses__()]
     for model in models:
         models += model.__subclasses__()
@@ -285,7 +285,7 @@ def small_case(
     kinematics = kinematics or sliding(3.0)
     provided = {f.name for e in effects for f in (*e.provides, *e.state_fields)}
     friction = FRICTION_COEFFICIENT.name
-    known = {friction, PLACE_X.name, PLACE_Y.name} | provided
+    known = {friction, *OF_MOTION} | provided
     averaged = {n for n, e in kinematics.exposures(GRID, BODIES).items() if e.averaged}
     wearing = {*BODIES} - (averaged if PLACE_X.name in names_of(law.requires) else set())
     needed = sorted(

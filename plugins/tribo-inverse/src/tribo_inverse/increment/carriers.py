@@ -37,7 +37,7 @@ class Carrier:
             own[0, columns] = np.sum(parts, axis=(0, 1))
             return own
         for part, start in zip(parts, self.starts, strict=True):
-            add_from(own[:, columns], part, start + along.start)
+            add_from(own[:, columns], part, (start + along.start, 0))
         return own
 
     def seen(self, own: Array, box: Box) -> Array:
@@ -98,9 +98,15 @@ def carrier_of(model: Model, name: str) -> Carrier:
     Raises
     ------
     CaseError
-        If the average over a track is not a weighted sum over its rows.
+        If the body moves across, or the average over a track is not a weighted sum over its rows.
     """
     exposure, cells = model.cycle.maps[name], model.grid.cells
+    if exposure.across is not None:
+        raise CaseError(
+            f"gradients are not known where {name} moves across as well as along x, as it does "
+            f"with {model.case.kinematics.type!r}",
+            "kinematics.type",
+        )
     starts = exposure.starts if exposure.starts is not None else [0] * len(model.cycle)
     trial = np.random.default_rng(0).random(cells)
     answer, expected, weights = exposure.average(trial), trial, None
