@@ -77,6 +77,7 @@ from tribo.motion.exposure import Stationary as Stationary
 from tribo.motion.exposure import Track as Track
 from tribo.motion.kinematics import Kinematics as Kinematics
 from tribo.motion.measured import Measured as Measured
+from tribo.motion.planar import Planar as Planar
 from tribo.motion.reciprocating import FrequencyStage as FrequencyStage
 from tribo.motion.reciprocating import Reciprocating as Reciprocating
 from tribo.motion.rotating import Rotating as Rotating

@@ -37,8 +37,8 @@ def check_axis(radius: float, grid: Grid) -> None:
         )
 
 
-class ClosedTrack(Kinematics):
-    """Sliding round a closed track, at one speed or in stages; one body swept over the track."""
+class Steady(Kinematics):
+    """Sliding round a closed path, at one speed or in stages; one body passes."""
 
     speed: Annotated[
         Annotated[float, Quantity("m/s", above=0, usual=(1e-12, 200.0)), Tag(NUMBER)]
@@ -55,8 +55,6 @@ class ClosedTrack(Kinematics):
     """How far it slides."""
     swept: str | None = None
     """Name of the body whose points pass through the contact; the last body if left out."""
-    allow_short_track: bool = False
-    """Whether a track shorter than the first contact's half-width is accepted."""
 
     _in_a_list = field_validator("speed", mode="before")(listed)
 
@@ -82,11 +80,6 @@ class ClosedTrack(Kinematics):
         return self._held.ends[:-1]
 
     @property
-    def _given(self) -> str:
-        """Key that the length of the track was given by."""
-        return "track_radius"
-
-    @property
     def end_time(self) -> float:
         """Time at which the motion ends, in s; `CaseError` if its stages end before."""
         far = self.distance if self.revolutions is None else self.revolutions * self.track_extent
@@ -99,6 +92,18 @@ class ClosedTrack(Kinematics):
     def time_at(self, distance: float) -> float:
         """Return the first time at which `distance` is reached, in s."""
         return self._held.reached(distance)
+
+
+class ClosedTrack(Steady):
+    """Steady sliding that is averaged over a closed track."""
+
+    allow_short_track: bool = False
+    """Whether a track shorter than the first contact's half-width is accepted."""
+
+    @property
+    def _given(self) -> str:
+        """Key that the length of the track was given by."""
+        return "track_radius"
 
     def limitation(
         self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool

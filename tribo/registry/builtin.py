@@ -7,6 +7,7 @@ from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.motion.measured import Measured
+from tribo.motion.planar import Planar
 from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
@@ -33,7 +34,7 @@ def tribo_components() -> tuple[type[Component], ...]:
     return (
         *(DcFft, Periodic, Winkler),
         *(Archard, Power, RunningIn, Scaled, Smoothing),
-        *(Measured, Reciprocating, Rotating, Unidirectional),
+        *(Measured, Planar, Reciprocating, Rotating, Unidirectional),
         *(Sphere, Paraboloid, Cylinder, Flat, Pin, HeightMap, Rough, Texture, Waves),
         Progress,
     )

@@ -6,6 +6,7 @@ from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.motion.measured import Measured
+from tribo.motion.planar import Planar
 from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.rotating import Rotating
 from tribo.motion.unidirectional import Unidirectional
@@ -56,6 +57,9 @@ test_measured = parametrize_checks(
     ],
 )
 test_rotating = parametrize_checks(Rotating, [ROUND])
+TURN = {"path": "circle", "extent": ("0.2 mm", "0.1 mm"), "speed": "20 mm/s", "revolutions": 9}
+TRIANGLE = {"path": [(0, 0), (2e-4, 0), (0, 1e-4)], "extent": None, "positions": "cells"}
+test_planar = parametrize_checks(Planar, [TURN, {**TURN, **TRIANGLE, "swept": "ball"}])
 test_unidirectional = parametrize_checks(
     Unidirectional,
     [ROUND, {**ROUND, "turns": True, "swept": "ball", "track_radius": "5 mm"}],

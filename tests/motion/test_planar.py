@@ -1,0 +1,129 @@
+"""A path in the plane, whose positions lie beside one another along x and across."""
+
+import numpy as np
+import pytest
+
+from tribo import Case, CaseError, Grid, Planar, Simulation
+
+GRID = Grid((0.9e-3, 1.6e-3), (36, 64))
+STEEL = {"young": "210 GPa", "poisson": 0.3, "hardness": "40 GPa"}
+BALL = {"type": "sphere", "radius": "20 mm"}
+PIN = {"type": "pin", "radius": "0.16 mm", "edge": "0.1 mm"}
+SPRINGS, K, LOAD, TURNS = 2e14, 4e-14, 20.0, 100
+
+
+def case(surface=BALL, positions=49, **motion):
+    law = {"type": "archard", "k": K}
+    given = {"path": "circle", "extent": ("0.4 mm", "0.4 mm"), "speed": "20 mm/s"}
+    return Case(
+        grid=GRID,
+        load={"normal": LOAD},
+        bodies={
+            "pin": {"surface": surface, "material": STEEL, "wear": law},
+            "plate": {"surface": {"type": "flat"}, "material": STEEL, "wear": law},
+        },
+        contact={"type": "winkler", "modulus": SPRINGS, "plasticity": False},
+        stepping={"type": "implicit", "depth_tolerance": 1e-4},
+        kinematics={"type": "planar", "revolutions": TURNS, "positions": positions}
+        | given
+        | motion,
+    )
+
+
+def one_after_the_other(shape, radius, count):
+    """Wear in `count` places of each turn, from springs alone: pin and plate."""
+    (nx, ny), (dx, dy) = GRID.cells, GRID.spacing
+    turn = 2 * np.pi * (np.arange(count) + 0.5) / count
+    along, across = (
+        np.round(radius * part / step).astype(int)
+        for part, step in ((np.sin(turn), dx), (1 + np.cos(turn), dy))
+    )
+    pin, plate = np.zeros((nx, ny)), np.zeros((nx + 2 * along.max(), ny))
+    ranks = np.arange(1, shape.size + 1)
+    for _ in range(TURNS):
+        for i, j in zip(along.max() - along, across, strict=True):
+            gap = shape + pin + np.roll(plate, -j, axis=1)[i : i + nx]
+            heights = np.sort(gap, axis=None)
+            approach = (LOAD / (SPRINGS * dx * dy) + np.cumsum(heights)) / ranks
+            approach = approach[np.flatnonzero(approach > heights)[-1]]
+            worn = K * SPRINGS * np.maximum(approach - gap, 0) * 2 * np.pi * radius / count
+            pin += worn
+            plate[i : i + nx] += np.roll(worn, j, axis=1)
+    return pin, plate
+
+
+@pytest.mark.parametrize("surface", [BALL, PIN])
+def test_a_circle_wears_both_bodies_as_one_place_after_the_other_does(surface):
+    model = Simulation(case(surface)).model
+    gap = model.contact.gaps[0]
+    pin, plate = one_after_the_other(gap, 0.2e-3, 49)
+    result = Simulation(case(surface)).run()
+    last = len(result.times) - 1
+    for name, field, needed in (("pin", "wear_depth", pin), ("plate", "track_depth", plate)):
+        found = result.field(field, last, name)
+        np.testing.assert_allclose(found, needed, rtol=0, atol=0.01 * needed.max(), err_msg=name)
+
+
+TWO_TO_ONE = [(0, 0), (4e-4, 0), (4e-4, 2e-4), (0, 2e-4)]
+
+
+@pytest.mark.parametrize(
+    ("path", "extent", "across"),
+    [
+        ("circle", (4e-4, 4e-4), 0.5),
+        ("square", (4e-4, 4e-4), 0.5),
+        ("square", (4e-4, 2e-4), 1 / 3),
+        (TWO_TO_ONE, None, 1 / 3),
+        ([(0, 0), (4e-4, 0)], None, 0.0),
+    ],
+)
+def test_the_part_of_the_path_across_its_main_direction_is_exact(path, extent, across):
+    motion = Planar(path=path, extent=extent, speed=1.0, revolutions=1)
+    cycle = motion.cycle(GRID)
+    ways = np.array([position.heading for position in cycle])
+    shares = np.array([position.share for position in cycle])
+    tensor = np.einsum("p,pi,pj", shares, ways, ways)
+    assert np.linalg.eigvalsh(tensor)[0] == pytest.approx(across, abs=1e-12)
+
+
+@pytest.mark.parametrize("path", ["circle", "square", "eight", TWO_TO_ONE])
+def test_the_body_goes_where_it_heads(path):
+    extent = (4e-4, 3e-4) if isinstance(path, str) else None
+    model = Simulation(case(path=path, extent=extent, positions=48)).model
+    steps = np.diff(model.cycle.offsets, axis=0)
+    ways = np.array([position.heading for position in model.cycle])
+    between = ways[1:] + ways[:-1]
+    ahead = np.sum(steps * between, axis=1)
+    # A position may lie in the cell of the one before.
+    assert np.all(ahead >= 0)
+    assert np.mean(ahead > 0) > 0.8
+    fields = [model.cycle.fields(position) for position in range(len(model.cycle))]
+    for way, of_motion in zip(ways, fields, strict=True):
+        for name, part in zip(("heading_x", "heading_y"), way, strict=True):
+            # The plate goes; what slides over it comes the other way.
+            np.testing.assert_allclose(of_motion[name]["pin"], part)
+            np.testing.assert_allclose(of_motion[name]["plate"], -part)
+    places = np.array([[f[n]["plate"][0, 0] for n in ("place_x", "place_y")] for f in fields])
+    np.testing.assert_allclose(np.diff(places[:3], axis=0), -steps[:2] * GRID.spacing, atol=1e-12)
+
+
+def test_a_path_to_and_fro_wears_as_a_stroke_does():
+    """Its positions lie in the middle of stretches, those of a stroke at the ends too."""
+    there = case(path=[(0, 0), (2e-4, 0), (-2e-4, 0)], extent=None, positions=64)
+    motion = {"type": "reciprocating", "stroke": 4e-4, "frequency": 25, "cycles": TURNS}
+    stroke = Case(**{**dict(there), "kinematics": {**motion, "positions": "cells"}})
+    there, stroke = (Simulation(each).run() for each in (there, stroke))
+    for name in ("pin", "plate"):
+        found, needed = (
+            each.field("wear_depth", len(each.times) - 1, name) for each in (there, stroke)
+        )
+        np.testing.assert_allclose(found, needed, rtol=0, atol=0.02 * needed.max())
+
+
+def test_what_cannot_be_is_refused():
+    with pytest.raises(ValueError, match="give extent with a path from a formula"):
+        case(extent=None)
+    with pytest.raises(CaseError, match="the path stays within a cell"):
+        Simulation(case(extent=(1e-6, 1e-6)))
+    with pytest.raises(CaseError, match="the path and the contact have to fit into it along y"):
+        Simulation(case(extent=(1e-4, 1.5e-3), positions="cells")).run()
