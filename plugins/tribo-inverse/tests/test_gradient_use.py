@@ -17,6 +17,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.effects.effect import Effect
+from tribo.motion.planar import Planar
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation import march
 from tribo.simulation.positions import composed
@@ -122,6 +123,12 @@ def test_a_refusal_names_its_place_once():
     with pytest.raises(CaseError) as refused:
         gradient(case, Volume("ball"), ["bodies.*.wear.k"])
     assert str(refused.value) == "bodies.*.wear.k: has no derivative here: only one is known"
+
+
+def test_a_path_across_is_refused():
+    path = Planar(path="circle", extent=(1e-4, 1e-4), speed=0.02, revolutions=9, positions="cells")
+    with pytest.raises(CaseError, match="gradients are not known where disk moves across"):
+        gradient(run(kinematics=path), Volume("ball"), [])
 
 
 def test_one_name_in_place_of_a_list_is_refused():
