@@ -18,6 +18,10 @@ DEPRECATED: dict[str, tuple[str, str]] = {}
 
 
 def __getattr__(name: str) -> object:
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("tribo")
     if name in NAMES:
         package = NAMES[name]
         raise ImportError(

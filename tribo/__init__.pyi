@@ -20,6 +20,7 @@ from tribo.contact.solver import ContactSolver as ContactSolver
 from tribo.contact.winkler import FoundationLayer as FoundationLayer
 from tribo.contact.winkler import Winkler as Winkler
 from tribo.core.arrays import Array as Array
+from tribo.core.arrays import Cell as Cell
 from tribo.core.arrays import Mask as Mask
 from tribo.core.arrays import Region as Region
 from tribo.core.box import Box as Box
@@ -98,6 +99,7 @@ from tribo.result.read import open as open
 from tribo.simulation.run import Simulation as Simulation
 from tribo.stepping.explicit import Explicit as Explicit
 from tribo.stepping.implicit import Implicit as Implicit
+from tribo.study.check import Check as Check
 from tribo.study.comparison import Comparison as Comparison
 from tribo.study.comparison import compare as compare
 from tribo.study.sweeping.runs_table import Run as Run

@@ -28,6 +28,7 @@ from tribo.wear.law import WearLaw
 
 if TYPE_CHECKING:
     from tribo.result.read import Result
+    from tribo.study.check import Check
 
 
 class Layer(Table):
@@ -220,7 +221,14 @@ class Case(Table):
             checked_name(str(name))
         return bodies
 
-    def run(self, output: str | Path | None = None, **options: Any) -> Result:
-        """Run from the beginning, as ``Simulation(case).run(output, …)``."""
-        result: Result = shorthand.run(self, output, **options)
+    def check(self) -> Check:
+        """Predict the first contact and the end of a run, and what would go wrong on its way."""
+        found: Check = shorthand.check(self)
+        return found
+
+    def run(
+        self, output: str | Path | None = None, *, progress: bool = False, **options: Any
+    ) -> Result:
+        """Run from the beginning, as ``Simulation(case).run(output, …)``, with a bar if wanted."""
+        result: Result = shorthand.run(self, output, progress, **options)
         return result

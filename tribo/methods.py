@@ -15,22 +15,52 @@ if TYPE_CHECKING:
     from tribo.lab.report import LabReport
     from tribo.registry.registry import Registry
     from tribo.result.read import Result
+    from tribo.study.check import Check
 
 
 def bind() -> None:
     """Give each shorthand its function."""
     shorthand.run = run
+    shorthand.check = check
     shorthand.registry = registry
+    shorthand.case = case
+    shorthand.show = show
     shorthand.report = report
     shorthand.plot = plot
     shorthand.html = html
 
 
-def run(case: "Case", output: "str | Path | None", **options: "Any") -> "Result":
-    """Run a case from the beginning."""
+def run(
+    case: "Case", output: "str | Path | None", progress: bool = False, **options: "Any"
+) -> "Result":
+    """Run a case from the beginning, with a bar if there is to be one."""
+    from tribo.observers.progress import Progress
     from tribo.simulation.run import Simulation
 
+    if progress:
+        options["observers"] = [*options.get("observers", ()), Progress()]
     return Simulation(case).run(output, **options)
+
+
+def check(case: "Case") -> "Check":
+    """Predict what a case will do."""
+    from tribo.study.check import check_case
+
+    return check_case(case)
+
+
+def case(tables: "dict[str, Any]") -> "Case":
+    """Return the case that tables are of."""
+    from tribo.config.load import validate_case
+
+    return validate_case(tables)
+
+
+def show(result: "Result") -> None:
+    """Print a result as the terminal does."""
+    from tribo.cli.lab_report import print_report
+
+    print_report(result)
 
 
 def registry() -> "Registry":

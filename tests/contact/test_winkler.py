@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from contact_problems import HARDNESS, MODULUS, RADIUS, ball, problem
-from pydantic import ValidationError
 
 from tribo.closed_forms import hertz
 from tribo.contact.winkler import FoundationLayer, Winkler
@@ -93,7 +92,7 @@ def test_approach_of_a_line_contact_cannot_be_matched() -> None:
 
 
 def test_two_sources_of_the_modulus_are_refused_by_name() -> None:
-    with pytest.raises(ValidationError, match="modulus and match are given"):
+    with pytest.raises(CaseError, match="modulus and match are given"):
         Winkler(modulus=1e15, match="approach")
 
 

@@ -214,7 +214,7 @@ def broken(path, code):
         told = any(notice.startswith("chattering") for notice in result.notices)
         if worst["chattering"] > CHATTERING and not told:
             return f"chattering is {worst['chattering']:g}"
-        along = result.case["load"].get("along")
+        along = result.case_tables["load"].get("along")
         for save, load in enumerate(result.table("saves")["load_N"]):
             carried = float(result.field("pressure", save).sum()) * system.grid.cell_area
             if (

@@ -3,8 +3,8 @@ import math
 import numpy as np
 import pytest
 from paper_models import motion
-from pydantic import ValidationError
 
+from tribo import CaseError
 from tribo.core.grid import Grid
 from tribo.motion.exposure import Stationary, Track
 from tribo.motion.reciprocating import Reciprocating
@@ -31,7 +31,7 @@ def test_the_end_may_be_given_as_time_cycles_or_distance():
 
 @pytest.mark.parametrize("given", [{}, {"duration": 1, "cycles": 2}])
 def test_the_end_is_given_once(given):
-    with pytest.raises(ValidationError, match="exactly one of duration, cycles and distance"):
+    with pytest.raises(CaseError, match="exactly one of duration, cycles and distance"):
         Reciprocating(stroke=1, frequency=1, **given)
 
 

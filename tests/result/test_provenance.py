@@ -47,7 +47,7 @@ def made(**changes):
 def test_each_component_of_a_model_made_of_objects_has_its_configuration_and_facts():
     with Simulation(model().case).run() as result:
         components = result.provenance["components"]
-        bodies = result.case["bodies"]
+        bodies = result.case_tables["bodies"]
     ball = components["bodies.ball.surface"]
     assert ball["config"] == {"type": "sphere", "radius": 0.005}
     assert ball["facts"] == {"serial number": "7"}

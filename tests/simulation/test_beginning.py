@@ -36,12 +36,12 @@ from tribo import (
     WearLaw,
     WearRate,
 )
-from tribo.cli.check import _facts
 from tribo.cli.console import Console
 from tribo.cli.lab_report import print_report
 from tribo.plotting.pressure import pressure_map
 from tribo.simulation.beginning import first_state
 from tribo.simulation.predict import predict
+from tribo.study.check import _facts
 from tribo.study.runs import is_done
 from tribo.surfaces.height_map import HeightMap
 from tribo.surfaces.laid import Laid

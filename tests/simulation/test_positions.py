@@ -158,11 +158,11 @@ def test_the_choice_is_told_once_and_kept():
     with pytest.warns(TriboWarning, match="at 11 positions, as the stroke is 1.01 lengths"):
         result = Simulation(given).run()
     with result:
-        assert result.case["kinematics"]["positions"] == 11
+        assert result.case_tables["kinematics"]["positions"] == 11
         (words,) = [notice for notice in result.notices if notice.startswith("positions:")]
         assert "from 20 on" in words
         # What is composed from the result has nothing left to choose.
-        again = Simulation(result.case).model
+        again = Simulation(result.case_tables).model
     assert len(again.cycle) == 11
     assert again.chosen is None
 

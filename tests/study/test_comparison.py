@@ -61,7 +61,7 @@ def test_energy_wear_with_alpha_k_over_mu_is_archards_to_round_off():
     laws = [{f"bodies.{name}.wear": law for name in ("ball", "disk")} for law in wear]
     with compare(data, laws, labels=["archard", "energy", "more"]) as comparison:
         archard, energy, more = comparison.results.values()
-        assert energy.case["bodies"]["ball"]["wear"]["type"] == "energy.dissipation"
+        assert energy.case_tables["bodies"]["ball"]["wear"]["type"] == "energy.dissipation"
         for time in (0, 100, 300):
             for each in differences(energy, archard, time).values():
                 # α μ is k to the last bit; the steps amplify it.
@@ -136,7 +136,7 @@ def test_a_folder_with_another_case_is_left_alone_unless_told(done):
     with pytest.raises(CaseError, match="is the result of another case; choose another folder"):
         compare(case(load={"normal": 120}), CONTACTS, done)
     with compare(case(load={"normal": 120}), CONTACTS, done, overwrite=True) as comparison:
-        assert all(r.case["load"]["normal"] == 120 for r in comparison.results.values())
+        assert all(r.case_tables["load"]["normal"] == 120 for r in comparison.results.values())
 
 
 @pytest.mark.slow

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from paper_models import flat, half_space, named, small, steel
-from pydantic import ValidationError
 from scipy.integrate import quad
 
 from tribo import CaseError, Grid, Pin
@@ -56,5 +55,5 @@ def test_the_end_is_flat_and_its_edge_round():
 def test_an_edge_that_cells_do_not_show_is_refused():
     with pytest.raises(CaseError, match=r"150 µm are 3 cells of 50 µm.*give a longer edge"):
         PIN.height(Grid((1.2e-3, 1.2e-3), (24, 24)))
-    with pytest.raises(ValidationError, match="edge must be at most radius"):
+    with pytest.raises(CaseError, match="edge must be at most radius"):
         Pin(radius=1e-3, edge=2e-3)

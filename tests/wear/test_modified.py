@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 from tribo import (
     Archard,
@@ -65,7 +64,7 @@ def test_smoothing_is_its_closed_form():
 
 
 def test_a_surface_smoother_than_it_settles_at_is_refused():
-    with pytest.raises(ValidationError, match="settled must be less than roughness"):
+    with pytest.raises(CaseError, match="settled must be less than roughness"):
         Smoothing(law=ARCHARD, factor=2, roughness="0.1 um", settled="0.1 um", depth="1 um")
 
 
@@ -110,7 +109,7 @@ def test_it_needs_keeps_and_refuses_what_either_does():
 
 def test_two_laws_that_keep_the_same_field_are_refused():
     twice = {"type": "running_in", "factor": 2, "over": 1e9}
-    with pytest.raises(ValidationError, match="'pressure_distance' is declared twice"):
+    with pytest.raises(CaseError, match="'pressure_distance' is declared twice"):
         RunningIn.model_validate({**twice, "law": {**twice, "law": ARCHARD}})
 
 

@@ -31,7 +31,7 @@ def resume(output: Path, allow_changed: bool) -> None:
     from tribo.simulation.run import Simulation
 
     with Result.open(output) as stopped:
-        case, made = stopped.case, stopped.provenance
+        case, made = stopped.case_tables, stopped.provenance
     try:
         simulation = Simulation(case)
     except CaseError as error:

@@ -12,6 +12,7 @@ from packaging.requirements import InvalidRequirement
 from pydantic import ValidationError
 
 from tribo.case import Case
+from tribo.component import components
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
@@ -76,6 +77,9 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
 def case_tables(case: Case | Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
     """Return the tables of a case, which is given as a Case, as tables or as a TOML file."""
     if isinstance(case, Case):
+        # Classes of one's own are found again by their types.
+        for _, component in components(case):
+            default_registry().know(type(component))
         return case.model_dump(mode="json")
     return case if isinstance(case, Mapping) else read_toml(case)
 

@@ -46,30 +46,31 @@ def part_from(field: Array, first: Cell, count: Cell) -> Array:
 
     After its last row a field goes on with its first, and so do its columns.
     """
-    for axis in (0, 1):
-        start, cells = first[axis] % field.shape[axis], count[axis]
-        beyond = start + cells - field.shape[axis]
-        parts = [field[(slice(None),) * axis + (slice(start, start + cells),)]]
-        if beyond > 0:
-            parts.append(field[(slice(None),) * axis + (slice(0, beyond),)])
-        field = parts[0] if beyond <= 0 else np.concatenate(parts, axis)
-    return field
+    rows, columns = field.shape
+    row, column = first[0] % rows, first[1] % columns
+    if row + count[0] <= rows and column + count[1] <= columns:
+        return field[row : row + count[0], column : column + count[1]]
+    along = np.arange(row, row + count[0])
+    return field.take(along, 0, mode="wrap").take(
+        np.arange(column, column + count[1]), 1, mode="wrap"
+    )
 
 
 def add_from(field: Array, part: Array, first: Cell) -> None:
     """Add `part` to a field in place, from the cell `first` on, as `part_from` counts them."""
-    pairs = zip(first, part.shape, field.shape, strict=True)
-    rows, columns = (_stretches(start % whole, count, whole) for start, count, whole in pairs)
-    for row, own_row in rows:
-        for column, own_column in columns:
-            field[own_row, own_column] += part[row, column]
-
-
-def _stretches(first: int, count: int, whole: int) -> list[tuple[slice, slice]]:
-    """Return where each unbroken stretch of `count` cells lies, in the part and in the whole."""
-    until = whole - first
-    inside = slice(0, min(count, until)), slice(first, min(first + count, whole))
-    return [inside] if count <= until else [inside, (slice(until, count), slice(0, count - until))]
+    (rows, columns), (along, across) = field.shape, part.shape
+    row, column = first[0] % rows, first[1] % columns
+    if row + along <= rows and column + across <= columns:
+        field[row : row + along, column : column + across] += part
+        return
+    # What goes beyond an end begins at the other.
+    right, below = min(across, columns - column), min(along, rows - row)
+    for own, given in (
+        (slice(row, row + below), slice(0, below)),
+        (slice(0, along - below), slice(below, along)),
+    ):
+        field[own, column : column + right] += part[given, :right]
+        field[own, : across - right] += part[given, right:]
 
 
 def middle_rows(field: Array, count: int) -> Array:

@@ -35,6 +35,10 @@ class CaseError(TriboError):
         self.path = path
 
 
+class WrongValues(CaseError, ValueError):
+    """A table was given wrong values in Python."""
+
+
 class NumericalError(TriboError):
     """A solve or a step could not be carried out to its tolerance."""
 

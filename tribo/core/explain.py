@@ -9,7 +9,7 @@ from typing import Any, get_args
 from pydantic import BaseModel, ValidationError, ValidationInfo
 from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
-from tribo.core.errors import CaseError
+from tribo.core.errors import WrongValues
 from tribo.core.units import parts
 from tribo.core.words import did_you_mean, shown, suggestion
 
@@ -99,7 +99,7 @@ def _unknown(key: object, allowed: Sequence[str], data: object) -> tuple[str, st
     return f"unknown key {key!r}{suggestion(like)} Allowed: {', '.join(allowed)}", like
 
 
-def case_error(error: ValidationError) -> CaseError:
+def case_error(error: ValidationError) -> WrongValues:
     """Return pydantic's error as one exception, a line for each error, with the first path.
 
     Unknown keys come first: a key that is misspelt is often also the one that is missing.
@@ -111,7 +111,7 @@ def case_error(error: ValidationError) -> CaseError:
         if text not in texts:
             texts.append(text)
     (place, first), *others = ((place, "; or ".join(texts)) for place, texts in lines.items())
-    return CaseError("\n".join([first, *(f"{p}: {t}" if p else t for p, t in others)]), place)
+    return WrongValues("\n".join([first, *(f"{p}: {t}" if p else t for p, t in others)]), place)
 
 
 def path(keys: tuple[str | int, ...]) -> str:

@@ -23,22 +23,32 @@ from pydantic import (
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
-from tribo.core.explain import explained
+from tribo.core.explain import case_error, explained
+
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass
+else:
+    ModelMetaclass = type(BaseModel)
 
 
-class Table(BaseModel):
+class _Made(ModelMetaclass):
+    """The class of tables: made in Python, they tell errors in the words of a case."""
+
+    def __call__(self, *values: Any, **named: Any) -> Any:
+        made: Any = self
+        if values and made.__init__ is BaseModel.__init__:
+            name, key = made.__name__, next(iter(made.model_fields), "key")
+            raise TypeError(f"give each value of {name} by its name, as {name}({key}=…)")
+        try:
+            return super().__call__(*values, **named)
+        except ValidationError as error:
+            raise case_error(error) from None
+
+
+class Table(BaseModel, metaclass=_Made):
     """A frozen table that refuses unknown keys, and explains errors in the words of a case."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
-
-    if not TYPE_CHECKING:
-
-        def __new__(cls, *values: Any, **named: Any) -> Self:
-            """Refuse values without their names, which pydantic does in words of its own."""
-            if values and cls.__init__ is BaseModel.__init__:
-                name, key = cls.__name__, next(iter(cls.model_fields), "key")
-                raise TypeError(f"give each value of {name} by its name, as {name}({key}=…)")
-            return super().__new__(cls)
 
     @model_validator(mode="wrap")
     @classmethod

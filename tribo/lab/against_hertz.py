@@ -79,9 +79,11 @@ def hertz_half_width(system: ContactSystem) -> float | None:
 
 def first_hertz(result: Result) -> HertzContact | str:
     """Return Hertz's contact for the first save of a result, or why there is none."""
-    if result.case.get("begin"):
+    if result.case_tables.get("begin"):
         return "the bodies were worn already"
-    layers = (each for body in result.case["bodies"].values() for each in body.get("layers", ()))
+    layers = (
+        each for body in result.case_tables["bodies"].values() for each in body.get("layers", ())
+    )
     # A result's system does not keep them.
     if any(each.get(key) is not None for each in layers for key in ("young", "poisson")):
         return "a body has an elastic layer"

@@ -164,7 +164,7 @@ def _first_contact(result: Result) -> tuple[FirstContact, str]:
         )
     p0, ratio = hertz.peak_pressure, None
     words = f"First contact: {words}, Hertz {in_mpa(p0)}"
-    half_space = result.case.get("contact", {}).get("type") == HALF_SPACE
+    half_space = result.case_tables.get("contact", {}).get("type") == HALF_SPACE
     if half_space and not reaches_border(result.field("pressure", 0)):
         words += f" ({signed(100 * (largest / p0 - 1), 2)} %)"
     if system.cap is not None:

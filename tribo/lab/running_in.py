@@ -93,7 +93,7 @@ def groove_length(result: Result, name: str) -> float | None:
     """Return how long a body's groove is on its track at the end, in m; None if all along it."""
     if TRACK in dir(result):
         depth = np.nan_to_num(result.field(TRACK, len(result.times) - 1, name))
-    elif result.case.get("kinematics", {}).get("positions", "average") != "average":
+    elif result.case_tables.get("kinematics", {}).get("positions", "average") != "average":
         # In a window that repeats.
         depth = result.body(name).wear_depth[-1]
     else:

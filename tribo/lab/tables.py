@@ -70,7 +70,7 @@ def saves_table(result: Result) -> DataTable:
 
 def _shares_along(result: Result) -> list[float]:
     """Return the shares of a load that changes along the stroke; none if it does not."""
-    load = result.case.get("load", {})
+    load = result.case_tables.get("load", {})
     return [place["share"] for place in load.get("along", ())] if isinstance(load, Mapping) else []
 
 
@@ -78,7 +78,7 @@ def wear_table(result: Result, bodies: Mapping[str, BodyReport]) -> DataTable:
     """Return what a lab would measure of each body at the end."""
     last = result.saves()[-1]
     tracks = [f"{n} (track)" if body.scar_along_m is None else n for n, body in bodies.items()]
-    before = ", what it began with included" if result.case.get("begin") else ""
+    before = ", what it began with included" if result.case_tables.get("begin") else ""
     saves = [last["bodies"][name] for name in bodies]
     marks = [_marks(result, name, body) for name, body in bodies.items()]
     row = TableRow.scaled

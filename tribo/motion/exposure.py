@@ -48,10 +48,8 @@ class Exposure(ABC):
 
     def first_cell(self, position: int) -> Cell:
         """Return the cell of the body's own surface at which the window begins at a position."""
-        row, column = (
-            0 if starts is None else starts[position] for starts in (self.starts, self.across)
-        )
-        return row, column
+        row = 0 if self.starts is None else self.starts[position]
+        return row, 0 if self.across is None else self.across[position]
 
     def track(self, window: Grid) -> float:
         """Return the mean length of the track that its points pass along, in m; 0 if they stay."""
@@ -245,18 +243,19 @@ class Passing(Stationary):
         super().__init__(grid)
         self.starts = tuple(starts)
         self.across = None if across is None else tuple(across)
+        self._cells = [*zip(starts, across or [0] * len(starts), strict=True)]
         self.rows = grid.period or grid.cells[0] + max(starts)
         self._length = length if grid.period is None else min(length, grid.size[0])
 
     def see(self, field: Array, position: int) -> Array:
         """Return the rows of the window, from the start of the position on."""
         count = self._grid.cells[0], field.shape[1]
-        return part_from(field, self.first_cell(position), count)
+        return part_from(field, self._cells[position], count)
 
     def lay(self, field: Array, position: int) -> Array:
         """Return the field on the body's rows, from the start of the position on."""
         own = np.zeros((self.rows, *field.shape[1:]))
-        add_from(own, field, self.first_cell(position))
+        add_from(own, field, self._cells[position])
         return own
 
     def gather(
@@ -265,7 +264,7 @@ class Passing(Stationary):
         """Return the rate's part on the body's rows, added to `total` in place."""
         if total is None:
             return self.lay(part * rate, position)
-        add_from(total, part * rate, self.first_cell(position))
+        add_from(total, part * rate, self._cells[position])
         return total
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:

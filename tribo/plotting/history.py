@@ -101,7 +101,7 @@ def with_rests(result: Result) -> dict[str, Array]:
     that goes in straight lines does so.
     """
     history = result.table("history")
-    stages = (result.case.get("load") or {}).get("normal")
+    stages = (result.case_tables.get("load") or {}).get("normal")
     straight = isinstance(stages, list | tuple) and any(stage.get("at") for stage in stages)
     resting = np.diff(history["distance_m"]) == 0
     starts = np.flatnonzero(resting | np.append(False, resting)[:-1])

@@ -109,7 +109,7 @@ def removed(result: Result, name: str) -> Array:
 
 def layer_ends(result: Result, name: str, deepest: float) -> dict[str, float]:
     """Return the depths at which layers of a body end, in m, down to twice the deepest."""
-    layers = result.case["bodies"][name].get("layers") or ()
+    layers = result.case_tables["bodies"][name].get("layers") or ()
     ends = np.cumsum([float(layer["thickness"]) for layer in layers])
     return {
         f"{name}: end of layer {number}": float(end)

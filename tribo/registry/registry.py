@@ -51,6 +51,7 @@ class Registry:
         self._manager = pluggy.PluginManager(hookspecs.PROJECT)
         self._manager.add_hookspecs(hookspecs)
         self._owners: defaultdict[str, list[Plugin]] = defaultdict(list)
+        self._own: dict[str, type[Component]] = {}
         for plugin in plugins:
             self.add(plugin)
 
@@ -62,6 +63,21 @@ class Registry:
         if plugin.usable:
             for name in plugin.names:
                 self._owners[name].append(plugin)
+
+    def know(self, cls: type[Component]) -> None:
+        """Let a class that no plugin offers take part, in place of an earlier one of its name."""
+        name = cls.type
+        if (other := self.find(name)) and not self.is_own(other) and other is not cls:
+            raise CaseError(
+                f"the class {cls.__qualname__} has the type {name!r}, which is that of "
+                f"{other.__module__}.{other.__qualname__}; give it one of its own, as 'my.{name}'"
+            )
+        if other is None or self.is_own(other):
+            self._own[name] = cls
+
+    def is_own(self, cls: type[Component]) -> bool:
+        """Whether a class takes part that no plugin offers."""
+        return self._own.get(cls.type) is cls
 
     @classmethod
     def with_plugins(cls, *plugins: object) -> Registry:
@@ -148,6 +164,8 @@ class Registry:
             self.load(plugin)
             if name in plugin.classes:
                 return plugin.classes[name]
+        if name in self._own:
+            return self._own[name]
         refused = [p for p in self.plugins if name in p.names and not p.usable]
         if refused:
             why = "; ".join(f"{plugin} is {plugin.status}: {plugin.reason}" for plugin in refused)

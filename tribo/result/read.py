@@ -31,6 +31,7 @@ from tribo.result.sealed import write_sealed
 if TYPE_CHECKING:
     import xarray as xr
 
+    from tribo.case import Case
     from tribo.lab.report import LabReport
 
 
@@ -145,8 +146,14 @@ class Result:
         return None if spent is None else float(spent)
 
     @property
-    def case(self) -> dict[str, Any]:
-        """The full configuration, as plain data."""
+    def case(self) -> Case:
+        """The case that was run; `CaseError` if a package or a class of one's own is missing."""
+        case: Case = shorthand.case(self.case_tables)
+        return case
+
+    @property
+    def case_tables(self) -> dict[str, Any]:
+        """The full configuration, as plain data in SI units."""
         return dict(self._header["case"])
 
     @property
@@ -202,7 +209,7 @@ class Result:
     @property
     def body_names(self) -> tuple[str, ...]:
         """Names of the bodies in the order of the case."""
-        return tuple(self.case["bodies"])
+        return tuple(self.case_tables["bodies"])
 
     def has(self, name: str) -> bool:
         """Whether there is a variable of this name, as ``"track_depth"`` of a resolved cycle."""
@@ -318,6 +325,10 @@ class Result:
         """Return what a laboratory would measure of the result."""
         report: LabReport = shorthand.report(self)
         return report
+
+    def show(self) -> None:
+        """Print the saves and what a lab would report, as ``tribo show`` does."""
+        shorthand.show(self)
 
     def plot(self, folder: str | Path, suffix: str = "png") -> list[Path]:
         """Write every picture that makes sense for the result, as ``tribo plot`` does."""

@@ -23,7 +23,7 @@ def summary(result: Result) -> dict[str, Any]:
         if found := _ranges(result, BETWEEN, save):
             row[BETWEEN] = found
     return {
-        "case": result.case,
+        "case": result.case_tables,
         "status": result.status,
         "provenance": result.provenance,
         "notices": list(result.notices),

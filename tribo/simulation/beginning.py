@@ -92,7 +92,7 @@ def _check_alike(model: Model, result: Result) -> None:
             PLACE,
         )
     for body, surface in model.surfaces.items():
-        was = result.case["bodies"][body].get("surface")
+        was = result.case_tables["bodies"][body].get("surface")
         # A file that a surface is read from may have changed since.
         height = model.cycle.maps[body].see(surface.height, len(model.cycle) // 2)
         off = np.max(np.abs(height - result.body(body).height))

@@ -147,7 +147,7 @@ def _as_begun(case: Case, begin: Begin) -> Case:
     positions: int | str = "average"
     # What is wrong with the file is said when the run begins.
     with suppress(CaseError), Result.open(begin.result) as result:
-        given = result.case["kinematics"].get("positions")
+        given = result.case_tables["kinematics"].get("positions")
         positions = given if isinstance(given, int | str) else "average"
     if positions == "average" and case.load.along:
         raise CaseError(

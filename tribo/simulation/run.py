@@ -167,7 +167,7 @@ class Simulation:
         with Result.open(path) as result:
             status = result.status
             changes = self.changed_since(result)
-            case = result.case
+            case = result.case_tables
         listed = "; ".join(f"{place} was {old}, is {new}" for place, old, new in changes)
         if status == "done":
             folder = RunFolder(path.resolve())

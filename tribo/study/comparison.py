@@ -196,7 +196,7 @@ class Comparison:
 
 
 def compare(
-    what: Case | Mapping[str, Any] | str | Path | Sequence[str | Path],
+    what: Case | Mapping[str, Any] | str | Path | Sequence[Case | Result | str | Path],
     vary: Mapping[str, Sequence[Any]] | Sequence[Mapping[str, Any]] = (),
     folder: str | Path | None = None,
     *,
@@ -208,14 +208,14 @@ def compare(
     tell: Callable[[str], None] = lambda text: None,
     overwrite: bool = False,
 ) -> Comparison:
-    """Run variants of a case, or open result files, and set them side by side.
+    """Run variants of a case, or take any cases and results, and set them side by side.
 
     Parameters
     ----------
-    what : Case, Mapping, str, Path or sequence of str or Path
+    what : Case, Mapping, str, Path, or a sequence of Case, Result, str or Path
         A case that varies: itself, its tables, or its TOML file. Without
-        `vary` a list of result files, named after their stems, or whole where
-        stems are alike. The first is what the others are compared with.
+        `vary` a list of results, of result files and of cases, which are run
+        first. The first is what the others are compared with.
     vary : Mapping or sequence of Mapping, optional
         Values by path, every combination of which is a variant; or the settings
         of each variant, values by path.
@@ -223,7 +223,8 @@ def compare(
         Folder of the result files of variants; finished results in it are
         reused. In memory if left out.
     labels : sequence of str, optional
-        Names of the variants; the values that differ if left out.
+        Names of the variants or of the list's; if left out the values that
+        differ, or stems of files, or whole names where stems are alike.
     times : sequence of float, optional
         Times, in s, at which all variants must save, so that they can be shown.
     match : Mapping, optional
@@ -258,11 +259,12 @@ def compare(
     >>> contacts = {"contact.type": ["winkler", "dcfft"]}
     >>> tribo.compare("examples/ball_on_disk.toml", contacts)  # doctest: +SKIP
     >>> tribo.compare(["winkler.h5", "dcfft.h5"])  # doctest: +SKIP
+    >>> tribo.compare([case, other], labels=["mine", "theirs"])  # doctest: +SKIP
     """
     if isinstance(what, Sequence) and not isinstance(what, str):
         if vary:
-            raise CaseError("a list of result files has nothing to vary; give one case")
-        return _of_files([Path(path) for path in what], match)
+            raise CaseError("a list of results has nothing to vary; give one case")
+        return _of_list(what, labels, match, registry)
     points = grid(vary) if isinstance(vary, Mapping) else [dict(point) for point in vary]
     _check_count(len(points), "variant")
     cases = variants(case_tables(what), points, registry)
@@ -303,20 +305,43 @@ def _check_saved(label: str, case: Case, times: Sequence[float], registry: Regis
             )
 
 
-def _of_files(files: Sequence[Path], match: Mapping[str, str]) -> Comparison:
-    _check_count(len(files), "result")
-    twice = [path for path, count in Counter(files).items() if count > 1]
-    if twice:
+def _of_list(
+    given: Sequence[Case | Result | str | Path],
+    labels: Sequence[str] | None,
+    match: Mapping[str, str],
+    registry: Registry | None,
+) -> Comparison:
+    _check_count(len(given), "result")
+    files = [Path(each) for each in given if isinstance(each, str | Path)]
+    if twice := [path for path, count in Counter(files).items() if count > 1]:
         raise CaseError(f"{twice[0]} is given twice")
     stems = len({path.stem for path in files}) == len(files)
+    names = list(labels or ())
+    if not names:
+        for number, each in enumerate(given, start=1):
+            path = Path(each) if isinstance(each, str | Path) else None
+            of_file = None if path is None else path.stem if stems else str(path)
+            names.append(of_file or f"{'case' if isinstance(each, Case) else 'result'} {number}")
+    if len(names) != len(given) or len(set(names)) != len(names):
+        raise CaseError(f"{len(given)} results need as many different labels, not {names}")
     with ExitStack() as unless_kept:
-        results = {
-            path.stem if stems else str(path): unless_kept.enter_context(Result.open(path))
-            for path in files
-        }
+        results = {}
+        for name, each in zip(names, given, strict=True):
+            if isinstance(each, Case):
+                each = Simulation(each, registry).run()
+            elif not isinstance(each, Result):
+                each = _opened(Path(each), registry)
+            results[name] = unless_kept.enter_context(each)
         comparison = _matched(results, match)
         unless_kept.pop_all()
     return comparison
+
+
+def _opened(path: Path, registry: Registry | None) -> Result:
+    """Return the result of a file, or of the run of a case in TOML."""
+    if path.suffix == ".toml":
+        return Simulation(path, registry).run()
+    return Result.open(path)
 
 
 def _matched(

@@ -30,7 +30,7 @@ def is_done(path: Path, simulation: Simulation) -> bool:
         with Result.open(path) as result:
             return (
                 result.status == "done"
-                and result.case == simulation.model.data
+                and result.case_tables == simulation.model.data
                 and not simulation.changed_since(result)
             )
     except CaseError:
@@ -108,7 +108,7 @@ def _check_own(folder: Path, simulations: Mapping[str, Simulation]) -> None:
             continue
         try:
             with Result.open(path) as result:
-                own = result.case == simulations[path.name].model.data
+                own = result.case_tables == simulations[path.name].model.data
         except CaseError as error:
             raise CaseError(f"{error}; {_OTHERWISE}") from error
         if not own:

@@ -191,7 +191,7 @@ def test_what_effects_provide_and_models_keep_has_maps_and_curves():
 def test_a_coating_is_drawn_and_told():
     layers = [{"thickness": 1e-5}, {"thickness": 1e-3}]
     with made(layers=layers) as result:
-        case = result.case | {"load": {"normal": 100.0}, "kinematics": {}}
+        case = result.case_tables | {"load": {"normal": 100.0}, "kinematics": {}}
         assert "coated ball on disk, pressed by 100 N" in drawing(case, "disk")
         told = "The coating (2 layers) of the ball is nowhere worn through."
         assert told in sentence(result, result.report(), [])

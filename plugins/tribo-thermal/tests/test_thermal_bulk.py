@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
-from tribo import Simulation
+from tribo import CaseError, Simulation
 
 from tribo_thermal.flash import Flash
 
@@ -84,5 +83,5 @@ def test_a_long_run_is_as_hot_as_without_a_capacity():
 
 
 def test_what_warms_in_time_needs_a_path():
-    with pytest.raises(ValidationError, match="a capacity needs a length"):
+    with pytest.raises(CaseError, match="a capacity needs a length"):
         Flash(ambient=300, heat_paths={"ball": {**PATH, "length": 0}})

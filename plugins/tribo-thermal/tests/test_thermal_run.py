@@ -156,7 +156,7 @@ def test_the_lab_is_told_the_temperature_that_the_wear_followed():
         (draw,) = tribo_figures(result).values()
         axes = draw().axes[0]
         first, second = axes.lines
-        config = Flash.model_validate(result.case["effects"][0])
+        config = Flash.model_validate(result.case_tables["effects"][0])
     assert ball.value == disk.value
     # The first contact is the smallest, and so the hottest; its rise is that of a lone source.
     assert config.ambient + 5 < ball.value < config.ambient + 50

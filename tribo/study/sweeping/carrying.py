@@ -14,8 +14,10 @@ from concurrent.futures import (
 )
 from pathlib import Path
 
+from tribo.component import components
 from tribo.core.errors import Interrupted, OutputError
 from tribo.core.writing import remove, write_file
+from tribo.registry.registry import default_registry
 from tribo.simulation.interrupt import interrupts_held
 from tribo.study.sweeping.runs_table import Run
 from tribo.study.sweeping.worker import carry_out
@@ -47,8 +49,10 @@ def carry(
     def submit(run: Run) -> None:
         begun[run.number] += 1
         what = run.case.model_dump(mode="json"), str(run.path.resolve()), str(stop.resolve())
+        classes = {type(component) for _, component in components(run.case)}
+        own = [(c.__module__, c.__qualname__) for c in classes if default_registry().is_own(c)]
         try:
-            futures[executor.submit(carry_out, *what)] = run
+            futures[executor.submit(carry_out, *what, own)] = run
         except Exception as error:
             raise OutputError(
                 f"the executor takes no more runs ({type(error).__name__}: {error}); {_GOES_ON}"

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError
 
-from tribo.config.load import read_toml
+from tribo.config.load import case_tables, read_toml
 from tribo.config.overrides import apply_settings, leaves_at
 from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
@@ -62,8 +62,16 @@ class Study(Table):
     """Points in a box of ranges."""
 
 
-def load_study(path: str | Path) -> tuple[Study, dict[str, Any]]:
-    """Read the file of a study; return it, and the tables of its base case with its settings."""
+def load_study(path: str | Path | Mapping[str, Any]) -> tuple[Study, dict[str, Any]]:
+    """Read the file of a study; return it, and the tables of its base case with its settings.
+
+    Of the tables of a study the case may be a `Case`, or its tables.
+    """
+    if isinstance(path, Mapping):
+        case = path.get("case", "")
+        given = case if isinstance(case, str | Path) else "a case"
+        study = _validated({**path, "case": str(given)})
+        return study, apply_settings(case_tables(case), study.settings)
     path = Path(path)
     tables = read_toml(path, "a study", "a study names a case and says what varies in it")
     if "bodies" in tables and "case" not in tables:

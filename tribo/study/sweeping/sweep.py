@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
@@ -66,7 +66,7 @@ class Sweep:
 
 
 def sweep(
-    study: str | Path,
+    study: str | Path | Mapping[str, Any],
     output: str | Path | None = None,
     *,
     executor: Executor | None = None,
@@ -83,10 +83,11 @@ def sweep(
 
     Parameters
     ----------
-    study : str or Path
-        The file of the study.
+    study : str, Path or Mapping
+        The file of the study; or its tables, in which ``case`` may be a `Case`:
+        ``{"case": case, "grid": {"load.normal": ["20 N", "50 N"]}}``.
     output : str or Path, optional
-        Folder of the results; named as the study, with ``-sweep``, if left out.
+        Folder of the results; named as the file, with ``-sweep``, if left out.
     executor : Executor, optional
         Runs the cases; processes on this machine if left out. It gets a
         function that its workers can import, and plain data. They must see
@@ -116,8 +117,11 @@ def sweep(
     Interrupted
         If it was stopped from outside; calling it again goes on.
     """
-    study = Path(study)
-    folder = Path(output) if output is not None else study.with_name(f"{study.stem}-sweep")
+    if output is None:
+        if isinstance(study, Mapping):
+            raise CaseError("tables of a study have no name; give the folder of its results")
+        output = Path(study).with_name(f"{Path(study).stem}-sweep")
+    folder = Path(output)
     runs, paths = plan(study, folder, many=many)
     with _holding(folder):
         names = {run.path.name for run in runs}
@@ -152,7 +156,9 @@ def sweep(
     return Sweep(folder, tuple(runs), table)
 
 
-def plan(study: Path, folder: Path, *, many: bool = False) -> tuple[list[Run], list[str]]:
+def plan(
+    study: str | Path | Mapping[str, Any], folder: Path, *, many: bool = False
+) -> tuple[list[Run], list[str]]:
     """Return the runs of a study, all validated, and the paths of what varies."""
     asked, data = load_study(study)
     settings = points(asked, data, math.inf if many else MANY)

@@ -6,8 +6,10 @@ import os
 import socket
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
+from importlib import import_module
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +18,7 @@ from tribo.core.locks import BusyError, lock
 from tribo.core.state import Snapshot
 from tribo.core.writing import open_lock, remove
 from tribo.observers.observer import Observer
+from tribo.registry.registry import default_registry
 from tribo.simulation.run import Simulation
 from tribo.study.runs import complete, is_done
 
@@ -23,15 +26,18 @@ GLANCE = 0.5
 """Interval between checks of the stop file, in s."""
 
 
-def carry_out(case: dict[str, Any], path: str, stop: str) -> tuple[str, str]:
+def carry_out(
+    case: dict[str, Any], path: str, stop: str, own: Sequence[tuple[str, str]] = ()
+) -> tuple[str, str]:
     """Run a case into its file, or continue a stopped run; waits for a worker already at it.
 
-    The run stops once the file `stop` exists. Return ``"done"``,
-    ``"interrupted"``, or ``"failed"`` and why.
+    `own` has the modules and names of the classes that no plugin offers. The run stops once the
+    file `stop` exists. Return ``"done"``, ``"interrupted"``, or ``"failed"`` and why.
     """
     result = Path(path)
     try:
         with _alone(result, Path(stop)):
+            _know(own)
             simulation = _composed(case)
             if not is_done(result, simulation):
                 complete(simulation, result, [_StopFile(path=Path(stop))]).close()
@@ -71,6 +77,17 @@ def locked(path: Path) -> Iterator[None]:
             # Windows cannot remove an open file.
             with suppress(TriboError):
                 remove(path)
+
+
+def _know(own: Sequence[tuple[str, str]]) -> None:
+    for module, name in own:
+        try:
+            default_registry().know(attrgetter(name)(import_module(module)))
+        except (ImportError, AttributeError) as error:
+            raise CaseError(
+                f"a worker cannot import the class {name} from {module} ({error}); define it in a "
+                "file that can be imported, outside of any function, and import it from there"
+            ) from error
 
 
 def _composed(case: dict[str, Any]) -> Simulation:

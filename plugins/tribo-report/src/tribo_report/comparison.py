@@ -58,9 +58,9 @@ def comparison_page(comparison: Comparison) -> str:
         ),
         provenance=_provenance(comparison),
         citation=cited(first),
-        case=to_toml(first.case),
+        case=to_toml(first.case_tables),
         whose=f" of {comparison.reference}",
-        facts=facts(first.case),
+        facts=facts(first.case_tables),
         data=data,
     )
 

@@ -59,7 +59,7 @@ CITATION = (
 
 def result_page(result: Result, verified: Path | None = None) -> str:
     """Return the report of a result as HTML; see `tribo_report.write_report`."""
-    lab, case = lab_report(result), result.case
+    lab, case = lab_report(result), result.case_tables
     estimates = [] if verified is None else read_verified(verified, result)
     swept = next((name for name in result.body_names if result.body(name).swept), None)
     return render(
@@ -115,7 +115,7 @@ def _tables(result: Result, lab: LabReport, estimates: Sequence[Estimate]) -> li
 def _ruled(result: Result) -> dict[str, Any]:
     """Return which numbers of the case rule its answer, or why that is not known."""
     try:
-        model = Simulation(result.case).model
+        model = Simulation(result.case_tables).model
         found = findings_of(model, result.saves()[0]["contact_half_width_x_m"])
     except (CaseError, NumericalError) as error:
         return {"why": f"Not known for this case: {error}", "rows": []}

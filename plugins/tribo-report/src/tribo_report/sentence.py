@@ -68,7 +68,7 @@ def sentence(result: Result, lab: LabReport, verified: Sequence[Estimate]) -> st
         deepest = quoted(depth, DEPTHS, _of(verified, f"{name}: largest depth"))
         losses.append(f"{words} and is worn {deepest} deep")
     text = f"Over {last['distance_m']:.4g} m of sliding under {_range(result)} {', '.join(losses)}."
-    for name, body in result.case["bodies"].items():
+    for name, body in result.case_tables["bodies"].items():
         text += _coating(result, name, len(body.get("layers") or ()))
     if result.status != "done":
         text += f" The run is {result.status}; this is its save at {last['time_s']:.4g} s."

@@ -46,7 +46,7 @@ def sweep_page(folder: Path) -> str:
     except (OSError, ValueError, KeyError) as error:
         raise CaseError(f"{folder / RUNS} is not the table of a sweep: {error}") from error
     with Result.open(folder / RESULTS / str(first)) as result:
-        bodies, citation, case = result.body_names, cited(result), result.case
+        bodies, citation, case = result.body_names, cited(result), result.case_tables
         made = versions(result.provenance["packages"])
     measures = [
         column

@@ -1,0 +1,215 @@
+"""What is known of a case before it runs, as `tribo check` prints it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import asdict, dataclass
+from html import escape
+from itertools import groupby
+from typing import Any
+
+from tribo.case import Case
+from tribo.core.findings import Finding
+from tribo.core.words import readable
+from tribo.guards.trial_time import TRIAL_TIME
+from tribo.lab.against_hertz import (
+    HertzContact,
+    computed_pressure,
+    hertz_half_width,
+    in_mpa,
+    yield_words,
+)
+from tribo.model.model import Model
+from tribo.motion.reciprocating import Reciprocating
+from tribo.simulation.doubt import unusual
+from tribo.simulation.positions import lengths_of
+from tribo.simulation.predict import Prediction, predict
+from tribo.simulation.run import Simulation
+from tribo.simulation.validity import findings_of
+
+SPREAD = 3.0
+"""Factor to which the time of a run is known."""
+
+Waiting = Callable[[str], AbstractContextManager[Any]]
+
+
+@dataclass(frozen=True)
+class Check:
+    """What is known of a case before it runs: printed, it reads as `tribo check` does.
+
+    Parameters
+    ----------
+    problems : tuple of Finding
+        What would go wrong, or is doubted, with its remedy.
+    facts : tuple of Finding
+        What packages have to say.
+    rows : tuple of (str, str)
+        The first contact, the end of a run on a coarse grid, time, memory and file, in words.
+    data : Mapping
+        The same as plain data, in SI units; what is not known is None.
+    """
+
+    problems: tuple[Finding, ...]
+    facts: tuple[Finding, ...]
+    rows: tuple[tuple[str, str], ...]
+    data: Mapping[str, Any]
+
+    @property
+    def exit_code(self) -> int:
+        """With which a run would end; 0 where nothing is found on which it must stop."""
+        return int(self.data["exit_code"])
+
+    @property
+    def verdict(self) -> str:
+        """Whether the case can run, to be put after its name."""
+        if self.exit_code:
+            return "would stop on its way:"
+        return "is valid, but:" if self.problems else "is valid."
+
+    def blocks(self) -> Iterator[tuple[str, list[tuple[str, str]]]]:
+        """Yield headings and what stands below each: names and texts, by the line."""
+        yield "", [("  -", problem.words) for problem in self.problems]
+        yield "", [(f"  {name}", text) for name, text in self.rows]
+        for kind, group in groupby(self.facts, key=lambda finding: finding.kind):
+            yield kind, [(f"    {each.place}".rstrip(), each.words) for each in group]
+        for place, facts in self.data["facts"].items():
+            yield place, [(f"    {name}", text) for name, text in facts.items()]
+
+    def __str__(self) -> str:
+        lines = [f"The case {self.verdict}"]
+        for heading, rows in self.blocks():
+            lines += [f"  {heading}:"] if heading else []
+            width = max((len(name) for name, _ in rows), default=0)
+            lines += [f"{name:{width}} {text}" for name, text in rows]
+        return "\n".join(lines)
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        shown = f"<p>The case {escape(self.verdict)}</p>"
+        for heading, rows in self.blocks():
+            shown += f"<p>{escape(heading)}:</p>" if heading else ""
+            cells = (f"<tr><td>{escape(n.strip())}<td>{escape(text)}" for n, text in rows)
+            shown += f"<table style='text-align: left'>{''.join(cells)}</table>" if rows else ""
+        return shown
+
+    def as_json(self) -> dict[str, Any]:
+        """Return it as plain data, in SI units."""
+        averaging = (each.words for each in self.problems if each.kind == "averaging")
+        return dict(self.data) | {
+            "limitation": next(averaging, None),
+            "problems": [each.words for each in self.problems],
+            "findings": [asdict(each) for each in (*self.problems, *self.facts)],
+        }
+
+
+def check_case(case: Case, waiting: Waiting = lambda what: nullcontext()) -> Check:
+    """Predict what a case will do, from its first contact and a trial run.
+
+    `waiting` is entered with what takes a while. `CaseError` if the case cannot be run.
+    """
+    with waiting("composing the case"):
+        model = Simulation(case).model
+    with waiting(f"first contact and a trial run of {TRIAL_TIME:g} s at most"):
+        prediction = predict(model)
+    with waiting(f"what packages have to say, {TRIAL_TIME:g} s at most"):
+        found = findings_of(model, prediction.first.half_width_x)
+    # What has a limit is beyond it; else a finding is a fact.
+    facts = tuple(each for each in found if each.limit is None)
+    beyond = (each for each in found if each not in facts)
+    problems = dict.fromkeys([*unusual(case), *prediction.problems, *beyond])
+    rows = tuple(_facts(model, prediction))
+    return Check(tuple(problems), facts, rows, asdict(prediction))
+
+
+def _widths(hertz: HertzContact) -> str:
+    a, b = 1e6 * hertz.half_width_x, 1e6 * hertz.half_width_y
+    if hertz.is_line:
+        return f"{min(a, b):.4g} µm of a line contact"
+    return f"{a:.4g} × {b:.4g} µm along × across"
+
+
+def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
+    """Yield the first contact, the end and the size of the run, each with its name."""
+    yield from _first_contact(model, prediction)
+    if model.chosen is not None or prediction.positions > 1:
+        resolved = f"the cycle is resolved at {prediction.positions}"
+        yield "positions", model.chosen.words if model.chosen else resolved
+        if prediction.positions_for_1_percent is not None:
+            words = f"{prediction.positions_for_1_percent} if the contact stays as it is at first"
+            yield "positions for 1 % of the depth, about", words
+    elif isinstance(model.case.kinematics, Reciprocating):
+        half_width = hertz_half_width(model.contact.system) or prediction.first.half_width_x
+        lengths = lengths_of(model.case.kinematics.stroke, half_width)
+        yield "positions", f"averaged over the stroke, {lengths}"
+    yield from _end(model, prediction)
+    if prediction.run_time is not None:
+        soonest, latest = prediction.run_time / SPREAD, prediction.run_time * SPREAD
+        yield "run time here, about", f"{readable(soonest, '.2g')} to {readable(latest, '.2g')} s"
+    yield "memory, at most", f"{readable(prediction.memory / 2**20, '.0f')} MiB"
+    yield "result file, at most", f"{readable(prediction.file_size / 2**20, '.1f')} MiB"
+
+
+def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
+    hertz, first = prediction.hertz, prediction.first
+    low, high = model.contact.loads.least, model.contact.loads.largest
+    if low < high:
+        yield "load", f"{first.load:.4g} N at first, {low:.4g} to {high:.4g} N in all"
+    if begin := model.case.begin:
+        most = f"p max {in_mpa(first.max_pressure)}"
+        yield "first contact", f"of the bodies as worn in {begin.result}: {most}"
+    elif prediction.hertz_bounds:
+        below, above = prediction.hertz_bounds
+        said = "{} without the layer, {} of the layer throughout"
+        yield "Hertz half-widths", said.format(_widths(below), _widths(above))
+        peaks = (in_mpa(each.peak_pressure) for each in (below, above))
+        _, computed = computed_pressure(
+            model.contact.system, first.max_pressure, first.centre_pressure
+        )
+        yield "Hertz peak pressure p0", f"{said.format(*peaks)}, computed {computed}"
+    elif hertz is None or prediction.cells_across is None:
+        yield "first contact", "no Hertz solution for these surfaces"
+    else:
+        p0 = hertz.peak_pressure
+        yield "Hertz half-widths", _widths(hertz)
+        pressure, computed = computed_pressure(
+            model.contact.system, first.max_pressure, first.centre_pressure
+        )
+        yield "Hertz peak pressure p0", f"{in_mpa(p0)}, computed {computed}"
+        hardness = model.contact.system.cap
+        if hardness is not None:
+            yield "p0/H", f"{p0 / hardness:.3f}"
+            yield "yield", yield_words(pressure, hardness, hertz)
+        across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
+        yield "cells across the contact", " × ".join(across)
+
+
+def _end(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
+    last = prediction.last
+    if last is None:
+        yield "final scar", "not estimated"
+        return
+    widths = (2e3 * last.half_width_x, 2e3 * last.half_width_y)
+    size = " × ".join(readable(width, ".2f") for width in widths)
+    yield "contact at the end, about", f"{size} mm"
+    window = " × ".join(f"{1e3 * edge:.4g}" for edge in model.grid.size)
+    yield f"window of {window} mm", "holds it" if prediction.window_holds else "TOO SMALL"
+    form = ", but for roughness" if model.rough else ""
+    for name, body in last.bodies.items():
+        worn = f"{1e6 * body.max_wear_depth:.3g} µm{form}, {1e9 * body.wear_volume:.3g} mm³"
+        yield f"wear of {name}, about", worn
+    stop = model.case.stop
+    if stop.depth is not None:
+        most = max(last.bodies[name].max_wear_depth for name in stop.whose(last.bodies))
+        ended = f"not reached, {1e6 * most:.3g} µm at the end"
+        if last.time < model.end_time:
+            ended = f"reached after {readable(last.time, '.3g')} s"
+        yield f"stop.depth of {1e6 * stop.depth:.4g} µm, about", ended
+    for passed in prediction.worn_through:
+        path, end = (readable(passed[key], ".3g") for key in ("distance_m", "time_s"))
+        when = f"{path} m, {end} s"
+        yield f"layer {passed['layer']} of {passed['body']} worn through, about", when
+    if any(body.layers for body in model.case.bodies.values()) and not prediction.worn_through:
+        yield "layers", "none is worn through"
