@@ -239,7 +239,8 @@ def test_what_an_effect_remembers_goes_on_at_its_place_only_and_the_finding_says
             case = worn_case(duration=1, effects=[now], begin=begin, **small)
             state = first_state(Simulation(case).model)
             text = state.findings[-1].words
-            np.testing.assert_allclose(state.between["warm"], 2.0 if now == was else 1.0)
+            (warm,) = state.between.values()
+            np.testing.assert_allclose(warm, 2.0 if now == was else 1.0)
             before, after = (f"warm of {each.on or 'the contact'}" for each in (was, now))
             words = f"begins afresh: {after}; left out of it is {before}"
             assert text.endswith("begin anew" if now == was else words)

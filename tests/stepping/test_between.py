@@ -101,7 +101,7 @@ def test_on_a_body_that_passes_it_moves_with_it():
         kinematics=motion(stroke="0.5 mm", frequency=5, duration=3, positions=9),
     )
     last = states(case)[-1]
-    wear, debris = last.bodies["disk"].wear, last.between["debris_thickness"]
+    wear, debris = last.bodies["disk"].wear, last.remembered("disk", "debris_thickness")
     assert debris.shape == wear.shape
     assert len(wear) > 20
     # It mirrors itself about mid-stroke, as the stroke does.
@@ -109,15 +109,44 @@ def test_on_a_body_that_passes_it_moves_with_it():
     assert np.count_nonzero(debris) == np.count_nonzero(wear)
 
 
-LYING = [Filling(length="0.5 m"), Debris(length="0.5 m", on="disk")]
+class Film(Debris):
+    """Debris of which a body has some from the beginning."""
+
+    type = "test.film"
+    begins: float
+
+    def initial_state(self):
+        return {"debris_thickness": self.begins}
+
+
+ON_EACH = [Film(length=1e9, on=on, begins=begins) for on, begins in (("ball", 0), ("disk", 5e-8))]
+LYING = [[Filling(length="0.5 m")], [Debris(length="0.5 m", on="disk")], ON_EACH]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("debris", LYING)
 def test_a_resumed_run_has_the_same_bits(tmp_path, debris):
     short = motion(duration=0.3)
-    case = model(effects=[debris, Bath()], kinematics=short, save_times=(0.2,)).case
+    case = model(effects=[*debris, Bath()], kinematics=short, save_times=(0.2,)).case
     goes_on(case, tmp_path, 3).close()
+
+
+def test_a_law_follows_the_film_on_its_own_body_where_each_has_one():
+    short = motion(duration=0.1)
+    films = [film.model_copy(update={"caught": 0.0}) for film in ON_EACH]
+    filmed = states(model(effects=films, kinematics=short))[-1]
+    bare = states(model(kinematics=short, bodies=pair(archard(), archard(K / np.e))))[-1]
+    for name, body in bare.bodies.items():
+        np.testing.assert_allclose(filmed.bodies[name].wear, body.wear, rtol=1e-9)
+
+
+def test_the_result_has_a_film_on_each_body_under_one_name(tmp_path):
+    with Simulation(model(effects=ON_EACH, kinematics=motion(duration=0.1)).case).run() as result:
+        assert result.dataset.debris_thickness.dims == ("time", "body", "x", "y")
+        for film in ON_EACH:
+            values = result.body(film.on).state["debris_thickness"]
+            assert values[0].max() == values[0].min() == film.begins
+            assert values[-1].max() > film.begins
 
 
 def test_the_result_has_it_without_being_asked(tmp_path):
@@ -154,7 +183,7 @@ class Last(Observer):
 
 @pytest.mark.parametrize("debris", LYING)
 def test_a_run_that_begins_worn_goes_on_with_it(tmp_path, debris):
-    effects = [debris, Bath()]
+    effects = [*debris, Bath()]
     case = model(effects=effects, kinematics=motion(duration=0.5)).case
     watched = Last()
     Simulation(case).run(tmp_path / "worn.h5", observers=[watched]).close()
@@ -200,6 +229,9 @@ class Twice(Bath):
     [
         ([Debris(length=1, on="pin")], "lies on 'pin'; the bodies are ball, disk"),
         ([Bath(), Twice()], "'warm' is provided twice"),
+        ([Debris(length=1, on="disk")] * 2, "'debris_thickness' is provided twice"),
+        ([Debris(length=1), *ON_EACH[:1]], "'debris_thickness' is provided twice"),
+        ([*ON_EACH[:1], Debris(length=1)], "'debris_thickness' is provided twice"),
         ([Bath(begin=-1)], "'initial warm' that is -1"),
     ],
 )

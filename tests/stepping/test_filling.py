@@ -57,7 +57,7 @@ def ball(positions):
 def test_a_scar_that_its_own_debris_fills_stays_as_it_was(positions):
     first, *_, last = states(ball(positions))
     worn = last.bodies["ball"].wear
-    np.testing.assert_allclose(last.between["debris_thickness"], worn, rtol=1e-6)
+    np.testing.assert_allclose(last.remembered("ball", "debris_thickness"), worn, rtol=1e-6)
     assert np.max(worn) > 5 * first.reference_depth * 1e-3
     before, after = (state.contact.pressure for state in (first, last))
     np.testing.assert_allclose(after, before, atol=1e-5 * before.max())

@@ -70,6 +70,8 @@ class State:
     rates : sequence of Mapping[str, WearRate]
         Rates of the laws at the end of the last implicit step, by position and body, in the
         contact frame: where the next one begins. Empty where there are none.
+    between : Mapping[str, ndarray]
+        State fields of effects, by name; one on a body as ``"film of disk"``.
     findings : tuple of Finding
         What is to be known of the run so far, each once.
     invariants : Invariants
@@ -126,7 +128,12 @@ class State:
     def remembered(self, body: str, field: str) -> Array:
         """Return a state field on a body's surface: that of its law, or of an effect it carries."""
         law = self.bodies[body].law
-        return law[field] if field in law else self.between[field]
+        return law[field] if field in law else self.between[key_of(field, body)]
+
+
+def key_of(field: str, body: str | None) -> str:
+    """Return the key in `State.between` of what an effect keeps; no body for the contact."""
+    return field if body is None else f"{field} of {body}"
 
 
 @dataclass(frozen=True)

@@ -55,7 +55,8 @@ class Effect(Component):
         """Return the body whose surface carries the state and moves it; None for the contact.
 
         In the contact frame one state serves all positions of a cycle. What is uniform has no
-        carrier.
+        carrier. Of two effects with a state of one name, one on each body, laws and other effects
+        have for each body the state on it; a state that stands alone in a case is that of both.
         """
         return None
 

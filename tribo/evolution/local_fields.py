@@ -19,7 +19,7 @@ from tribo.core.fields import (
 )
 from tribo.core.state import State
 from tribo.evolution.interval import Moment
-from tribo.evolution.states import Memory, fields_of, in_window, remembered, under
+from tribo.evolution.states import Memory, fields_of, own_state, remembered, under
 
 if TYPE_CHECKING:
     from tribo.guards.parts import GuardedEffect
@@ -98,5 +98,5 @@ def conditions(
         track=motion.track_extent,
         turns_back=motion.turns_back,
         fields={name: copy(of_bodies) for name, of_bodies in fields.items()},
-        state={key: in_window(model, key, memory.between[key]) for key in effect.initial_state},
+        state=own_state(model, effect, memory),
     )

@@ -46,7 +46,7 @@ CycleRates = Sequence[Mapping[str, WearRate]]
 
 @dataclass(frozen=True)
 class Rates:
-    """Rates per metre in the contact frame, at a position: of wear by body, of effects by field.
+    """Rates per metre in the contact frame, at a position: of wear by body, of effects by key.
 
     At rest they are per second. Where points slip less than the motion, `friction` is what they
     dissipate on it, in Pa.
@@ -313,7 +313,7 @@ def _changes(
                 free = {name: _without_ends(depth) for name, depth in depths.items()}
                 bare = of_effect(effect, _without_ends(contact.pressure), free)
             rates = _with_rest_of_track(model, effect, rates, bare)
-        changes |= rates
+        changes |= {effect.key_of(field): rates[field.name] for field in effect.state_fields}
     return changes
 
 

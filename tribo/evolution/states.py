@@ -15,12 +15,13 @@ from tribo.core.fields import WORN_DEPTH
 from tribo.core.state import State
 
 if TYPE_CHECKING:
+    from tribo.guards.parts import GuardedEffect
     from tribo.model.model import Model
 
 
 @dataclass(frozen=True)
 class Memory:
-    """State fields where they lie: of each body's law, by body, and of the effects, by name.
+    """State fields where they lie: of each body's law, by body, and of effects, as in `State`.
 
     Those of a law that follows the depth worn have it too.
     """
@@ -84,7 +85,8 @@ def first_memory(model: Model) -> dict[str, Array]:
         rows, ny = model.grid.cells
         if effect.carrier is not None:
             rows = model.cycle.maps[effect.carrier].rows
-        first[key] = np.full((1, 1) if field.uniform else (rows, ny), effect.initial_state[key])
+        start = effect.initial_state[field.name]
+        first[key] = np.full((1, 1) if field.uniform else (rows, ny), start)
     return first
 
 
@@ -96,8 +98,8 @@ def under(model: Model, memory: Memory, position: int) -> Memory:
     }
     between = dict(memory.between)
     for key, (effect, field) in model.laws.between.items():
-        if effect.carrier is not None and not field.uniform:
-            between[key] = model.cycle.maps[effect.carrier].see(between[key], position)
+        if (body := effect.body_of(field)) is not None:
+            between[key] = model.cycle.maps[body].see(between[key], position)
     return Memory(laws, between)
 
 
@@ -132,20 +134,28 @@ def laid(model: Model, key: str, rate: Array, position: int) -> Array:
 def fields_of(model: Model, memory: Memory) -> dict[str, dict[str, Array]]:
     """Return what of it is required, where the window is, by field and body, shape (nx, ny).
 
-    What laws remember is there for the bodies whose law does.
+    What laws remember is there for the bodies whose law does; what effects do for all, that on
+    a body of its own for each body that has one.
     """
     fields: dict[str, dict[str, Array]] = {}
     for name, of_law in memory.laws.items():
         for key in of_law.keys() & model.laws.required:
             of_body = np.broadcast_to(of_law[key], model.grid.cells)
             fields.setdefault(key, OfLaws(key))[name] = of_body
-    for key in memory.between.keys() & model.laws.required:
-        everywhere = np.broadcast_to(memory.between[key], model.grid.cells)
-        fields[key] = dict.fromkeys(model.case.bodies, everywhere)
+    for key, (effect, field) in model.laws.between.items():
+        if field.name in model.laws.required:
+            values = np.broadcast_to(memory.between[key], model.grid.cells)
+            of_bodies = fields.setdefault(field.name, dict.fromkeys(model.case.bodies, values))
+            if (body := effect.body_of(field)) is not None:
+                of_bodies[body] = values
     return fields
 
 
-def in_window(model: Model, key: str, values: Array) -> Array:
+def own_state(model: Model, effect: GuardedEffect, memory: Memory) -> dict[str, Array]:
     """Return the state of an effect as it is told of it: (nx, ny), or (1, 1) if uniform."""
-    _, field = model.laws.between[key]
-    return readonly(values if field.uniform else np.broadcast_to(values, model.grid.cells))
+    told = {}
+    for field in effect.state_fields:
+        values = memory.between[effect.key_of(field)]
+        window = values if field.uniform else np.broadcast_to(values, model.grid.cells)
+        told[field.name] = readonly(window)
+    return told

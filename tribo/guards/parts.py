@@ -31,6 +31,7 @@ from tribo.core.fields import (
 )
 from tribo.core.grid import Grid
 from tribo.core.material import Material
+from tribo.core.state import key_of
 from tribo.effects.effect import Effect
 from tribo.guards.answers import initial, rate_of
 from tribo.guards.guard import Guard
@@ -138,6 +139,14 @@ class GuardedEffect(Guard[Effect]):
             )
         given = self.ask(effect.initial_state)
         self.initial_state = _initial_state(self, self.state_fields, given)
+
+    def body_of(self, field: Field) -> str | None:
+        """Return the body that a state field lies on; None for the contact, or what is uniform."""
+        return None if field.uniform else self.carrier
+
+    def key_of(self, field: Field) -> str:
+        """Return the key of a state field in `State.between`."""
+        return key_of(field.name, self.body_of(field))
 
     def fields(self, contact: ContactConditions) -> dict[str, dict[str, Array]]:
         """Return each provided field for each body, shape (nx, ny)."""

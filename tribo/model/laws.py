@@ -30,15 +30,15 @@ class Laws:
 
     @cached_property
     def between(self) -> Mapping[str, tuple[GuardedEffect, Field]]:
-        """The state fields of the effects, by name, each with its effect."""
-        return {f.name: (effect, f) for effect in self.effects for f in effect.state_fields}
+        """The state fields of the effects, by key in `State.between`, each with its effect."""
+        return {e.key_of(field): (e, field) for e in self.effects for field in e.state_fields}
 
     @cached_property
     def filling(self) -> tuple[tuple[str | None, str], ...]:
-        """The state fields that fill the gap, with the body whose law has them; None of effects."""
-        of_laws = ((name, f) for name, law in self.wear.items() for f in law.state_fields)
-        of_effects = ((None, f) for effect in self.effects for f in effect.state_fields)
-        return tuple((body, f.name) for body, f in (*of_laws, *of_effects) if f.fills)
+        """Keys of states that fill the gap, with the body whose law has each; None of effects."""
+        of_laws = [(name, f.name, f) for name, law in self.wear.items() for f in law.state_fields]
+        of_effects = [(None, key, field) for key, (_, field) in self.between.items()]
+        return tuple((body, key) for body, key, f in (*of_laws, *of_effects) if f.fills)
 
     @cached_property
     def required(self) -> frozenset[str]:
@@ -49,11 +49,7 @@ class Laws:
     def kept_on(self, body: str | None) -> tuple[Field, ...]:
         """Return the state fields on a body's surface; None for those of the contact as a whole."""
         law = self.wear.get(body) if body is not None else None
-        carried = (
-            field
-            for effect, field in self.between.values()
-            if (None if field.uniform else effect.carrier) == body
-        )
+        carried = (f for effect, f in self.between.values() if effect.body_of(f) == body)
         own = (f for f in (law.state_fields if law else ()) if f.name != WORN_DEPTH.name)
         return (*own, *carried)
 
@@ -80,7 +76,7 @@ class Laws:
     def friction_remembers(self) -> bool:
         """Whether the coefficient of friction follows what laws or effects remember."""
         following = {field.name for law in self.wear.values() for field in law.state_fields}
-        following.update(self.between)
+        following.update(field.name for _, field in self.between.values())
         # In the order in which they are asked.
         for effect in self.effects:
             if effect.state_fields or following & set(effect.requires):

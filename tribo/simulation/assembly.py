@@ -101,7 +101,7 @@ def assemble(case: Case) -> Model:
             "time_step, or a contact type that does",
             "stepping.type",
         )
-    effects = tuple(GuardedEffect(effect, list(bodies)) for effect in in_order(case, given))
+    effects = in_order(case, [GuardedEffect(effect, list(bodies)) for effect in given])
     friction = None if case.friction is None else case.friction.coefficient
     end = motion.end_time(case.stop.distance)
     motion.check_distance(end)

@@ -14,7 +14,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.findings import begun_worn
 from tribo.core.grid import Grid
-from tribo.core.state import BodyState, State
+from tribo.core.state import BodyState, State, key_of
 from tribo.model.model import Model
 from tribo.result.layout import BETWEEN, STATE, TRACK, TRACK_PLASTIC, TRACK_STATE
 from tribo.result.read import Result
@@ -49,7 +49,8 @@ def first_state(model: Model) -> State:
         carried = result.saves()[save]
     for name, body in bodies.items():
         bodies[name] = replace(body, law={k: found.get((name, k), v) for k, v in body.law.items()})
-    between = {key: values for (_, key), values in found.items() if key in model.laws.between}
+    of_effects = {key_of(field, place): values for (place, field), values in found.items()}
+    between = {key: values for key, values in of_effects.items() if key in model.laws.between}
     state = replace(
         first_contact(model, bodies, between),
         load_distance=carried["load_distance_N_m"],

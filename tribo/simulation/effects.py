@@ -7,34 +7,40 @@ from collections.abc import Sequence, Set
 from tribo.case import Case
 from tribo.core.errors import CaseError
 from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, OF_MOTION, Field, names_of
-from tribo.effects.effect import Effect
+from tribo.guards.parts import GuardedEffect
 
 
-def in_order(case: Case, effects: Sequence[Effect]) -> tuple[Effect, ...]:
+def in_order(case: Case, effects: Sequence[GuardedEffect]) -> tuple[GuardedEffect, ...]:
     """Return effects so that each comes after those that provide what it requires.
 
     They are those of a case and of its motion.
 
     `CaseError` if an effect or a wear law requires what nothing provides, or a field but the share
-    of the load is provided twice, or has the name of what a wear law remembers.
+    of the load is provided twice, or has the name of what a wear law remembers. Effects may keep
+    one of the same name on each body.
     """
     of_laws = {f.name for b in case.bodies.values() if b.wear for f in b.wear.state_fields}
     known = {*OF_MOTION}
     if case.friction is not None:
         known.add(FRICTION_COEFFICIENT.name)
+    # By name the bodies that have a state; what lies in the contact is that of all.
+    kept: dict[str, set[str]] = {}
     for effect in effects:
         for field in effect.state_fields:
-            if field.name in known | of_laws:
+            body = effect.body_of(field)
+            bodies, others = {*case.bodies} if body is None else {body}, kept.get(field.name, set())
+            if field.name in known | of_laws or bodies & others:
                 raise _twice(field, effect)
-            known.add(field.name)
-    ordered: list[Effect] = []
+            kept[field.name] = bodies | others
+    known.update(kept)
+    ordered: list[GuardedEffect] = []
     waiting = list(effects)
     while waiting:
         ready = next((e for e in waiting if _is_ready(e, waiting, known | of_laws)), None)
         if ready is None:
             first = waiting[0]
-            missing = sorted(set(names_of(first.requires)) - known - of_laws) or [LOAD_SHARE.name]
-            text = _missing(f"effect {first.type!r}", missing, waiting)
+            missing = sorted(set(first.requires) - known - of_laws) or [LOAD_SHARE.name]
+            text = _missing(f"effect {first.component.type!r}", missing, waiting)
             raise MissingFieldError(text, "effects", missing)
         shares = {LOAD_SHARE.name} & {name for e in ordered for name in _provided(e)}
         waiting.remove(ready)
@@ -47,13 +53,13 @@ def in_order(case: Case, effects: Sequence[Effect]) -> tuple[Effect, ...]:
     return tuple(ordered)
 
 
-def _is_ready(effect: Effect, waiting: Sequence[Effect], known: Set[str]) -> bool:
+def _is_ready(effect: GuardedEffect, waiting: Sequence[GuardedEffect], known: Set[str]) -> bool:
     """Whether all that an effect requires is known before those that wait."""
-    if not set(names_of(effect.requires)) <= known:
+    if not set(effect.requires) <= known:
         return False
     # What several provide is known once all have.
     others = [e for e in waiting if e is not effect and LOAD_SHARE.name in _provided(e)]
-    return LOAD_SHARE.name not in names_of(effect.requires) or not others
+    return LOAD_SHARE.name not in effect.requires or not others
 
 
 def _check_laws(case: Case, known: Set[str]) -> None:
@@ -64,12 +70,13 @@ def _check_laws(case: Case, known: Set[str]) -> None:
                 raise MissingFieldError(text, f"bodies.{name}.wear", missing)
 
 
-def _provided(effect: Effect) -> set[str]:
+def _provided(effect: GuardedEffect) -> set[str]:
     return {field.name for field in effect.provides}
 
 
-def _twice(field: Field, effect: Effect) -> CaseError:
-    text = f"{field.name!r} is provided twice, the second time by {effect.type!r}; keep one"
+def _twice(field: Field, effect: GuardedEffect) -> CaseError:
+    second = effect.component.type
+    text = f"{field.name!r} is provided twice, the second time by {second!r}; keep one"
     return CaseError(text, "effects")
 
 
@@ -81,10 +88,10 @@ class MissingFieldError(CaseError):
         self.missing = set(missing)
 
 
-def _missing(who: str, missing: Sequence[str], waiting: Sequence[Effect]) -> str:
+def _missing(who: str, missing: Sequence[str], waiting: Sequence[GuardedEffect]) -> str:
     if list(missing) == [FRICTION_COEFFICIENT.name]:
         return f"{who} needs a coefficient of friction: add [friction] coefficient = …"
-    in_circle = [effect.type for effect in waiting if _provided(effect) & set(missing)]
+    in_circle = [effect.component.type for effect in waiting if _provided(effect) & set(missing)]
     if in_circle:
         return (
             f"{who} needs {', '.join(missing)}, which {', '.join(in_circle)} provides, but these "

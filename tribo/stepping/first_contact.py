@@ -36,7 +36,7 @@ def first_contact(
     worn : Mapping[str, BodyState], optional
         The bodies, by name, if they are worn already.
     between : Mapping[str, ndarray], optional
-        State fields of effects, by name, that do not start at their initial values.
+        State fields of effects, as in `State`, that do not start at their initial values.
 
     Raises
     ------

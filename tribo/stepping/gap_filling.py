@@ -10,7 +10,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError, NumericalError
-from tribo.core.state import State
+from tribo.core.state import State, key_of
 from tribo.evolution.course import course
 from tribo.evolution.interval import interval_from
 from tribo.evolution.states import filling, remembered
@@ -50,13 +50,13 @@ def check_filling(model: Model, state: State) -> None:
             break
     else:
         return
-    keys = ", ".join(repr(key) for _, key in model.laws.filling)
+    states = ", ".join(key_of(key, body) for body, key in model.laws.filling)
     passing = ", ".join(repr(name) for name in model.case.bodies if name in model.cycle.swept)
     where = f"let it lie on the body that passes ({passing}), " if passing else ""
     raise CaseError(
-        f"{keys} fills the gap faster than wear opens it where the pressure is higher, so that the "
-        f"load would draw together on ever fewer points; {where}let less of what is worn stay, or "
-        "let it not fill the gap (fills = false)",
+        f"{states} fills the gap faster than wear opens it where the pressure is higher, so that "
+        f"the load would draw together on ever fewer points; {where}let less of what is worn stay, "
+        "or let it not fill the gap (fills = false)",
         "effects",
     )
 

@@ -42,6 +42,14 @@ class Dust(Grains):
     state_fields = (Field("grains", "m", "Height of grains.", at_least=0),)
 
 
+class Buried(Archard):
+    type = "buried"
+    requires = ("grains",)
+
+    def rate(self, local):
+        return times(np.exp(-local.fields["grains"] / 1e-7), super().rate(local))
+
+
 class Heat(Effect):
     """A temperature after the load and the area of the contact, and of a bulk that warms."""
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from gradient_effects import (
     Blurs,
+    Buried,
     Creeps,
     Dust,
     Far,
@@ -82,6 +83,17 @@ KINDS = {
         ),
         Depth("disk", 5e-5),
         ["load.normal", *SHAPE, *OF_GRAINS],
+        1e-5,
+    ),
+    "grains on each body": Kind(
+        run(
+            bodies=pair(Buried(k=K), Buried(k=K)),
+            effects=[Dust(on="ball"), Dust(on="disk", begins=1e-7, stays=1.0)],
+            kinematics=motion(duration=1.5),
+            stepping=SLOW,
+        ),
+        Depth("disk"),
+        [*BASE, *SHAPE, *OF_GRAINS, *(name.replace("0", "1") for name in OF_GRAINS)],
         1e-5,
     ),
     "heat": Kind(

@@ -173,8 +173,8 @@ class Chain:
             for name, law in model.laws.wear.items():
                 for key, first in law.own_state.items():
                     through += first * float(np.sum(states.laws[name][key]))
-            for key, (effect, _) in model.laws.between.items():
-                through += effect.initial_state[key] * float(np.sum(states.between[key]))
+            for key, (effect, field) in model.laws.between.items():
+                through += effect.initial_state[field.name] * float(np.sum(states.between[key]))
             total += each.weight * through
         return total
 

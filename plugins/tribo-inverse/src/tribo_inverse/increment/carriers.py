@@ -73,7 +73,7 @@ class Uniform(Carrier):
 
 
 def carriers_between(model: Model, of_bodies: Mapping[str, Carrier]) -> dict[str, Carrier]:
-    """Return where what effects remember lies, by its name."""
+    """Return where what effects remember lies, by key as in `State`."""
     found: dict[str, Carrier] = {}
     rows, starts = model.grid.cells[0], [0] * len(model.cycle)
     for key, (effect, field) in model.laws.between.items():
