@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import Any
 
+    from matplotlib.figure import Figure
+
     from tribo.case import Case
     from tribo.lab.report import LabReport
     from tribo.registry.registry import Registry
@@ -27,6 +29,7 @@ def bind() -> None:
     shorthand.show = show
     shorthand.report = report
     shorthand.plot = plot
+    shorthand.picture = picture
     shorthand.html = html
 
 
@@ -82,6 +85,13 @@ def plot(result: "Result", folder: "Path", suffix: str) -> "list[Path]":
     from tribo.plotting.figures import save_figures
 
     return save_figures(result, folder, suffix)
+
+
+def picture(result: "Result", name: str) -> "Figure":
+    """Draw one picture of a result."""
+    from tribo.plotting.figures import result_picture
+
+    return result_picture(result, name)
 
 
 def html(result: "Result") -> str:

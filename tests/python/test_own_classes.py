@@ -99,6 +99,10 @@ def test_a_case_says_what_it_will_do(capsys):
     assert str(found).startswith("The case is valid")
     assert "cells across the contact" in str(found)
     assert found._repr_html_().count("<table") >= 1
-    case().run(progress=True).show()
+    result = case().run(progress=True)
+    result.show()
     assert "Wear after" in capsys.readouterr().out
+    assert len(result.picture("ball_scar").axes) >= 1
+    with pytest.raises(CaseError, match="no picture 'ball_scars'; did you mean 'ball_scar'"):
+        result.picture("ball_scars")
     assert tribo.__version__ == "0.2.0"

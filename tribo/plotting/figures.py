@@ -13,6 +13,7 @@ from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.figure import Figure
 
 from tribo.core.errors import CaseError
+from tribo.core.words import did_you_mean, suggestion
 from tribo.core.writing import make_folder, write_file
 from tribo.lab.running_in import reliefs, rough_bodies
 from tribo.plotting.history import (
@@ -97,6 +98,16 @@ def picture_format(suffix: str) -> str:
     if suffix not in known:
         raise CaseError(f"pictures cannot be written as {suffix!r}; use one of {', '.join(known)}")
     return suffix
+
+
+def result_picture(result: Result, name: str) -> Figure:
+    """Draw one of the pictures of `result_pictures`; `CaseError` lists them if it has none such."""
+    pictures = result_pictures(result)
+    if name not in pictures:
+        meant = suggestion(did_you_mean(name, pictures))
+        raise CaseError(f"there is no picture {name!r}{meant} There are {', '.join(pictures)}")
+    with house_style():
+        return pictures[name]()
 
 
 def result_pictures(result: Result) -> dict[str, Callable[[], Figure]]:

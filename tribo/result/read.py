@@ -30,6 +30,7 @@ from tribo.result.sealed import write_sealed
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.figure import Figure
 
     from tribo.case import Case
     from tribo.lab.report import LabReport
@@ -334,6 +335,22 @@ class Result:
         """Write every picture that makes sense for the result, as ``tribo plot`` does."""
         paths: list[Path] = shorthand.plot(self, Path(folder), suffix)
         return paths
+
+    def picture(self, name: str) -> Figure:
+        """Draw one of the pictures of `plot`, as ``"pressure_map"`` or ``"ball_scar"``.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            Not yet written; a notebook shows it.
+
+        Raises
+        ------
+        CaseError
+            If the result has no such picture; the message lists those that it has.
+        """
+        figure: Figure = shorthand.picture(self, name)
+        return figure
 
     def _repr_html_(self) -> str:
         """Show the lab table and the pressure in a notebook."""
