@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from abc import ABC
-from collections.abc import Iterator, Mapping
-from typing import Any, ClassVar
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import (
     BaseModel,
@@ -26,6 +26,10 @@ from tribo.core.explain import refused_at, told
 from tribo.core.fields import check_declared
 from tribo.core.table import Table
 from tribo.core.words import said
+
+if TYPE_CHECKING:
+    from tribo.core.findings import Finding
+    from tribo.core.state import Snapshot
 
 KIND = "x-kind"
 """Key that marks, in a JSON schema, a place for any component of a kind."""
@@ -145,6 +149,26 @@ class Component(Table, ABC):
             Text by its name, as in ``{"size": "1.24 × 0.94 mm"}``.
         """
         return {}
+
+    def findings(self, snapshot: Snapshot) -> Sequence[Finding]:
+        """Return what there is to say of an accepted step, such as that a limit is passed.
+
+        Each kind is said once, with the time and place from which on it holds: as a warning on the
+        terminal, and in the findings of the result. One of the kind ``"stop"`` ends the run, as a
+        depth that is reached does.
+
+        Parameters
+        ----------
+        snapshot : Snapshot
+            The state, its scalars and the fields of the effects.
+
+        Examples
+        --------
+        >>> from tribo import Finding
+        >>> Finding("flash", "the contact is above 600 °C", value=905.0, limit=873.15)
+        Finding(kind='flash', ...
+        """
+        return ()
 
 
 def components(table: BaseModel) -> Iterator[tuple[str, Component]]:

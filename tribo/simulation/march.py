@@ -7,13 +7,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tribo.component import Component, components
 from tribo.core.errors import OutOfWindow, PluginError
-from tribo.core.findings import chattering, ended
+from tribo.core.findings import Finding, chattering, ended
 from tribo.core.measures import half_widths
-from tribo.core.state import State
+from tribo.core.state import Snapshot, State
+from tribo.evolution.local_fields import effect_fields
+from tribo.guards.guard import Guard
 from tribo.model.model import Model
 from tribo.simulation.beginning import first_state
 from tribo.simulation.doubt import doubting
+from tribo.simulation.measure import measure
 from tribo.simulation.validity import (
     check_stroke,
     coarse_cycle,
@@ -79,7 +83,7 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
             while state.time < until:
                 state = _advanced(model, state, until, limit)
                 worn_out = _depth(model, state) >= limit
-                last = worn_out or state.time >= model.end_time
+                last = worn_out or state.time >= model.end_time or state.has_finding("stop")
                 if last:
                     state = _stopped(model, _concluded(model, state))
                 save = last or (state.time >= until and until in model.saves)
@@ -101,7 +105,7 @@ def _advanced(model: Model, state: State, until: float, limit: float) -> State:
         raise
     after = hold(model, state, after)
     _check_window(model, after)
-    return _with_findings(model, hold_wear(model, after))
+    return _told_by_models(model, _with_findings(model, hold_wear(model, after)))
 
 
 def _up_to_depth(model: Model, state: State, after: State, limit: float) -> State:
@@ -170,6 +174,23 @@ def _with_findings(model: Model, state: State) -> State:
         state = state.with_findings(*of_case(model), *([few] if few else []))
     if chatters(state) and not state.has_finding("chattering"):
         state = state.from_here(chattering(state.invariants.chattering))
+    return state
+
+
+def _told_by_models(model: Model, state: State) -> State:
+    """Return the state with what the components of the case have to say of it, each kind once."""
+    snapshot = None
+    for place, component in components(model.case):
+        if type(component).findings is Component.findings:
+            continue
+        if snapshot is None:
+            snapshot = Snapshot(state, measure(model, state), effect_fields(model, state))
+        guard = Guard(component)
+        for answer in tuple(guard.ask(component.findings, snapshot)):
+            finding = guard.typed(answer, Finding, "a finding")
+            finding = finding if finding.place else replace(finding, place=place)
+            if (finding.kind, finding.place) not in {(f.kind, f.place) for f in state.findings}:
+                state = state.from_here(finding)
     return state
 
 

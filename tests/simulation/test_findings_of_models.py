@@ -1,0 +1,68 @@
+"""Models and observers that warn of a step, or end the run."""
+
+import warnings
+
+import pytest
+from paper_models import K, archard, small
+
+from tribo import Archard, Finding, Observer, PluginError, Simulation, Stop, TriboWarning
+
+
+class Hot(Archard):
+    """Warns of a pressure."""
+
+    type = "test.hot"
+
+    def findings(self, snapshot):
+        """Say that the contact is pressed less than at first."""
+        if snapshot.measures.max_pressure < 1.2e9:
+            yield Finding("cool", "pressed by less than 1.2 GPa", value=1.2e9)
+
+
+class Until(Observer):
+    """Ends the run at a distance."""
+
+    type = "test.until"
+    distance: float = 2.0
+
+    def findings(self, snapshot):
+        """Return a reason to stop, once it has come so far."""
+        if snapshot.state.distance < self.distance:
+            return ()
+        return (Finding("stop", f"ended by {self.type}"),)
+
+
+def case(law, observers=()):
+    bodies = small().case.bodies
+    worn = {n: b.model_copy(update={"wear": law}) for n, b in bodies.items()}
+    changes = {"bodies": worn, "observers": observers, "stop": Stop(distance=6)}
+    return small().case.model_copy(update=changes)
+
+
+def test_a_law_warns_once_of_each_body_with_time_and_place():
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", TriboWarning)
+        result = case(Hot(k=K)).run()
+    found = [each for each in result.findings if each.kind == "cool"]
+    assert [each.place for each in found] == ["bodies.ball.wear", "bodies.disk.wear"]
+    assert all(0 < each.time < result.times[-1] for each in found)
+    assert sum("less than 1.2 GPa" in str(each.message) for each in caught) == 2
+
+
+def test_an_observer_ends_the_run_with_its_reason():
+    result = case(archard(K), (Until(),)).run()
+    assert result.status == "done"
+    assert 2 <= result.distances[-1] < 6
+    (stop,) = (each for each in result.findings if each.kind == "stop")
+    assert (stop.words, stop.place) == ("ended by test.until", "observers.0")
+
+
+def test_what_is_no_finding_is_refused():
+    class Wrong(Archard):
+        type = "test.wrong"
+
+        def findings(self, snapshot):
+            return ["too hot"]
+
+    with pytest.raises(PluginError, match="gave a str as a finding; it must be a Finding"):
+        Simulation(case(Wrong(k=K))).run()
