@@ -156,6 +156,8 @@ class BodyInfo:
         What its wear law keeps per material point, and what effects keep on it.
     rough : bool, optional
         Whether it is more than a smooth form at first.
+    straight : bool, optional
+        Whether its points pass along x alone, if they do.
     """
 
     name: str
@@ -165,6 +167,7 @@ class BodyInfo:
     rows: int
     state_fields: tuple[Field, ...] = ()
     rough: bool = False
+    straight: bool = True
 
 
 @dataclass(frozen=True)

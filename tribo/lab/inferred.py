@@ -104,8 +104,8 @@ def ball_volumes(
 
 
 def track_section(result: Result, body: BodyResult, save: int = -1) -> float | None:
-    """Return the area of a track's section, in m²; None for a body that is not swept."""
-    if not body.swept:
+    """Return the area of a track's section, in m²; None for a body without a straight one."""
+    if not (body.swept and body.straight):
         return None
     middle = middle_rows(body.wear_depth[save], 1)[0]
     return planimetric_area(middle, result.grid.spacing[1])

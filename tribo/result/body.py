@@ -19,6 +19,8 @@ class BodyResult:
         Its name.
     swept : bool
         Whether its points passed through the contact.
+    straight : bool
+        Whether they did so along x alone, if they did.
     density : float or None
         In kg/m³.
     height : ndarray, shape (nx, ny)
@@ -35,6 +37,7 @@ class BodyResult:
 
     name: str
     swept: bool
+    straight: bool
     density: float | None
     height: Array
     wear_depth: Array

@@ -79,7 +79,7 @@ FIXED = {
     "x": Variable(("x",), "m", "Position along the sliding direction"),
     "y": Variable(("y",), "m", "Position across the sliding direction"),
     "step": Variable(("step",), "1", "Number of the step"),
-    "swept": Variable(("body",), "1", "Whether its points pass through the contact"),
+    "swept": Variable(("body",), "1", "Its points pass through the contact: 1, across too: 2"),
     "density": Variable(("body",), "kg/m^3", "Density"),
     "height": Variable(("body", "x", "y"), "m", "Initial height, outward"),
     "pressure": Variable(_ON_WINDOW, "Pa", "Contact pressure"),
@@ -114,7 +114,7 @@ def variables(run: RunInfo) -> dict[str, Variable]:
     values = {
         "x": grid.x,
         "y": grid.y,
-        "swept": np.array([body.swept for body in bodies], dtype=float),
+        "swept": np.array([body.swept * (1 if body.straight else 2) for body in bodies], float),
         # NaN where there is none.
         "density": np.array([body.density for body in bodies], dtype=float),
         "height": np.stack([body.height for body in bodies]),

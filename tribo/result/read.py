@@ -279,6 +279,7 @@ class Result:
         return BodyResult(
             name=name,
             swept=bool(self._scalars["swept"][index]),
+            straight=float(self._scalars["swept"][index]) <= 1,
             density=None if np.isnan(density[index]) else float(density[index]),
             height=read("height", index),
             wear_depth=read("wear_depth", every, index),
