@@ -9,15 +9,18 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 from packaging.requirements import InvalidRequirement, Requirement
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
+from tribo.component import components
 from tribo.contact.dcfft import DcFft
 from tribo.contact.solver import ContactSolver
 from tribo.core import shorthand
+from tribo.core.errors import CaseError
+from tribo.core.explain import refused
 from tribo.core.grid import Grid
 from tribo.core.loads import Load, Stage
 from tribo.core.material import Material, Poisson
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.core.words import checked_name
+from tribo.core.words import checked_name, did_you_mean, suggestion
 from tribo.effects.effect import Effect
 from tribo.motion.kinematics import Kinematics
 from tribo.observers.observer import Observer
@@ -220,6 +223,38 @@ class Case(Table):
         for name in bodies:
             checked_name(str(name))
         return bodies
+
+    @model_validator(mode="after")
+    def _read_properties(self) -> Self:
+        """Read what models need of the materials, each property in its unit."""
+        needs = [(at, part, f) for at, part in components(self) for f in part.material_properties]
+        known = dict.fromkeys(field.name for _, _, field in needs)
+        wrong: list[tuple[tuple[str, ...], str, object]] = []
+        for name, body in self.bodies.items():
+            place = ("bodies", name, "material")
+            keys, given = dict(body.material), body.material.properties or {}
+            read = dict(given)
+            for key in [key for key in given if key not in known]:
+                like = suggestion(did_you_mean(key, known))
+                text = f"no model of this case needs it{like} Needed: {', '.join(known) or 'none'}"
+                wrong.append(((*place, "properties", key), text, given[key]))
+            for at, part, field in needs:
+                key, value = field.name, given.get(field.name, keys.get(field.name))
+                mark = Quantity(field.unit, at_least=field.at_least, at_most=field.at_most)
+                try:
+                    if value is not None:
+                        number = mark.read(value)
+                        read |= {key: number} if key in given else {}
+                    elif at.startswith(f"bodies.{name}.") or not at.startswith("bodies."):
+                        raise CaseError(f"{part.type!r} needs it of {name!r}: {mark.hint()}")
+                except CaseError as error:
+                    where = place if key in keys else (*place, "properties")
+                    wrong.append(((*where, key), str(error), value))
+            material = body.material.model_copy(update={"properties": read or None})
+            self.bodies[name] = body.model_copy(update={"material": material})
+        if wrong:
+            raise refused(*wrong)
+        return self
 
     def check(self) -> Check:
         """Predict the first contact and the end of a run, and what would go wrong on its way."""

@@ -22,8 +22,8 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from tribo.core import shorthand
 from tribo.core.errors import CaseError
-from tribo.core.explain import refused_at, told
-from tribo.core.fields import check_declared
+from tribo.core.explain import refused, told
+from tribo.core.fields import Field, check_declared
 from tribo.core.table import Table
 from tribo.core.words import said
 
@@ -50,6 +50,10 @@ class Component(Table, ABC):
 
     type: ClassVar[str]
     """The name that stands for the class in a case; its own in snake case if left out."""
+
+    material_properties: ClassVar[tuple[Field, ...]] = ()
+    """What it needs of materials: of that of its body, or of both if it belongs to none. Each is
+    the name of a key of `Material`, or of one of its `properties`, which a case then gives."""
 
     @classmethod
     def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
@@ -99,13 +103,13 @@ class Component(Table, ABC):
         name = table.get("type")
         if not isinstance(name, str):
             fault = "must be text" if "type" in table else "is missing"
-            raise refused_at("type", f"type {fault}; {cls.hint(info)}", name)
+            raise refused((("type",), f"type {fault}; {cls.hint(info)}", name))
         try:
             found = _registry(info).lookup(cls.kind(), name)
         except CaseError as error:
             if isinstance(value, str):
                 raise told(str(error)) from None
-            raise refused_at("type", str(error), name) from None
+            raise refused((("type",), str(error), name)) from None
         try:
             return found.__pydantic_validator__.validate_python(  # type: ignore[no-any-return]
                 dict(table), context=info.context

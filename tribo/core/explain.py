@@ -51,9 +51,9 @@ def told(text: str, kind: str = TOLD) -> PydanticCustomError:
     return PydanticCustomError(kind, "{message}", {"message": text})
 
 
-def refused_at(key: str, text: str, value: object) -> ValidationError:
-    """Return the error of one key of a table."""
-    return ValidationError.from_exception_data("case", [_line((key,), text, value)])
+def refused(*lines: tuple[tuple[str, ...], str, object]) -> ValidationError:
+    """Return the error of some keys of a table, from the place, text and value of each."""
+    return ValidationError.from_exception_data("case", [_line(*line) for line in lines])
 
 
 def explained(

@@ -59,7 +59,7 @@ def check_declared(owner: object, who: str) -> None:
     `TypeError`, in which the class is called `who`, if they are not tuples of `Field`, each with a
     name of its own, and of names. Of properties only objects have the answer.
     """
-    for attribute in ("provides", "state_fields"):
+    for attribute in ("provides", "state_fields", "material_properties"):
         fields, where = getattr(owner, attribute, ()), f"{who}.{attribute}"
         if isinstance(fields, property):
             continue
@@ -80,7 +80,7 @@ def check_declared(owner: object, who: str) -> None:
         for each in fields:
             if list(each.breaks) != sorted(set(each.breaks)):
                 raise TypeError(f"{where}: the breaks of {each.name!r} must rise: {each.breaks}")
-            if each.fills and (each.unit != "m" or attribute == "provides"):
+            if each.fills and (each.unit != "m" or attribute != "state_fields"):
                 raise TypeError(
                     f"{where}: {each.name!r} cannot fill the gap: only a height that is kept as "
                     "state (state_fields) can, in m"

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Annotated
+from typing import Annotated, Any
 
+from tribo.core.errors import CaseError
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 
@@ -27,6 +28,18 @@ class Material(Table):
     """Thermal conductivity."""
     heat_capacity: Annotated[float, Quantity("J/(kg K)", above=0, usual=(50.0, 2e4))] | None = None
     """Specific heat capacity."""
+    properties: dict[str, Any] | None = None
+    """Further properties by name, those that models of the case declare."""
+
+    def property(self, name: str) -> float:
+        """Return a property in SI: one of `properties`, or the value of a key such as ``density``.
+
+        A model that declares it in its `material_properties` finds it given.
+        """
+        value = {**dict(self), **(self.properties or {})}.get(name)
+        if value is None:
+            raise CaseError(f"the material has no {name!r}; whoever reads it has to declare it")
+        return float(value)
 
 
 def contact_modulus(materials: Iterable[Material]) -> float:

@@ -22,6 +22,7 @@ FACTS = {
     "requires": "Requires",
     "provides": "Provides",
     "state_fields": "Keeps per point",
+    "material_properties": "Needs of materials",
     "accepts_wear_compliance": "Takes a wear compliance (implicit steps)",
     "honours_cap": "Limits the pressure to a hardness",
     "takes_cap_map": "Limits it to that of the layer at the surface",

@@ -11,9 +11,10 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from tribo.component import Component
+from tribo.component import Component, components
 from tribo.core.arrays import Array
 from tribo.core.dimensions import scale
+from tribo.core.fields import Field
 from tribo.guards.answers import answers_of
 from tribo.testing.child import Lost, Unknown, child
 from tribo.testing.compare import (
@@ -33,6 +34,13 @@ BODIES = ("ball", "disk")
 OTHER_NAMES = ("upper", "lower")
 FieldValue = float | Callable[[Array], Array]
 """The value of a local field, or how it follows from the pressure."""
+
+
+def needed_by(*models: object) -> list[Field]:
+    """Return what components, and those within them, need of materials."""
+    outer = [("", model) for model in models if isinstance(model, Component)]
+    inner = [pair for _, model in outer for pair in components(model)]
+    return [field for _, model in (*outer, *inner) for field in model.material_properties]
 
 
 class Checks(ABC):
@@ -81,7 +89,8 @@ class Checks(ABC):
 
     def _units(self, component: Any) -> Mapping[str, float]:
         """Return by what inputs and answers are multiplied in the other units, by their names."""
-        return {**UNITS, **units_of(answers_of(component))}
+        needed = {field.name: field for field in needed_by(component)}
+        return {**UNITS, **units_of(needed), **units_of(answers_of(component))}
 
     def _make(self) -> Any:
         """Return a new component with the configuration."""
@@ -160,7 +169,7 @@ class Checks(ABC):
     def declared_fields_have_units(self) -> None:
         """Each field that it declares has an SI unit and a description."""
         component = self._make()
-        for declared in ("provides", "state_fields"):
+        for declared in ("provides", "state_fields", "material_properties"):
             for field in getattr(component, declared, ()):
                 where = f"{declared}: {field.name!r}"
                 require(field.description.strip(), f"{where} has no description")

@@ -36,7 +36,7 @@ class ContactSolverChecks(Checks):
     _exactness = TOLERANCE
 
     def _inputs(self, component: Any, number: int) -> dict[str, Any]:
-        asked = replace(problem(), load=LOAD * (1 + number))
+        asked = replace(problem(solver=self._config), load=LOAD * (1 + number))
         return {"problem": asked, "start": None if number else self._solve(load=0.9 * LOAD)}
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
@@ -53,7 +53,7 @@ class ContactSolverChecks(Checks):
         **other: Any,
     ) -> ContactSolution:
         """Return the solution of a sample problem by a new, guarded solver, checked first."""
-        solver, asked = GuardedSolver(self._make()), problem(hardness, grid, names)
+        solver, asked = GuardedSolver(self._make()), problem(hardness, grid, names, self._config)
         solver.component.check(asked.system)
         return locked(solver.solve(locked(replace(asked, **other)), start))
 
@@ -78,7 +78,7 @@ class ContactSolverChecks(Checks):
         """Pressures are finite and not negative, and carry the load."""
         for load in (0.5 * LOAD, LOAD):
             self._solve(load=load)
-        GuardedSolver(self._make()).smallest_compliance(problem().system)
+        GuardedSolver(self._make()).smallest_compliance(problem(solver=self._config).system)
 
     def residuals_are_small(self) -> None:
         """By its own residuals a solution fulfils the conditions of contact."""
@@ -164,7 +164,7 @@ class ContactSolverChecks(Checks):
         shares = np.array([0.2, 0.3, 0.5])
         coupling = CycleCompliance(shares, [(stays, [(0, 0)] * 3), (passes, cells)], slice(0, nx))
         gaps = [ball(GRID, cells=(row, 0)) for row in (0, 1, 2)]
-        problems = [replace(problem(), gap=gap) for gap in gaps]
+        problems = [replace(problem(solver=self._config), gap=gap) for gap in gaps]
         contacts = GuardedSolver(solver).solve_cycle(problems, [self._plain] * 3, coupling)
         worn = coupling.depth(np.stack([each.pressure for each in contacts]), GRID.spacing[0])
         for position, (gap, contact) in enumerate(zip(gaps, contacts, strict=True)):
@@ -203,7 +203,7 @@ class ContactSolverChecks(Checks):
 
     def no_mode_is_stiffer_than_stated(self) -> None:
         """The smallest compliance is no more than the contact shows to a chequerboard."""
-        stated = self._make().smallest_compliance(problem().system)
+        stated = self._make().smallest_compliance(problem(solver=self._config).system)
         apply_if(stated is not None, "smallest_compliance is None")
         plain = self._plain
         core = plain.pressure > 0.3 * self._peak

@@ -36,7 +36,7 @@ class WearLawChecks(LocalChecks):
     _longest_run = 1e6
 
     def _guarded(self) -> GuardedLaw:
-        return GuardedLaw(self._make(), BODIES[0], samples.STEEL)
+        return GuardedLaw(self._make(), BODIES[0], samples.for_models(samples.STEEL, self._config))
 
     def _inputs(self, component: Any, number: int) -> LocalConditions:
         """Return conditions of points that each have slid a distance of their own; 3: none."""
@@ -44,7 +44,8 @@ class WearLawChecks(LocalChecks):
         fields = self._fields_at(component, pressure, number)
         state = {name: np.full(_SHAPE, v) for name, v in component.initial_state().items()}
         speed = np.array(np.roll(samples.SPEEDS, -number)[:2]).reshape(2, 1, 1)
-        local = LocalConditions(pressure, speed, samples.STEEL, fields, state)
+        material = samples.for_models(samples.STEEL, component)
+        local = LocalConditions(pressure, speed, material, fields, state)
         if number < 3 and state:
             local = self._remembering(local, _FARTHEST * samples.pattern(_SHAPE, number) ** 3)
         # In every third point there is no pressure any more.
@@ -81,11 +82,12 @@ class WearLawChecks(LocalChecks):
 
         However far its points have slid.
         """
-        for material in (samples.STEEL, samples.BARE):
+        for bare in (samples.STEEL, samples.BARE):
+            material = samples.for_models(bare, self._config)
             try:
                 guarded = GuardedLaw(self._make(), BODIES[0], material)
             except CaseError:
-                if material is samples.BARE:
+                if bare is samples.BARE:
                     return
                 raise
             for local in self._samples():

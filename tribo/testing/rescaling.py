@@ -12,6 +12,7 @@ from pydantic import BaseModel
 
 from tribo.core.dimensions import scale
 from tribo.core.fields import Field
+from tribo.core.material import Material
 from tribo.core.units import parts, quantities
 from tribo.testing.compare import NotApplicable, mapped
 
@@ -100,6 +101,9 @@ def in_other_units(value: T, units: Mapping[str, float]) -> T:
     """Return nested values in the other units, each by the factor of the innermost known name."""
 
     def change(path: tuple[Any, ...], inner: Any) -> Any:
+        if isinstance(inner, Material) and inner.properties:
+            others = {name: value * units[name] for name, value in inner.properties.items()}
+            return renewed(rescaled(inner), {"properties": others})
         if isinstance(inner, BaseModel):
             return rescaled(inner)
         known = (units[name] for name in reversed(path) if name in units)

@@ -37,7 +37,7 @@ from tribo.stepping.implicit import Implicit
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
 from tribo.surfaces.sphere import Sphere
-from tribo.testing.checks import BODIES, FieldValue
+from tribo.testing.checks import BODIES, FieldValue, needed_by
 from tribo.testing.compare import first_difference, locked, require
 from tribo.wear.archard import Archard
 from tribo.wear.law import WearLaw
@@ -80,6 +80,16 @@ BRONZE = Material(
 )
 ARCHARD = Archard(k=1e-16)
 """It wears a third of the first approach within some metres."""
+
+
+def for_models(material: Material, *models: object, spread: float = 0.5) -> Material:
+    """Return a material with the further properties that models need, at typical values."""
+    values = {
+        each.name: float(np.interp(spread, (0.0, 0.5, 1.0), _range(each) or (0.5, 1.0, 2.0)))
+        for each in needed_by(*models)
+        if each.name not in Material.model_fields
+    }
+    return material.model_copy(update={"properties": values or None})
 
 
 def field(
@@ -211,7 +221,8 @@ def contact_conditions(
         f.name: np.full((1, 1) if f.uniform else GRID.cells, start[f.name])
         for f in effect.state_fields
     }
-    materials = dict(zip(names, (STEEL, BRONZE), strict=True))
+    pair = for_models(STEEL, effect), for_models(BRONZE, effect, spread=0.6)
+    materials = dict(zip(names, pair, strict=True))
     return ContactConditions(
         system=replace(problem(names=names).system, materials=materials),
         pressure=pressure,
@@ -237,10 +248,13 @@ def ball(grid: Grid, cells: tuple[int, int] = (0, 0)) -> Array:
 
 
 def problem(
-    hardness: float | None = None, grid: Grid = GRID, names: Sequence[str] = BODIES
+    hardness: float | None = None,
+    grid: Grid = GRID,
+    names: Sequence[str] = BODIES,
+    solver: object = None,
 ) -> ContactProblem:
-    """Return a contact problem: steel on steel."""
-    material = STEEL.model_copy(update={"hardness": hardness})
+    """Return a contact problem: steel on steel, with what a solver needs of it."""
+    material = for_models(STEEL, solver).model_copy(update={"hardness": hardness})
     system = ContactSystem(
         grid=grid,
         modulus=contact_modulus([material, material]),
@@ -283,6 +297,8 @@ def small_case(
 ) -> Case:
     """Return a case on elastic springs, both bodies under one law, if both have places for it."""
     kinematics = kinematics or sliding(3.0)
+    others = (*more.values(), *more.get("observers", ()))
+    material = for_models(STEEL, law, kinematics, *effects, *others)
     provided = {f.name for e in effects for f in (*e.provides, *e.state_fields)}
     friction = FRICTION_COEFFICIENT.name
     known = {friction, *OF_MOTION} | provided
@@ -295,7 +311,7 @@ def small_case(
         grid=GRID.model_copy(update={"ends_at_window": True}),
         load=LOAD,
         bodies={
-            name: Body(surface=surface, material=STEEL, wear=law if name in wearing else None)
+            name: Body(surface=surface, material=material, wear=law if name in wearing else None)
             for name, surface in zip(BODIES, _shapes(kinematics), strict=True)
         },
         kinematics=kinematics,

@@ -77,8 +77,10 @@ class Heat(Effect):
 class Sinks(Heat):
     """Of which both bodies lead the more away the better they conduct."""
 
+    material_properties = (Field("leads", "W/(m K)", "Conductivity.", at_least=0),)
+
     def power(self, contact):
-        leads = sum(material.conductivity for material in contact.materials.values())
+        leads = sum(material.property("leads") for material in contact.materials.values())
         return 90.0 / leads * super().power(contact)
 
 

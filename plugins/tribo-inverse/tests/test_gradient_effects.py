@@ -118,7 +118,7 @@ KINDS["slip"] = Kind(
     [*BASE, *SHAPE, "effects.0.most"],
     1e-5,
 )
-METAL = {"young": "207 GPa", "poisson": 0.3, "conductivity": 45.0}
+METAL = {"young": "207 GPa", "poisson": 0.3, "properties": {"leads": "45 W/(m K)"}}
 KINDS["explicit, beside heat that no law follows"] = Kind(
     run(
         kinematics=motion(duration=4),
@@ -142,7 +142,7 @@ KINDS["heat through a body that does not wear"] = Kind(
         stepping=LONG,
     ),
     Depth("ball"),
-    ["bodies.disk.material.conductivity"],
+    ["bodies.disk.material.properties.leads"],
     1e-5,
 )
 KINDS["rest"] = Kind(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import product
 from typing import Annotated, Self
 
 import numpy as np
@@ -14,7 +15,6 @@ from tribo import (
     ContactSystem,
     Effect,
     Field,
-    Material,
     Quantity,
 )
 
@@ -126,6 +126,7 @@ class Flash(Effect):
 
     provides = (TEMPERATURE, RISE)
     requires = ("friction_coefficient",)
+    material_properties = (Field("conductivity", "W/(m K)", "Thermal conductivity.", typical=46.0),)
 
     @property
     def _warming(self) -> dict[str, HeatPath]:
@@ -166,10 +167,12 @@ class Flash(Effect):
                 "'thermal.flash' needs a body that stays in the contact; here all are swept, at "
                 "speeds it does not know"
             )
-        for name, material in materials.items():
-            moving = ("density", "heat_capacity") if name in swept else ()
-            for key in ("conductivity", *moving):
-                _needed(name, material, key)
+        for name, key in product(swept, ("density", "heat_capacity")):
+            if getattr(materials[name], key) is None:
+                raise CaseError(
+                    f"'thermal.flash' needs the {key.replace('_', ' ')} of {name!r}: add {key}",
+                    f"bodies.{name}.material.{key}",
+                )
 
     def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
         """Return the temperature of each body and its rise, uniform over the contact."""
@@ -185,7 +188,7 @@ class Flash(Effect):
         flows, rates = self._flows(contact), {}
         for name, path in self._warming.items():
             assert path.capacity is not None
-            conductivity = _needed(name, contact.materials[name], "conductivity")
+            conductivity = contact.materials[name].property("conductivity")
             away = contact.state[bulk(name)] / path.resistance(conductivity)
             rates[bulk(name)] = (flows[name] - away) / path.capacity
         return rates
@@ -222,11 +225,11 @@ class Flash(Effect):
         if not np.any(contact.pressure > 0):
             return 0.0
         material = contact.materials[name]
-        conductivity = _needed(name, material, "conductivity")
+        conductivity = material.property("conductivity")
         radius = source_radius(contact.pressure, contact.grid.cell_area, self.source)
         peclet = 0.0
         if name in contact.swept:
-            capacity = _needed(name, material, "density") * _needed(name, material, "heat_capacity")
+            capacity = material.property("density") * material.property("heat_capacity")
             peclet = contact.speed * radius * capacity / (2 * conductivity)
         flash = rise_per_power(radius, conductivity, peclet, self.source, self.rise)
         flash += kept_per_power(radius, conductivity, peclet, contact.track, contact.turns_back)
@@ -238,13 +241,3 @@ class Flash(Effect):
 def bulk(name: str) -> str:
     """Return the name of the state that is the temperature of a body beyond the contact."""
     return f"bulk_rise_{name}"
-
-
-def _needed(name: str, material: Material, key: str) -> float:
-    value = getattr(material, key)
-    if value is None:
-        raise CaseError(
-            f"'thermal.flash' needs the {key.replace('_', ' ')} of {name!r}: add {key}",
-            f"bodies.{name}.material.{key}",
-        )
-    return float(value)
