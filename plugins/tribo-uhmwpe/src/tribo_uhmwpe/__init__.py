@@ -1,0 +1,1 @@
+"""Wear of polyethylene under cross-shear, for tribo."""

@@ -1,0 +1,105 @@
+"""The cross-shear share of points that are always in contact, and what it makes them lose."""
+
+import runpy
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tribo import LocalConditions, Material, Simulation, Surface
+
+from tribo_uhmwpe.cross_shear import FRESH, CrossShear
+
+SIDE, PRESSURE = 0.4e-3, 1e6
+ALONG, ACROSS = 1e-15, 6.4e-15
+LAW = CrossShear(k_along=ALONG, k_across=ACROSS)
+
+
+class Punch(Surface):
+    """A square end with sharp edges: on springs its pressure is even, and stays so."""
+
+    def height(self, grid):
+        x, y = np.broadcast_arrays(*grid.mesh)
+        return np.where(np.maximum(abs(x), abs(y)) < 0.5 * SIDE, 0.0, -1.0)
+
+
+def run(motion, plate=None):
+    """A punch on a plate, with a save after a hundredth of a turn and after a whole one."""
+    steel = {"young": "210 GPa", "poisson": 0.3}
+    case = {
+        "grid": {"size": 1e-3, "cells": 20},
+        "load": {"normal": PRESSURE * SIDE**2},
+        "bodies": {
+            "pin": {"surface": Punch(), "material": steel, "wear": LAW},
+            "plate": {"surface": "flat", "material": steel, "wear": plate},
+        },
+        "contact": {"type": "winkler", "modulus": 1e13},
+        "stepping": {"type": "implicit", "settle": 0.5},
+        "kinematics": {"duration": 0.1, **motion},
+        "output": {"save_times": [0, 1e-3, 0.1]},
+    }
+    return Simulation(case).run()
+
+
+def share(result, save, body):
+    """The cross-shear share in the middle of a body's contact."""
+    fields = ("slid_path", "slid_cosine", "slid_sine")
+    path, *moments = (result.field(field, save, body)[10, 10] for field in fields)
+    return 0.5 * (1 - np.hypot(*moments) / path)
+
+
+@pytest.mark.parametrize(
+    ("path", "extent", "across"),
+    [
+        ("circle", (4e-4, 4e-4), 1 / 2),
+        ("square", (4e-4, 4e-4), 1 / 2),
+        ("square", (4e-4, 2e-4), 1 / 3),
+        # Twice as long as wide, aslant.
+        ([(0, 0), (2.4e-4, 3.2e-4), (0.8e-4, 4.4e-4), (-1.6e-4, 1.2e-4)], None, 1 / 3),
+        ([(0, 0), (3e-4, 4e-4)], None, 0),
+    ],
+)
+def test_a_pin_wears_by_the_share_of_its_path_from_the_first_step_on(path, extent, across):
+    motion = {"type": "planar", "path": path, "extent": extent, "positions": 12}
+    k = ALONG + (ACROSS - ALONG) * across
+    with run({**motion, "speed": 12e-3}) as result:
+        for save in (1, 2):
+            assert share(result, save, "pin") == pytest.approx(across, abs=1e-9)
+            exact = k * PRESSURE * result.saves()[save]["distance_m"]
+            depth = result.field("wear_depth", save, "pin")[10, 10]
+            assert depth == pytest.approx(exact, rel=1e-9, abs=ACROSS * PRESSURE * FRESH)
+
+
+def test_a_fresh_point_wears_as_along_a_straight_path():
+    fresh = np.zeros((1, 2, 1))
+    fields = {"heading_x": fresh + 0.6, "heading_y": fresh + 0.8}
+    state = {field.name: fresh for field in LAW.state_fields}
+    material = Material(young=1e9, poisson=0.4)
+    rate = LAW.rate(LocalConditions(fresh + PRESSURE, 1.0, material, fields, state))
+    np.testing.assert_allclose(rate.depth_rate, ALONG * PRESSURE, rtol=1e-12)
+
+
+def test_that_the_share_jumps_as_sliding_begins_takes_no_more_calls(monkeypatch):
+    calls, rate = [], CrossShear.rate
+
+    def counted(law, local):
+        calls.append(local)
+        return rate(law, local)
+
+    monkeypatch.setattr(CrossShear, "rate", counted)
+    motion = {"type": "planar", "path": "circle", "extent": (4e-4, 4e-4), "positions": 8}
+    run({**motion, "speed": 12e-3}).close()
+    assert len(calls) < 100
+
+
+@pytest.mark.parametrize(("stroke", "positions"), [(4e-3, "average"), (2e-4, 9)])
+def test_there_is_no_cross_shear_to_and_fro(stroke, positions):
+    motion = {"type": "reciprocating", "stroke": stroke, "frequency": 10, "positions": positions}
+    with run(motion, plate=LAW) as result:
+        assert [share(result, -1, name) for name in result.body_names] == [0, 0]
+
+
+@pytest.mark.slow
+def test_the_readme_shows_what_its_example_prints(capsys):
+    package = Path(__file__).parents[1]
+    runpy.run_path(str(package / "examples" / "circle_and_straight.py"))
+    assert capsys.readouterr().out in (package / "README.md").read_text(encoding="utf-8")
