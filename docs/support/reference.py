@@ -23,6 +23,7 @@ from tribo.cli.main import tribo as command_line
 from tribo.component import Component
 from tribo.core.dimensions import _SYMBOLS, _UNPREFIXED, PREFIXES
 from tribo.core.errors import TriboError
+from tribo.core.table import descriptions
 from tribo.core.units import _KINDS, Quantity
 from tribo.guards.answers import ANSWERS
 from tribo.packages import COMMANDS
@@ -58,7 +59,7 @@ def case_page(registry: Registry) -> Iterator[str]:
     plain = {n: f for n, f in Case.model_fields.items() if not _is_table(f)}
     if plain:
         yield "## Keys before any table\n"
-        yield from _rows(plain)
+        yield from _rows(Case, plain)
     for name, field in Case.model_fields.items():
         if name in plain:
             continue
@@ -66,7 +67,7 @@ def case_page(registry: Registry) -> Iterator[str]:
         kind = _component_kind(field)
         many = "[[{}]]" if get_origin(field.annotation) is tuple else "[{}]"
         yield f"## `{many.format(path)}`\n"
-        yield from _about(field)
+        yield from _about(name, field)
         if name == "bodies":
             yield from _table(Body)
             yield f"### `[{path}.material]`\n"
@@ -75,7 +76,7 @@ def case_page(registry: Registry) -> Iterator[str]:
             yield from _table(material)
             for slot in ("surface", "wear"):
                 yield f"### `[{path}.{slot}]`\n"
-                yield f"{Body.model_fields[slot].description}\n"
+                yield f"{descriptions(Body)[slot]}\n"
                 yield from _components(registry, _component_kind(Body.model_fields[slot]), "####")
         elif name == "stepping":
             for config in (Implicit, Explicit):
@@ -211,9 +212,9 @@ def _components(registry: Registry, kind: str, heading: str) -> Iterator[str]:
         yield from _table(cls)
 
 
-def _about(field: FieldInfo) -> Iterator[str]:
-    if field.description:
-        yield f"{field.description}\n"
+def _about(name: str, field: FieldInfo) -> Iterator[str]:
+    if text := descriptions(Case).get(name):
+        yield f"{text}\n"
     if not field.is_required():
         default = field.default
         if isinstance(default, Component | Implicit):
@@ -224,18 +225,20 @@ def _about(field: FieldInfo) -> Iterator[str]:
             yield "Optional.\n"
 
 
-def _rows(fields: dict[str, FieldInfo]) -> Iterator[str]:
+def _rows(model: Any, fields: dict[str, FieldInfo]) -> Iterator[str]:
     if not fields:
         yield "It has no keys of its own.\n"
         return
     yield "| Key | Value | Default | Meaning |\n| --- | --- | --- | --- |"
+    texts = descriptions(model)
     for name, field in fields.items():
-        yield f"| `{name}` | {_kind(*_typed(field))} | {_default(field)} | {_text(field)} |"
+        text = " ".join(texts.get(name, "").replace("|", "\\|").split())
+        yield f"| `{name}` | {_kind(*_typed(field))} | {_default(field)} | {text} |"
     yield ""
 
 
 def _table(model: Any) -> Iterator[str]:
-    yield from _rows({n: f for n, f in model.model_fields.items() if n != "type"})
+    yield from _rows(model, {n: f for n, f in model.model_fields.items() if n != "type"})
     for field in model.model_fields.values():
         inner = _model(field.annotation)
         if inner is not None and not issubclass(inner, Component) and inner is not model:
@@ -314,10 +317,6 @@ def _default(field: FieldInfo) -> str:
     if isinstance(field.default, float):
         return f"`{field.default:g}`"
     return f"`{field.default}`" if isinstance(field.default, int) else f'`"{field.default}"`'
-
-
-def _text(field: FieldInfo) -> str:
-    return " ".join((field.description or "").replace("|", "\\|").split())
 
 
 def _summary(thing: Any) -> str:

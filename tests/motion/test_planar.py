@@ -97,7 +97,7 @@ def test_the_body_goes_where_it_heads(path):
     # A position may lie in the cell of the one before.
     assert np.all(ahead >= 0)
     assert np.mean(ahead > 0) > 0.8
-    fields = [model.cycle.fields(position) for position in range(len(model.cycle))]
+    fields = [model.cycle.fields[position] for position in range(len(model.cycle))]
     for way, of_motion in zip(ways, fields, strict=True):
         for name, part in zip(("heading_x", "heading_y"), way, strict=True):
             # The plate goes; what slides over it comes the other way.
@@ -105,6 +105,18 @@ def test_the_body_goes_where_it_heads(path):
             np.testing.assert_allclose(of_motion[name]["plate"], -part)
     places = np.array([[f[n]["plate"][0, 0] for n in ("place_x", "place_y")] for f in fields])
     np.testing.assert_allclose(np.diff(places[:3], axis=0), -steps[:2] * GRID.spacing, atol=1e-12)
+
+
+@pytest.mark.parametrize("path", [[(4e-4, 0), (0, 0)], [(0, 0), (0, 3e-4), (-3e-4, 0)], "square"])
+def test_the_middle_position_may_lie_at_an_end_of_the_path(path):
+    extent = (4e-4, 4e-4) if path == "square" else None
+    model = Simulation(case(path=path, extent=extent, positions=8)).model
+    plate = model.cycle.maps["plate"]
+    field = np.arange(plate.rows * 64.0).reshape(plate.rows, 64)
+    for position in range(len(model.cycle)):
+        assert plate.see(field, position).shape == GRID.cells
+        row, column = plate.first_cell(position)
+        assert plate.see(field, position)[0, 0] == field[row, column % 64]
 
 
 def test_a_path_to_and_fro_wears_as_a_stroke_does():

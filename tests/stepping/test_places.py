@@ -41,7 +41,7 @@ def test_a_place_moves_through_the_window_with_its_body():
     dx = GRID.spacing[0]
     starts = model.cycle.maps["disk"].starts
     for position, start in enumerate(starts):
-        places = model.cycle.fields(position)
+        places = model.cycle.fields[position]
         np.testing.assert_array_equal(places["place_x"]["ball"][:, 3], GRID.x)
         np.testing.assert_allclose(
             places["place_x"]["disk"][:, 3], GRID.x + (start - starts[6]) * dx, atol=1e-12

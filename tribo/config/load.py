@@ -12,7 +12,6 @@ from packaging.requirements import InvalidRequirement
 from pydantic import ValidationError
 
 from tribo.case import Case
-from tribo.component import components
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
@@ -78,8 +77,7 @@ def case_tables(case: Case | Mapping[str, Any] | str | Path) -> Mapping[str, Any
     """Return the tables of a case, which is given as a Case, as tables or as a TOML file."""
     if isinstance(case, Case):
         # Classes of one's own are found again by their types.
-        for _, component in components(case):
-            default_registry().know(type(component))
+        default_registry().know_all(case)
         return case.model_dump(mode="json")
     return case if isinstance(case, Mapping) else read_toml(case)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import AfterValidator, Field, field_validator
@@ -43,6 +43,7 @@ class Grid(Table):
     direction x, and hold values at cell centres.
     """
 
+    in_order: ClassVar[bool] = True
     size: tuple[Length, Length] = Field(json_schema_extra=_or_one)
     """Edge lengths along x, the sliding direction, and y."""
     cells: tuple[Cells, Cells] = Field(json_schema_extra=_or_one)
@@ -58,11 +59,6 @@ class Grid(Table):
             cells: int | tuple[int, int],
             ends_at_window: bool = False,
         ) -> None: ...
-
-    else:
-
-        def __init__(self, *values: Any, **named: Any) -> None:
-            super().__init__(**dict(zip(type(self).model_fields, values, strict=False)), **named)
 
     @field_validator("size", "cells", mode="before")
     @classmethod

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from functools import cache
 from itertools import pairwise
 from textwrap import dedent
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from pydantic import (
     BaseModel,
@@ -36,11 +36,11 @@ class _Made(ModelMetaclass):
 
     def __call__(self, *values: Any, **named: Any) -> Any:
         made: Any = self
-        if values and made.__init__ is BaseModel.__init__:
+        if values and not made.in_order:
             name, key = made.__name__, next(iter(made.model_fields), "key")
             raise TypeError(f"give each value of {name} by its name, as {name}({key}=…)")
         try:
-            return super().__call__(*values, **named)
+            return super().__call__(**dict(zip(made.model_fields, values, strict=False)), **named)
         except ValidationError as error:
             raise case_error(error) from None
 
@@ -49,6 +49,9 @@ class Table(BaseModel, metaclass=_Made):
     """A frozen table that refuses unknown keys, and explains errors in the words of a case."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+    in_order: ClassVar[bool] = False
+    """Whether it may be made of values without their names, in the order of its fields."""
 
     @model_validator(mode="wrap")
     @classmethod

@@ -50,7 +50,7 @@ def local_fields(
     """
     fields = fields_of(model, memory)
     if model.laws.required & OF_MOTION.keys():
-        fields |= model.cycle.fields(position)
+        fields |= model.cycle.fields[position]
     friction = model.laws.friction_coefficient
     if friction is not None:
         uniform = readonly(np.full(pressure.shape, friction))

@@ -96,12 +96,17 @@ class Cycle:
             return None
         return missed_shares(self.path, np.array([position.share for position in self]))
 
-    def fields(self, position: int) -> dict[str, dict[str, Array]]:
-        """Return what the motion provides at a position, by field and body, shape (nx, ny).
+    @cached_property
+    def fields(self) -> list[dict[str, dict[str, Array]]]:
+        """What the motion provides at each position, by field and body, shape (nx, ny).
 
         It is where each body's own surface lies in the window, in m, and which way the other body
-        slides over it. x is 0 on a body of which every point of a track is the same.
+        slides over it. A body of which every point of a track is the same has x = 0, and is slid
+        over along its track.
         """
+        return [self._fields(position) for position in range(len(self))]
+
+    def _fields(self, position: int) -> dict[str, dict[str, Array]]:
         dx, cells = self.grid.spacing[0], self.grid.cells
         found: dict[str, dict[str, Array]] = {name: {} for name in OF_MOTION}
         for name, each in self.maps.items():
@@ -109,9 +114,10 @@ class Cycle:
             breadth = np.broadcast_to(self.grid.y, (each.rows, cells[1]))
             # A body that passes meets the other one the other way.
             way = -1.0 if each.swept else 1.0
+            heading = (1.0, 0.0) if each.averaged else self[position].heading
             values = (
                 *(each.see(place, position) for place in (own, breadth)),
-                *(way * np.asarray(part) for part in self[position].heading),
+                *(way * np.asarray(part) for part in heading),
             )
             for of_field, each_value in zip(found.values(), values, strict=True):
                 of_field[name] = readonly(np.broadcast_to(each_value, cells))

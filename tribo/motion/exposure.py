@@ -244,7 +244,8 @@ class Passing(Stationary):
         self.starts = tuple(starts)
         self.across = None if across is None else tuple(across)
         self._cells = [*zip(starts, across or [0] * len(starts), strict=True)]
-        self.rows = grid.period or grid.cells[0] + max(starts)
+        # The middle one lies midway.
+        self.rows = grid.period or grid.cells[0] + max(*starts, 2 * starts[len(starts) // 2])
         self._length = length if grid.period is None else min(length, grid.size[0])
 
     def see(self, field: Array, position: int) -> Array:

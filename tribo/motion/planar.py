@@ -16,6 +16,7 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.number_tables import read_pairs
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.units import Quantity
 from tribo.motion.closed_track import Steady
 from tribo.motion.cycle import Position
@@ -157,6 +158,6 @@ class Planar(Steady):
         parts = []
         for begin, end in pairwise(sides.tolist()):
             # An odd number, so that one lies in the middle.
-            count = math.ceil(wanted * (end - begin) / total) // 2 * 2 + 1
+            count = math.ceil(wanted * (end - begin) / total - ROUND_OFF) // 2 * 2 + 1
             parts.append(np.linspace(begin, end, count + 1)[:-1])
         return np.concatenate([*parts, [total]])

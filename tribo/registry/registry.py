@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pluggy
+from pydantic import BaseModel
 
-from tribo.component import Component
+from tribo.component import Component, components
 from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.core.words import did_you_mean, said, suggestion
@@ -74,6 +75,11 @@ class Registry:
             )
         if other is None or self.is_own(other):
             self._own[name] = cls
+
+    def know_all(self, case: BaseModel) -> None:
+        """Let every class in a case take part; see `know`."""
+        for _, component in components(case):
+            self.know(type(component))
 
     def is_own(self, cls: type[Component]) -> bool:
         """Whether a class takes part that no plugin offers."""

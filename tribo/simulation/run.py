@@ -77,6 +77,9 @@ class Simulation:
             case = load_case(case, registry=known)
         elif not isinstance(case, Case):
             case = validate_case(case, registry=known)
+        # So that its result finds classes of one's own again.
+        with suppress(CaseError):
+            known.know_all(case)
         try:
             with doubting(case):
                 self.model = composed(case)
