@@ -55,7 +55,7 @@ def tables(law, *, ball=None, disk=None):
 
 def worn(law, **properties):
     with Simulation(tables(law, **properties)).run() as result:
-        return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"], result.case
+        return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"], result.case_tables
 
 
 @pytest.mark.parametrize(
