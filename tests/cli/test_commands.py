@@ -116,11 +116,10 @@ def test_a_template_is_printed_for_a_dash_and_an_unknown_one_is_told_before_the_
     printed = tribo("new", "duty_cycle", "-", cwd=tmp_path)
     assert (printed.returncode, printed.stdout) == (0, template("duty_cycle"))
     assert not list(tmp_path.iterdir())
-    for args in (["thirdbody"], ["thirdbody", "my.toml"]):
-        unknown = tribo("new", *args, cwd=tmp_path)
-        assert unknown.returncode == 2
-        assert "'thirdbody'" in unknown.stderr
-        assert "duty_cycle (" in unknown.stderr
+    unknown = tribo("new", "thirdbody", cwd=tmp_path)
+    assert unknown.returncode == 2
+    assert "'thirdbody'" in unknown.stderr
+    assert "duty_cycle (" in unknown.stderr
     assert tribo("new", "duty_cycle", cwd=tmp_path).returncode == 2
 
 

@@ -9,9 +9,14 @@ from tribo.core.errors import BadValues, CaseError
 from tribo.core.fields import LOCAL_SLIP, Field, WearRate
 from tribo.effects.effect import Effect
 from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
 from tribo.wear.law import WearLaw
 
 MU = 0.3
+FEW_STEPS = {
+    "friction_coefficient": MU,
+    "stepping": Implicit(depth_tolerance=0.1, pressure_tolerance=0.5),
+}
 
 
 class Slips(Effect):
@@ -88,7 +93,7 @@ RAMP = [{"at": 0, "normal": 100.0}, {"at": 200, "normal": 40.0}]
     ],
 )
 def test_worn_volume_goes_with_the_work_of_friction(changes):
-    of = case(**{"effects": [Slips()], "friction_coefficient": MU, **changes})
+    of = case(**{"effects": [Slips()], **FEW_STEPS, **changes})
     with Simulation(of).run() as result:
         end = result.saves()[-1]
         work = float(result.dataset["friction_energy"][-1])
@@ -97,7 +102,7 @@ def test_worn_volume_goes_with_the_work_of_friction(changes):
 
 
 def test_where_every_point_slips_as_the_motion_the_run_is_the_same_to_the_bit():
-    changes = {"load": RAMP, "friction_coefficient": MU}
+    changes = {"load": RAMP, **FEW_STEPS}
     with_slip = Simulation(case(effects=[Slips(inside=1.0)], **changes)).run()
     without = Simulation(case(**changes)).run()
     for name, values in without.dataset.variables.items():

@@ -84,7 +84,11 @@ def is_done(path):
 
 def done(folder):
     """Return the finished results, each with what changes when a file is written."""
-    files = filter(is_done, results(folder).glob("*.h5"))
+    files = [
+        path
+        for path in results(folder).glob("*.h5")
+        if not path.with_name(f"{path.name}.run").exists() and is_done(path)
+    ]
     return {path: (path.stat().st_ino, path.stat().st_mtime_ns) for path in files}
 
 

@@ -24,6 +24,7 @@ from functools import lru_cache
 
 import numpy as np
 import scipy.linalg
+import scipy.special
 from numpy.polynomial import chebyshev, legendre
 
 from tribo.core.arrays import Array
@@ -48,7 +49,7 @@ def strip_rates(*, odd: bool = False) -> tuple[float, ...]:
     tuple of float
         λ, rising; the first few are good to six digits.
     """
-    x, weight = legendre.leggauss(2 * _SERIES)
+    x, weight = scipy.special.roots_legendre(2 * _SERIES)
     n = np.arange(1 if odd else 2, _SERIES, 2)
     shapes = np.arange(1 if odd else 2, 2 * _SHAPES, 2)
     modes = chebyshev.chebvander(x, _SERIES)[:, n]
@@ -71,7 +72,7 @@ def disc_rates() -> tuple[float, ...]:
     tuple of float
         λ, rising; the first few are good to six digits.
     """
-    x, weight = legendre.leggauss(2 * _SERIES)
+    x, weight = scipy.special.roots_legendre(2 * _SERIES)
     rho, weight = 0.5 * (x + 1), 0.5 * weight
     n = np.arange(_SERIES)
     ratio = np.concatenate(([1.0], np.cumprod((2 * n[1:] - 1) / (2 * n[1:]))))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from functools import lru_cache
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
@@ -24,26 +26,40 @@ four times as long to open it."""
 
 def empty_image(run: RunInfo, **changed: Any) -> bytes:
     """Return the file of a run that has not yet made a step, with some attributes changed."""
-    image = BytesIO()
-    with open_hdf5(image, "w") as file:
+    table = variables(run)
+    sizes = {"body": len(run.bodies), "time": 0, "step": 0}
+    given = {name: each.values for name, each in table.items() if each.values is not None}
+    sizes |= {name: each.size for name, each in given.items() if table[name].dims == (name,)}
+    layout = tuple((name, replace(variable, values=None)) for name, variable in table.items())
+    image = BytesIO(_without_values(layout, tuple(sizes.items())))
+    with open_hdf5(image, "r+") as file:
         file.attrs.update(attributes(run) | changed)
-        file["body"] = [body.name for body in run.bodies]
-        table = variables(run)
-        sizes = {"body": len(run.bodies), "time": 0, "step": 0}
-        for name, variable in table.items():
-            if variable.dims == (name,) and variable.values is not None:
-                sizes[name] = variable.values.size
+        file["body"][...] = [body.name for body in run.bodies]
+        for name, values in given.items():
+            file[name][...] = values
+    return image.getvalue()
+
+
+@lru_cache(maxsize=8)
+def _without_values(
+    layout: tuple[tuple[str, Variable], ...], sizes_of: tuple[tuple[str, int], ...]
+) -> bytes:
+    """Return a file with no values, kept: to make it takes as long as a short run."""
+    image, sizes = BytesIO(), dict(sizes_of)
+    with open_hdf5(image, "w") as file:
+        file["body"] = [""] * sizes["body"]
         # Looked up once: that takes as long as writing.
         datasets = {"body": file["body"]} | {
             name: _create(file, name, variable, [sizes[dim] for dim in variable.dims])
-            for name, variable in table.items()
+            for name, variable in layout
         }
         # netCDF takes the dimensions from these.
         for dim in sizes:
             datasets[dim].make_scale(dim)
-        for name in [each for each in table if each not in sizes]:
-            for axis, dim in enumerate(table[name].dims):
-                datasets[name].dims[axis].attach_scale(datasets[dim])
+        for name, variable in layout:
+            if name not in sizes:
+                for axis, dim in enumerate(variable.dims):
+                    datasets[name].dims[axis].attach_scale(datasets[dim])
     return image.getvalue()
 
 
@@ -107,7 +123,6 @@ def _create(file: h5py.File, name: str, variable: Variable, shape: list[int]) ->
         name,
         shape,
         "f8",
-        variable.values,
         maxshape=[_MOST if grows else shape[0], *shape[1:]],
         chunks=tuple(chunks),
         fletcher32=True,

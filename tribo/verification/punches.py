@@ -41,7 +41,7 @@ def _beside_mean(state: State, inside: Mask) -> Array:
 
 
 def _row(prefix: str, exact: float, got: float) -> Row:
-    # 2 - 1/ln(a/h), with 16 to 100 cells a radius.
+    # 2 - 1/ln(a/h), with 12 to 100 cells a radius.
     order, note = 1.75, "h^2 ln(1/h), for the mode's slope is infinite at the edge"
     return Row(f"{prefix}slowest rate, in kE*/a", "1", exact, got, 1e-3, order, note)
 
@@ -54,7 +54,7 @@ def _disc(cells: int, placement: float) -> list[Row]:
     return [_row("", disc_rates()[0], _rate(inside, grid, radius, contact, 100.0, level))]
 
 
-@reference("flat strip wears (periodic, 400 half-widths apart)", SOURCE, 32, 64, 128)
+@reference("flat strip wears (periodic, 400 half-widths apart)", SOURCE, 24, 48, 96)
 def _strip(cells: int, placement: float) -> list[Row]:
     # Images 400 half-widths away change the rate by less than a hundred-thousandth.
     size = (400 * RADIUS, 4 * RADIUS / cells)

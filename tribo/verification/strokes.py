@@ -58,7 +58,7 @@ EVERY_CELL, BY_PASS = "every cell of every pass is solved", "order in the wear o
 
 def _averaged(grid: Grid, rows: int, load: float, path: float) -> Model:
     length = rows * grid.spacing[0]
-    contact = DcFft(tolerance=1e-6)
+    contact = DcFft(tolerance=1e-4)
     return on_flat(BALL, grid, contact, load=load, flat_k=K, track_length=length, distance=path)
 
 
@@ -157,7 +157,7 @@ def _against_passes(passes: int, placement: float) -> list[Row]:
 @lru_cache
 def _spaced(intervals: int) -> Array:
     grid = Grid((1.2e-3, 0.75e-3), (128, 12))
-    model = _resolved(48, intervals + 1, 2.0, grid=grid, contact=SPRINGS, stepping=Implicit())
+    model = _resolved(48, intervals + 1, 1.0, grid=grid, contact=SPRINGS, stepping=Implicit())
     return _worn(run_to_end(model))[0]
 
 

@@ -6,7 +6,6 @@ from inspect import signature
 
 import numpy as np
 from paper_models import archard, case, half_space, motion, pair
-from scipy.optimize import newton
 from tribo.case import Case, Layer
 from tribo.core.errors import NumericalError
 from tribo.core.grid import Grid
@@ -35,7 +34,7 @@ def repeated(model, base, steps, worn, until=None):
         before = stops.times < steps[-1][0]
         stops = Stops.at(base, [*stops.times[before], steps[-1][0]])
         own = Stops.at(model, [*own.times[before], until])
-    state = begin(model)
+    state = first_contact(model)
     if worn:
         bodies = {name: replace(state.bodies[name], wear=depth) for name, depth in worn.items()}
         state = first_contact(model, {**state.bodies, **bodies})
@@ -59,20 +58,25 @@ def deepest(model, state):
     return max(np.max(body.wear) for body in bodies)
 
 
-def sought(model, base, steps, objective, worn, depth):
-    """The objective after the same steps; of a run that a depth ends, up to this depth."""
-    until = None
-    if depth:
+def sought(model, base, steps, objective, worn, depth, by):
+    """The objective after the same steps; of a run that a depth ends, up to this depth.
 
-        def missed(until):
-            return deepest(model, repeated(model, base, steps, worn, until)[-1]) / depth - 1
-
-        end = steps[-1][0]
-        until = newton(missed, end, x1=end * (1 + 1e-6), rtol=1e-8)
+    Of that depth it is on the line through the runs that end a part `by` sooner and later, whose
+    error, the same to both sides, a central difference has not.
+    """
     looks = objective if isinstance(objective, dict) else {base.end_time: objective}
     times = [*(time for time, _ in steps[:-1]), base.end_time]
-    states = zip(times, repeated(model, base, steps, worn, until), strict=True)
-    return sum(looks[time](View(model, state))[0] for time, state in states if time in looks)
+
+    def after(until=None):
+        states = repeated(model, base, steps, worn, until)
+        pairs = [(time, state) for time, state in zip(times, states, strict=True) if time in looks]
+        seen = sum(looks[time](View(model, state))[0] for time, state in pairs)
+        return seen, deepest(model, states[-1]) if until else None
+
+    if not depth:
+        return after()[0]
+    (sooner, less), (later, more) = (after(steps[-1][0] * part) for part in (1 - by, 1 + by))
+    return sooner + (later - sooner) * (depth - less) / (more - less)
 
 
 def difference(base, steps, objective, numbers, maps, part, depth=None):
@@ -93,7 +97,7 @@ def difference(base, steps, objective, numbers, maps, part, depth=None):
         worn = {name: by * change for name, change in maps.get("worn_before", {}).items()}
         made = replace(model, contact=replace(model.contact, gaps=tuple(gaps)))
         ends = depth and depth + made.case.stop.depth - base.case.stop.depth
-        found.append(sought(made, base, steps, objective, worn, ends))
+        found.append(sought(made, base, steps, objective, worn, ends, part))
     return (found[0] - found[1]) / (2 * part)
 
 
@@ -155,6 +159,8 @@ CLOSE = 1e-6
 """As near as differences of runs come, whose contacts are solved to 1e-12."""
 WINDOW = Grid(("0.5 mm", "0.5 mm"), (10, 10))
 FINE = Grid(("0.5 mm", "0.5 mm"), (16, 16))
+SMALL = Grid(("0.45 mm", "0.5 mm"), (5, 6))
+"""With contacts of six cells, of three pressures, where each cell costs breaks of its own."""
 ODD = Grid(("0.45 mm", "0.5 mm"), (9, 10))
 """With one deepest cell in each row, where two would have a derivative to each side."""
 MIDDLE = Grid(("0.45 mm", "0.45 mm"), (9, 9))

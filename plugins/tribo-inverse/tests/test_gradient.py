@@ -14,6 +14,7 @@ from gradients import (
     OF_SMOOTH,
     RAMP,
     SHAPE,
+    SMALL,
     SMOOTH,
     STAGES,
     Kind,
@@ -128,6 +129,7 @@ KINDS = {
     ),
     "load over time": Kind(
         run(
+            grid=SMALL,
             load=RAMP,
             bodies=pair(FRESH, power(1.5)),
             kinematics=motion(duration=10),

@@ -13,6 +13,7 @@ from gradients import (
     OF_SMOOTH,
     RAMP,
     SHAPE,
+    SMALL,
     SMOOTH,
     STAGES,
     Kind,
@@ -27,7 +28,6 @@ from gradients import (
 )
 from paper_models import Faster, K, archard, motion, pair
 from tribo.contact.winkler import Winkler
-from tribo.core.grid import Grid
 from tribo.integration import integrator
 from tribo.wear.running_in import RunningIn
 
@@ -36,7 +36,6 @@ from tribo_inverse.adjoint.gradient import gradient
 from tribo_inverse.adjoint.objective import Depth
 from tribo_inverse.increment import remembering, slopes
 
-FEW = Grid(("0.45 mm", "0.5 mm"), (7, 8))
 OF_SPEED = RunningIn(law=Faster(), factor=4.0, over="1 GPa m")
 FAST = RunningIn(law=archard(2 * K), factor=4.0, over="0.5 GPa m")
 SLOW = SMOOTH.model_copy(update={"law": archard(K / 2), "depth": 1e-7})
@@ -119,7 +118,7 @@ KINDS = {
     ),
     "layers, remembers for a small part of a step": Kind(
         run(
-            grid=FEW,
+            grid=SMALL,
             bodies=layered(None, ("0.01 um", SLOW), None, FLEETING),
             kinematics=motion(duration=4),
             stepping=LONG,
