@@ -10,6 +10,8 @@ from tribo_fretting.closed_forms import tangential_compliance
 from tribo_fretting.projected_cg import Drag, dragged
 
 LOAD, MU, RADIUS = 100.0, 0.6, 10e-3
+K = 1e-15
+STEEL = {"young": "207 GPa", "poisson": 0.3}
 
 
 class Ball(NamedTuple):
@@ -49,3 +51,25 @@ def ball(cells, poisson=0.3, young=207e9, load=LOAD, radius=RADIUS, window=None)
     solution = DcFft(tolerance=1e-11).solve(problem)
     pair = (material, material)
     return Ball(grid, solution.pressure, solution.approach, contact_radius, pair)
+
+
+def case(cells=24, amplitude="2.2 um", k=K, **changes):
+    """A ball of 10 mm on a flat, 100 N, for 1e5 cycles."""
+    motion = {"type": "fretting.motion", "amplitude": amplitude, "frequency": "20 Hz"}
+    motion |= {"cycles": 1e5} | changes.pop("motion", {})
+    law = changes.pop("law", {"type": "archard", "k": k})
+    return {
+        "grid": {"size": changes.pop("size", "0.5 mm"), "cells": cells},
+        "load": {"normal": LOAD},
+        "friction": {"coefficient": MU},
+        "bodies": {
+            "ball": {
+                "surface": {"type": "sphere", "radius": "10 mm"},
+                "material": STEEL,
+                "wear": law,
+            },
+            "flat": {"surface": {"type": "flat"}, "material": STEEL},
+        },
+        "kinematics": motion,
+        **changes,
+    }

@@ -7,9 +7,5 @@ from tribo_fretting.partial_slip import PartialSlip
 
 test_motion = parametrize_checks(Fretting)
 test_partial_slip = parametrize_checks(
-    PartialSlip,
-    [
-        {"amplitude": "10 um", "direction": "free"},
-        {"amplitude": "10 um", "stiffness": "200 N/um"},
-    ],
+    PartialSlip, [{"amplitude": "10 um", "direction": "free", "stiffness": "200 N/um"}]
 )

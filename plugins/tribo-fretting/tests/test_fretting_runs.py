@@ -2,36 +2,11 @@
 
 import numpy as np
 import pytest
-from fretting_problems import LOAD, MU, ball
+from fretting_problems import LOAD, MU, STEEL, K, ball, case
 from tribo import CaseError, Simulation
 
 from tribo_fretting.closed_forms import force_ratio, shift
 from tribo_fretting.motion import Fretting
-
-K = 1e-15
-STEEL = {"young": "207 GPa", "poisson": 0.3}
-
-
-def case(cells=24, amplitude="2.2 um", k=K, **changes):
-    """A ball of 10 mm on a flat, 100 N, for 1e5 cycles."""
-    motion = {"type": "fretting.motion", "amplitude": amplitude, "frequency": "20 Hz"}
-    motion |= {"cycles": 1e5} | changes.pop("motion", {})
-    law = changes.pop("law", {"type": "archard", "k": k})
-    return {
-        "grid": {"size": changes.pop("size", "0.5 mm"), "cells": cells},
-        "load": {"normal": LOAD},
-        "friction": {"coefficient": MU},
-        "bodies": {
-            "ball": {
-                "surface": {"type": "sphere", "radius": "10 mm"},
-                "material": STEEL,
-                "wear": law,
-            },
-            "flat": {"surface": {"type": "flat"}, "material": STEEL},
-        },
-        "kinematics": motion,
-        **changes,
-    }
 
 
 def run(*args, **changes):

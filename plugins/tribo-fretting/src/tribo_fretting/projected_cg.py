@@ -27,7 +27,7 @@ class Drag:
         How far points have slipped, in m: 0 where they stick; beyond the contact how far the
         surfaces have moved along each other.
     iterations : int
-        Each costs two calls of the operator.
+        Each costs two calls of the operator, or one where no cell meets its rim.
     """
 
     displacement: float
@@ -81,10 +81,11 @@ def dragged(
         if np.any(operator.apply(start)[0] > displacement):
             start[0] = 0.0
     q = _on_discs(start, limit)
+    moved = operator.apply(q)
     direction = before = None
     was_sliding, decrease = np.zeros_like(pressed), 1.0
     for iteration in range(max_iterations + 1):
-        slip = drive - operator.apply(q)
+        slip = drive - moved
         normal = q / safe
         outward = np.sum(slip * normal, axis=0)
         sliding = pressed & (_lengths(q) >= limit * (1 - ON_RIM)) & (outward > 0)
@@ -103,9 +104,13 @@ def dragged(
             beta = max(0.0, float(np.sum(z * (residual - before))) / decrease)
             direction = z + beta * _tangent(direction, normal)
         decrease, before, was_sliding = float(np.sum(residual * z)), residual, sliding
-        bent = operator.apply(direction) + curved * direction
-        length = float(np.sum(residual * direction) / np.sum(direction * bent))
-        q = _on_discs(q + length * direction, limit)
+        response = operator.apply(direction)
+        stiffness = np.sum(direction * (response + curved * direction))
+        length = float(np.sum(residual * direction) / stiffness)
+        ahead = q + length * direction
+        q = _on_discs(ahead, limit)
+        # Where no cell left its disc the displacement is known.
+        moved = moved + length * response if np.array_equal(q, ahead) else operator.apply(q)
     raise NumericalError(
         f"partial slip did not converge in {max_iterations} iterations: slip is off by "
         f"{error / displacement:.1e} of the displacement, allowed are {tolerance:.1e}; raise "

@@ -1,0 +1,51 @@
+"""Pictures of a result that frets: loops, and a map of the slip."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from tribo_fretting.cycles import SavedCycle
+
+MOST = 5
+"""Loops in a picture."""
+
+
+def loops(cycles: list[SavedCycle], frequency: float) -> Figure:
+    """Draw the tangential force over the displacement, at some of the saves.
+
+    Parameters
+    ----------
+    cycles : list of SavedCycle
+        Of all saves.
+    frequency : float
+        Cycles per second.
+    """
+    figure = Figure(figsize=(3.35, 2.6))
+    axes = figure.add_subplot(xlabel="Displacement (µm)", ylabel="Tangential force (N)")
+    chosen = np.unique(np.linspace(0, len(cycles) - 1, min(MOST, len(cycles))).round().astype(int))
+    for at, shade in zip(chosen, np.linspace(0.7, 0.0, len(chosen)), strict=True):
+        moved, force = cycles[at].loop()
+        number = frequency * float(cycles[at].result.times[at])
+        axes.plot(1e6 * moved, force, color=str(shade), label=f"{number:.3g} cycles")
+    axes.legend()
+    return figure
+
+
+def slip_map(cycle: SavedCycle) -> Figure:
+    """Draw how far points slip from one end of the stroke to the other, and where they stick."""
+    figure = Figure(figsize=(3.35, 2.8))
+    axes = figure.add_subplot(xlabel="x (µm)", ylabel="y (µm)", aspect="equal")
+    grid, pressed = cycle.result.grid, cycle.pressure > 0
+    x, y = (1e6 * axis for axis in (grid.x, grid.y))
+    slip = np.where(pressed, 1e6 * cycle.slip, np.nan)
+    image = axes.pcolormesh(x, y, slip.T, vmin=0.0, shading="nearest", rasterized=True)
+    figure.colorbar(image, label="Slip of a half cycle (µm)")
+    for cells, look in ((pressed, "0.4"), (cycle.stuck, "w")):
+        if cells.any() and not cells.all():
+            axes.contour(x, y, cells.T.astype(float), [0.5], colors=look, linewidths=1.0)
+    for limit, mask in ((axes.set_xlim, pressed.any(axis=1)), (axes.set_ylim, pressed.any(axis=0))):
+        at = (x if limit == axes.set_xlim else y)[mask]
+        margin = 0.1 * np.ptp(at)
+        limit(at[0] - margin, at[-1] + margin)
+    return figure
