@@ -5,7 +5,7 @@ import pytest
 from fretting_problems import LOAD, MU, STEEL, K, ball, case
 from tribo import CaseError, Simulation
 
-from tribo_fretting.closed_forms import force_ratio, shift
+from tribo_fretting.closed_forms import force_ratio, shift, worn_load_share
 from tribo_fretting.motion import Fretting
 
 
@@ -25,9 +25,8 @@ STAGES = [{"until": "2000 s", "amplitude": "2 um"}, {"until": "5000 s", "amplitu
         {"amplitude": STAGES},
         {"motion": {"direction": "free"}, "k": 1e-16},
         {"motion": {"stiffness": "50 N/um"}, "amplitude": "4 um", "k": 1e-16},
-        {"load": [{"at": "0 s", "normal": 100.0}, {"at": "5000 s", "normal": 80.0}], "k": 1e-16},
     ],
-    ids=["few cycles", "stages", "free", "rig", "ramp"],
+    ids=["few cycles", "stages", "free", "rig"],
 )
 def test_worn_volume_goes_with_the_energy_of_the_loops(changes):
     volume, energy, _ = run(**changes)
@@ -47,15 +46,12 @@ def test_a_hundred_thousand_cycles_take_few_solves():
     assert volume == pytest.approx(K / MU * energy, rel=1e-10, abs=0)
 
 
-def test_energy_law_and_running_in_wear_by_the_slip():
+def test_the_energy_law_wears_by_the_slip():
     pytest.importorskip("tribo_energy")
     plain, _, _ = run(k=1e-16)
     law = {"type": "energy.dissipation", "alpha": 1e-16 / MU}
     dissipating, _, _ = run(law=law, effects=[{"type": "energy.friction_traction"}])
     assert dissipating == pytest.approx(plain, rel=1e-6, abs=0)
-    inner = {"type": "archard", "k": 1e-17}
-    law = {"type": "running_in", "factor": 10, "over": "1e13 Pa m", "law": inner}
-    assert run(law=law)[0] == pytest.approx(plain, rel=0.01, abs=0)
 
 
 def test_volumes_go_on_from_partial_to_gross_slip():
@@ -147,3 +143,26 @@ def test_what_partial_slip_is_not_for_is_refused_in_one_line(name):
     with pytest.raises(CaseError, match=words) as caught:
         Simulation(wrong).run()
     assert len(str(caught.value).splitlines()) == 1
+
+
+def test_in_the_end_the_ball_stands_on_what_sticks():
+    # ν = 0: the ring of slip has worn until it bears nothing (MDR); E* is E/2.
+    cork = {**STEEL, "poisson": 0.0}
+    first = ball(8, poisson=0.0)
+    moved = shift(0.875, MU * LOAD, first.contact_radius, first.compliance)
+    coarse = {"type": "implicit", "depth_tolerance": 0.02, "pressure_tolerance": 0.3}
+    wears = case(32, moved, k=3e-13, size=3.4 * first.contact_radius, stepping=coarse)
+    for body in wears["bodies"].values():
+        body["material"] = cork
+    result = Simulation(wears).run()
+    approach, pressure = result.saves()[-1]["approach_m"], result.field("pressure", -1)
+    stuck = (pressure > 0) & (result.field("local_slip", -1, "ball") == 0)
+    assert np.sum(pressure[stuck]) >= 0.999 * np.sum(pressure)
+    radius = np.sqrt(stuck.sum() * result.grid.cell_area / np.pi)
+    whole = np.sqrt(10e-3 * approach)
+    unworn = 4 / 3 * 103.5e9 * np.sqrt(10e-3) * approach**1.5
+    low, high = (
+        unworn * worn_load_share((radius + way * 0.5 * result.grid.spacing[0]) / whole)
+        for way in (-1, 1)
+    )
+    assert low <= LOAD <= high

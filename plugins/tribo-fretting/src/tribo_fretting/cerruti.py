@@ -36,24 +36,15 @@ def coefficients(
     """Return uxx, uyy and uxy under a traction of 1 on one cell, shape (3, nx, ny), in m/Pa.
 
     Entry (i, j) belongs to the offset of (i, j) cells, counted round as a circular convolution of
-    `shape` needs it. u is the displacement of one body less the displacement of the other. With [·]
-    the sum over the corners of a cell, signs + − − +, and r² = x² + y²::
+    `shape` (nx, ny) needs it; cells have the edges `spacing` (m), bodies the compliances A and B
+    (1/Pa). u is the displacement of one body less the displacement of the other. With [·] the sum
+    over the corners of a cell, signs + − − +, and r² = x² + y²::
 
         uxx = A [y ln(x + r)] + (A − B) [x ln(y + r)],  uyy alike,  uxy = −B [r]
 
-    Parameters
-    ----------
-    shape : tuple of int
-        Cells (nx, ny) of the transform.
-    spacing : tuple of float
-        Edge lengths of a cell along x and y, in m.
-    compliances : tuple of float
-        A and B of `tangential_compliances`, in 1/Pa.
-
     References
     ----------
-    Cerruti's potentials: Johnson, K. L. (1985), Contact Mechanics, section 3.6, integrated over
-    a rectangle.
+    Johnson, K. L. (1985), Contact Mechanics, section 3.6 (Cerruti), integrated over a rectangle.
     """
     # Corners lie half a cell off, so that none has x = 0 or y = 0.
     x, y = ((np.arange(n // 2 + 2) - 0.5) * d for n, d in zip(shape, spacing, strict=True))
@@ -76,19 +67,9 @@ def coefficients(
 class Cerruti:
     """Two half-spaces under tangential traction that is constant in each cell, in free space.
 
-    The convolution is padded with zeros (DC-FFT), as that of the normal contact. With one component
-    an object is an `Operator` of `tribo.solve_bounded`.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Cells (nx, ny) of the box.
-    spacing : tuple of float
-        Edge lengths of a cell along x and y, in m.
-    compliances : tuple of float
-        A and B of `tangential_compliances`, in 1/Pa.
-    components : int
-        1 for tractions and displacements along x alone, 2 for both.
+    The convolution is padded with zeros (DC-FFT), as that of the normal contact. Parameters are
+    those of `coefficients`, on a box, and the components: 1 for tractions along x alone, 2 for
+    both. With one an object is an `Operator` of `tribo.solve_bounded`.
     """
 
     def __init__(
@@ -112,10 +93,7 @@ class Cerruti:
         np.maximum(self._symbols, FLOOR * self.typical, out=self._symbols)
 
     def apply(self, traction: Array) -> Array:
-        """Return the displacement (m) under a traction (Pa), both (components, nx, ny).
-
-        Or both (nx, ny), along x.
-        """
+        """Return the displacement (m) under a traction (Pa), (components, nx, ny) or (nx, ny)."""
         (nx, ny), (uxx, uyy, uxy) = self.shape, self._spectra
         modes = scipy.fft.rfft2(traction, self._padded)
         if traction.ndim == 2 or self.components == 1:

@@ -31,16 +31,7 @@ def stick_radius(ratio: float, radius: float) -> float:
 def shift(ratio: float, sliding_force: float, radius: float, compliance: float) -> float:
     """Return δ = 3 μP C/(16 a) [1 − (1 − Q/μP)^⅔], the displacement under Q, in m.
 
-    Parameters
-    ----------
-    ratio : float
-        Q/μP; 1 where all of the contact slips.
-    sliding_force : float
-        μP, in N.
-    radius : float
-        a, in m.
-    compliance : float
-        C of `tangential_compliance`, in 1/Pa.
+    For the `ratio` Q/μP, the `sliding_force` μP (N), the `radius` a (m) and C (1/Pa).
     """
     return 3 * sliding_force * compliance / (16 * radius) * (1 - math.cbrt(1 - ratio) ** 2)
 
@@ -65,11 +56,6 @@ def worn_load_share(stuck: float) -> float:
     """Return P∞/P of a ball that wore at its first approach until nothing slips, for c/a.
 
     P∞/P = 1.5 c/a − 0.5 (c/a)³: the stick zone indents on, the ring round it bears no load.
-
-    References
-    ----------
-    Dimaki, A. V., Dmitriev, A. I., Chai, Y. S., Popov, V. L. (2014), Rapid simulation procedure for
-    fretting wear on the basis of the method of dimensionality reduction, Int. J. Solids Struct. 51,
-    4215-4220.
+    Popov, V. L. (2014), Sci. Rep. 4, 3749.
     """
     return 1.5 * stuck - 0.5 * stuck**3

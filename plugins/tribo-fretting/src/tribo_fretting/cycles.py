@@ -11,8 +11,6 @@ from tribo import Array, Mask, Material, Result
 from tribo_fretting.cerruti import dundurs_beta
 from tribo_fretting.loading import first_loading
 from tribo_fretting.motion import Fretting
-from tribo_fretting.partial_slip import stick
-from tribo_fretting.projected_cg import Drag
 
 POINTS = 16
 """Of the first loading, from which a loop is drawn."""
@@ -26,17 +24,7 @@ def motion_of(result: Result) -> Fretting | None:
 
 @dataclass(frozen=True)
 class SavedCycle:
-    """The cycle at a save of a result that frets.
-
-    Parameters
-    ----------
-    result : Result
-        The result.
-    motion : Fretting
-        Its motion.
-    save : int
-        Saves count from 0; -1 is the last.
-    """
+    """The cycle at a save of a result that frets; -1 is the last save."""
 
     result: Result
     motion: Fretting
@@ -52,11 +40,6 @@ class SavedCycle:
         """Contact pressure, in Pa."""
         return self.result.field("pressure", self.save)
 
-    @property
-    def cell_area(self) -> float:
-        """Area of a cell, in m²."""
-        return self.result.grid.cell_area
-
     @cached_property
     def slip(self) -> Array:
         """Slip of each point in the contact from one end of the stroke to the other, in m."""
@@ -65,18 +48,18 @@ class SavedCycle:
     @property
     def stuck(self) -> Mask:
         """Where the contact sticks."""
-        return stick(self.pressure, self.slip)
+        return np.asarray((self.pressure > 0) & (self.slip == 0))
 
     @property
     def force(self) -> float:
         """Amplitude of the tangential force, in N."""
-        return float(np.sum(self._kept("traction_x"))) * self.cell_area
+        return float(np.sum(self._kept("traction_x"))) * self.result.grid.cell_area
 
     @property
     def energy(self) -> float:
         """Energy that the cycle dissipates, in J."""
         traction = np.hypot(self._kept("traction_x"), self._kept("traction_y"))
-        return 2 * float(np.sum(traction * self.slip)) * self.cell_area
+        return 2 * float(np.sum(traction * self.slip)) * self.result.grid.cell_area
 
     @cached_property
     def friction(self) -> Array:
@@ -105,18 +88,17 @@ class SavedCycle:
         """
         first = [(0.0, 0.0)]
         for part in np.linspace(0.0, 1.0, POINTS + 1)[1:]:
-            drag = self._first_loading(float(part) * self.amplitude)
-            force = float(np.sum(drag.traction[0])) * self.cell_area
+            amplitude, grid = float(part) * self.amplitude, self.result.grid
+            drag = first_loading(
+                self.motion, grid, self.materials, self.pressure, self.friction, amplitude
+            )
+            force = float(np.sum(drag.traction[0])) * self.result.grid.cell_area
             rig = force / self.motion.stiffness if self.motion.stiffness else 0.0
             first.append((drag.displacement + rig, force))
         one = np.array(first)
         back = one[-1] - 2 * one
         moved, force = np.concatenate([back, -back]).T
         return moved, force
-
-    def _first_loading(self, amplitude: float) -> Drag:
-        grid, materials = self.result.grid, self.materials
-        return first_loading(self.motion, grid, materials, self.pressure, self.friction, amplitude)
 
     def _kept(self, name: str) -> Array:
         return self.result.field(name, self.save, self.result.body_names[0])

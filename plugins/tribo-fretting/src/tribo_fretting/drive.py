@@ -10,7 +10,6 @@ from pydantic import Discriminator, Tag, field_validator
 from tribo import Quantity, Table
 
 Amplitude = Annotated[float, Quantity("m", above=0, usual=(1e-10, 1e-3))]
-Stiffness = Annotated[float, Quantity("N/m", above=0, usual=(1e2, 1e12))]
 
 
 class AmplitudeStage(Table):
@@ -26,13 +25,12 @@ class Drive(Table):
     """What drags a contact to and fro along x."""
 
     amplitude: Annotated[
-        Annotated[float, Quantity("m", above=0, usual=(1e-10, 1e-3)), Tag("number")]
-        | Annotated[tuple[AmplitudeStage, ...], Tag("stages")],
+        Annotated[Amplitude, Tag("number")] | Annotated[tuple[AmplitudeStage, ...], Tag("stages")],
         Discriminator(lambda value: "stages" if isinstance(value, list | tuple) else "number"),
     ]
     """How far the motion goes to each side: a number, or a list of stages, each a table with
     `until` and `amplitude`."""
-    stiffness: Stiffness | None = None
+    stiffness: Annotated[float, Quantity("N/m", above=0, usual=(1e2, 1e12))] | None = None
     """Stiffness of the rig in series with the contact, along x: the amplitude is then that of the
     rig; a rigid rig if left out."""
     force_amplitude: Annotated[float, Quantity("N", above=0)] | None = None

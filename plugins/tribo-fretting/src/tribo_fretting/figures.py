@@ -12,15 +12,7 @@ MOST = 5
 
 
 def loops(cycles: list[SavedCycle], frequency: float) -> Figure:
-    """Draw the tangential force over the displacement, at some of the saves.
-
-    Parameters
-    ----------
-    cycles : list of SavedCycle
-        Of all saves.
-    frequency : float
-        Cycles per second.
-    """
+    """Draw the tangential force over the displacement at some of the saves; frequency in Hz."""
     figure = Figure(figsize=(3.35, 2.6))
     axes = figure.add_subplot(xlabel="Displacement (µm)", ylabel="Tangential force (N)")
     chosen = np.unique(np.linspace(0, len(cycles) - 1, min(MOST, len(cycles))).round().astype(int))
@@ -44,8 +36,6 @@ def slip_map(cycle: SavedCycle) -> Figure:
     for cells, look in ((pressed, "0.4"), (cycle.stuck, "w")):
         if cells.any() and not cells.all():
             axes.contour(x, y, cells.T.astype(float), [0.5], colors=look, linewidths=1.0)
-    for limit, mask in ((axes.set_xlim, pressed.any(axis=1)), (axes.set_ylim, pressed.any(axis=0))):
-        at = (x if limit == axes.set_xlim else y)[mask]
-        margin = 0.1 * np.ptp(at)
-        limit(at[0] - margin, at[-1] + margin)
+    rows, columns = x[pressed.any(axis=1)], y[pressed.any(axis=0)]
+    axes.set(xlim=1.1 * rows[[0, -1]], ylim=1.1 * columns[[0, -1]])
     return figure

@@ -31,23 +31,8 @@ def first_loading(
     4 s₁ a cycle: Masing's rule. With a rig the contact moves by δ less Q/k; with a force amplitude
     by less, if Q reaches it. Answers are kept while the same contact is asked for again.
 
-    Parameters
-    ----------
-    drive : Drive
-        Rig, force amplitude, direction of slip and tolerance.
-    grid : Grid
-        The window.
-    materials : Mapping[str, Material]
-        The bodies' materials.
-    pressure, friction : ndarray, shape (nx, ny)
-        Contact pressure, in Pa, and coefficient of friction.
-    amplitude : float
-        δ, in m.
-
-    Returns
-    -------
-    Drag
-        On the window, with both components of the traction.
+    Pressure (Pa) and coefficient of friction have the shape of the grid, the amplitude δ is in m.
+    The answer has both components of the traction.
     """
     limit = np.where(pressure > 0, friction * pressure, 0.0)
     compliances = tangential_compliances(materials.values())

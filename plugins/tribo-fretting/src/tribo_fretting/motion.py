@@ -71,7 +71,7 @@ class Fretting(Kinematics, Drive):
 
     @property
     def edges(self) -> Sequence[float]:
-        """Times at which one stage of the amplitude ends and another begins, in s."""
+        """Times at which one stage of the amplitude ends and the next begins, in s."""
         return [end for end, _ in self.stages[:-1]]
 
     def distance_at(self, time: float) -> float:

@@ -17,17 +17,9 @@ ON_RIM = 1e-12
 class Drag:
     """A contact that was dragged along x from a traction of 0.
 
-    Parameters
-    ----------
-    displacement : float
-        How far, in m.
-    traction : ndarray, shape (components, nx, ny)
-        In Pa; along x, and across with two components.
-    slip : ndarray, shape (nx, ny)
-        How far points have slipped, in m: 0 where they stick; beyond the contact how far the
-        surfaces have moved along each other.
-    iterations : int
-        Each costs two calls of the operator, or one where no cell meets its rim.
+    By a displacement, in m, to a traction in Pa, shape (components, nx, ny). Points have slipped by
+    `slip` (nx, ny), in m: 0 where they stick, and beyond the contact as far as the surfaces moved
+    along each other. An iteration costs two calls of the operator, one where no cell meets its rim.
     """
 
     displacement: float
@@ -64,12 +56,7 @@ def dragged(
     tolerance : float
         What the slip within the discs and along their rims must fall to, relative to δ.
     max_iterations : int
-        After which the solve is given up.
-
-    Raises
-    ------
-    NumericalError
-        If it was given up.
+        `NumericalError` after that many.
     """
     drive = np.zeros((operator.components, 1, 1))
     drive[0] = displacement
