@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 from tribo import Array, Mask, Material, Result
 
-from tribo_fretting.cerruti import dundurs_beta
 from tribo_fretting.loading import first_loading
 from tribo_fretting.motion import Fretting
 
@@ -74,12 +73,6 @@ class SavedCycle:
         """The bodies' materials, by name."""
         bodies = self.result.case["bodies"].items()
         return {name: Material.model_validate(body["material"]) for name, body in bodies}
-
-    @property
-    def coupling(self) -> float:
-        """|β| μ, by about which the pressure is off for want of the traction's displacement."""
-        beta = abs(dundurs_beta(self.materials.values()))
-        return beta * float(np.max(self.friction))
 
     def loop(self) -> tuple[Array, Array]:
         """Return the displacement of the rig (m) and the tangential force (N) along the cycle.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from itertools import pairwise
 from typing import Annotated, Literal
 
@@ -67,5 +66,4 @@ class Drive(Table):
 
     def amplitude_at(self, time: float) -> float:
         """Return the amplitude (m) up to a time, in s; the last one beyond."""
-        ends = [end for end, _ in self.stages]
-        return self.stages[min(bisect_left(ends, time), len(ends) - 1)][1]
+        return next((held for end, held in self.stages if time <= end), self.stages[-1][1])

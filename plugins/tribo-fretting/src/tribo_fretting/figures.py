@@ -7,15 +7,12 @@ from matplotlib.figure import Figure
 
 from tribo_fretting.cycles import SavedCycle
 
-MOST = 5
-"""Loops in a picture."""
-
 
 def loops(cycles: list[SavedCycle], frequency: float) -> Figure:
-    """Draw the tangential force over the displacement at some of the saves; frequency in Hz."""
+    """Draw the tangential force over the displacement at up to five saves; frequency in Hz."""
     figure = Figure(figsize=(3.35, 2.6))
     axes = figure.add_subplot(xlabel="Displacement (µm)", ylabel="Tangential force (N)")
-    chosen = np.unique(np.linspace(0, len(cycles) - 1, min(MOST, len(cycles))).round().astype(int))
+    chosen = np.unique(np.linspace(0, len(cycles) - 1, min(5, len(cycles))).round().astype(int))
     for at, shade in zip(chosen, np.linspace(0.7, 0.0, len(chosen)), strict=True):
         moved, force = cycles[at].loop()
         number = frequency * float(cycles[at].result.times[at])

@@ -25,7 +25,7 @@ def first_loading(
     friction: Array,
     amplitude: float,
 ) -> Drag:
-    """Drag a contact from rest to the point of reversal, where the traction is q₁ and the slip s₁.
+    """Drag a contact from rest to the reversal, where the traction is q₁ and the slip s₁.
 
     Under a steady pressure a motion between ±δ leads to the tractions ±q₁, and each point slips
     4 s₁ a cycle: Masing's rule. With a rig the contact moves by δ less Q/k; with a force amplitude

@@ -7,7 +7,7 @@ from typing import Annotated, Self
 
 import numpy as np
 from pydantic import ConfigDict, model_validator
-from tribo import Array, CaseError, Effect, Exposure, Grid, Kinematics, Quantity, Stationary
+from tribo import CaseError, Effect, Exposure, Grid, Kinematics, Quantity, Stationary
 
 from tribo_fretting.drive import Drive
 from tribo_fretting.partial_slip import PartialSlip
@@ -21,19 +21,7 @@ class Fretting(Kinematics, Drive):
     """
 
     model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"amplitude": "3 um", "frequency": "20 Hz", "cycles": 1e5},
-                {
-                    "amplitude": [
-                        {"until": "1 hour", "amplitude": "3 um"},
-                        {"until": "2 hour", "amplitude": "5 um"},
-                    ],
-                    "frequency": "20 Hz",
-                    "duration": "2 hour",
-                },
-            ]
-        }
+        json_schema_extra={"examples": [{"amplitude": "3 um", "frequency": "20 Hz", "cycles": 1e5}]}
     )
 
     type = "fretting.motion"
@@ -76,19 +64,11 @@ class Fretting(Kinematics, Drive):
 
     def distance_at(self, time: float) -> float:
         """Return the path until `time`, in m."""
-        return float(np.interp(time, *self._knots()))
-
-    def time_at(self, distance: float) -> float:
-        """Return the time at which the path reaches `distance`, in s."""
-        times, distances = self._knots()
-        return float(np.interp(distance, distances, times))
-
-    def _knots(self) -> tuple[Array, Array]:
-        """Return the times at which the speed changes, from 0 to the end, and the path by then."""
-        times = np.array([0.0, *(edge for edge in self.edges if edge < self.end_time)])
-        times = np.append(times, self.end_time)
-        speeds = [4 * self.frequency * self.amplitude_at(time) for time in times[1:]]
-        return times, np.concatenate([[0.0], np.cumsum(np.diff(times) * speeds)])
+        edges = (edge for edge in self.edges if edge < self.end_time)
+        times = np.array([0.0, *edges, self.end_time])
+        speeds = [4 * self.frequency * self.amplitude_at(end) for end in times[1:]]
+        path = np.concatenate([[0.0], np.cumsum(np.diff(times) * speeds)])
+        return float(np.interp(time, times, path))
 
     def effects(self) -> Sequence[Effect]:
         """Return the partial slip under this motion."""

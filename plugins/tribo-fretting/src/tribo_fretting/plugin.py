@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from tribo import Component, LabRow, Result, hookimpl
 
+from tribo_fretting.cerruti import dundurs_beta
 from tribo_fretting.cycles import SavedCycle, motion_of
 from tribo_fretting.motion import Fretting
 from tribo_fretting.partial_slip import PartialSlip
@@ -46,8 +47,9 @@ def tribo_lab_rows(result: Result) -> list[LabRow]:
     if energy > 0:
         volume = sum(body["wear_volume_m3"] for body in result.saves()[-1]["bodies"].values())
         rows.append(LabRow("worn volume per energy", 1e9 * volume / float(energy), "mm³/J"))
-    if cycle.coupling > 0:
-        rows.append(LabRow("coupling of traction and pressure", cycle.coupling, "", COUPLED))
+    coupling = abs(dundurs_beta(cycle.materials.values())) * float(np.max(cycle.friction))
+    if coupling > 0:
+        rows.append(LabRow("coupling of traction and pressure", coupling, "", COUPLED))
     return rows
 
 
