@@ -136,6 +136,12 @@ REFUSED = {
 }
 
 
+def test_a_trial_on_a_coarse_grid_takes_a_narrow_ring():
+    motion = Fretting(amplitude="1 um", frequency=20, cycles=1)
+    trial = case(k=0.0) | {"kinematics": motion.coarsened(1e-4)}
+    assert Simulation(trial).run().saves()[-1]["friction_energy_J"] > 0
+
+
 @pytest.mark.parametrize("name", REFUSED)
 def test_what_partial_slip_is_not_for_is_refused_in_one_line(name):
     changes, words = REFUSED[name]

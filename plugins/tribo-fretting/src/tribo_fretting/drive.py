@@ -35,10 +35,11 @@ class Drive(Table):
     force_amplitude: Annotated[float, Quantity("N", above=0)] | None = None
     """Tangential force at which the motion turns back before its amplitude is reached."""
     direction: Literal["free", "along"] = "along"
-    """Whether points slip where the traction leads them, or along x alone, as in the closed forms;
-    that takes a quarter of the time."""
+    """Whether points slip along x alone, as in closed forms, or as their traction leads them."""
     tolerance: Annotated[float, Quantity("1", above=1e-13, below=1e-3)] = 1e-9
     """How exactly points stick, relative to the displacement."""
+    allow_narrow_ring: bool = False
+    """Whether a first contact is accepted whose ring of slip is narrower than four cells."""
 
     @field_validator("amplitude")
     @classmethod

@@ -70,6 +70,10 @@ class Fretting(Kinematics, Drive):
         path = np.concatenate([[0.0], np.cumsum(np.diff(times) * speeds)])
         return float(np.interp(time, times, path))
 
+    def coarsened(self, half_width_x: float) -> Kinematics:
+        """Return the motion for a coarse grid, whose ring of slip is narrow."""
+        return self.model_copy(update={"allow_narrow_ring": True})
+
     def effects(self) -> Sequence[Effect]:
         """Return the partial slip under this motion."""
         return [PartialSlip(**{name: getattr(self, name) for name in Drive.model_fields})]

@@ -87,7 +87,7 @@ class PartialSlip(Effect, Drive):
             self, contact.grid, contact.materials, contact.pressure, friction, amplitude
         )
         if contact.distance == 0:
-            _check_first_contact(contact, drag)
+            _check_first_contact(contact, drag, self.allow_narrow_ring)
         slip = np.clip(drag.slip / amplitude, 0.0, 1.0)
         answers = zip(self.provides, (slip, *drag.traction), strict=True)
         return {field.name: dict.fromkeys(contact.materials, of) for field, of in answers}
@@ -111,7 +111,7 @@ class PartialSlip(Effect, Drive):
             )
 
 
-def _check_first_contact(contact: ContactConditions, drag: Drag) -> None:
+def _check_first_contact(contact: ContactConditions, drag: Drag, narrow: bool) -> None:
     pressed, grid = contact.pressure > 0, contact.grid
     half_width = 0.5 * np.count_nonzero(pressed.any(axis=1)) * grid.spacing[0]
     if drag.displacement > PART * half_width:
@@ -123,21 +123,16 @@ def _check_first_contact(contact: ContactConditions, drag: Drag) -> None:
         )
     stuck = pressed & (drag.slip == 0)
     slipping = np.count_nonzero(pressed & ~stuck)
-    if pressed.any() and not slipping:
-        raise CaseError(
-            "every point of the contact sticks, and nothing wears; raise the amplitude, or "
-            "refine the grid",
-            "kinematics.amplitude",
-        )
     # What a rough contact has is no ring.
-    if contact.system.curvature is None or not stuck.any():
+    if narrow or not stuck.any() or (slipping and contact.system.curvature is None):
         return
     ring = slipping / (np.pi / 8 * (_faces(pressed) + _faces(stuck)))
     if ring < NARROW:
+        words = f"the ring of slip is {ring:.2g} cells wide" if slipping else "every point sticks"
         raise CaseError(
-            f"the ring of slip is {ring:.2g} cells wide; it must be {NARROW:g} at least: take "
-            f"{NARROW / ring:.2g} times as many cells, or a larger amplitude",
-            "grid.cells",
+            f"{words}; it must be {NARROW:g} cells wide at least: take a larger amplitude, or "
+            "smaller cells",
+            "kinematics.amplitude",
         )
 
 
