@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 from fretting_problems import LOAD, MU, ball
 
-from tribo_fretting.closed_forms import force_ratio, loop_energy, shift, stick_radius
+from tribo_fretting.closed_forms import (
+    force_ratio,
+    loop_energy,
+    shift,
+    stick_radius,
+    worn_load_share,
+)
 
 SLIDING = MU * LOAD
 
@@ -21,6 +27,8 @@ def test_closed_forms_give_the_numbers_of_mindlin_and_cattaneo():
         assert force_ratio(moved, SLIDING, a, c) == pytest.approx(ratio, rel=2e-5, abs=0)
         assert loop_energy(ratio, SLIDING, a, c) == pytest.approx(energy, rel=2e-5, abs=0)
         assert stick_radius(ratio, a) == pytest.approx(stuck * a, rel=2e-5, abs=0)
+    # Where all sticks the ball bears its load.
+    assert worn_load_share(1.0) == 1.0
 
 
 @pytest.mark.parametrize("ratio", [0.5, 0.9])
