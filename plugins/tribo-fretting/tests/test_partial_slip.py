@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
-from fretting_problems import LOAD, MU, ball
+from fretting_problems import LOAD, MU, RADIUS, ball
+from tribo import ContactProblem, ContactSystem, DcFft, Grid, Material
 
+from tribo_fretting.cerruti import cerruti, tangential_compliances
 from tribo_fretting.closed_forms import (
     force_ratio,
     loop_energy,
@@ -11,6 +13,7 @@ from tribo_fretting.closed_forms import (
     stick_radius,
     worn_load_share,
 )
+from tribo_fretting.projected_cg import dragged
 
 SLIDING = MU * LOAD
 
@@ -102,3 +105,21 @@ def test_tractions_and_energy_go_on_from_partial_to_gross_slip():
         assert max(drag.iterations for drag in drags) <= 42
         # In gross slip each further metre dissipates the whole force of friction.
         assert steps[-1] == pytest.approx(4 * SLIDING * 0.005 * gross, rel=2e-3, abs=0)
+
+
+def test_a_long_cylinder_sticks_as_cattaneos_in_its_middle():
+    # c/a = √(1 − Q/μP), with the line forces in the middle plane.
+    material = Material(young="207 GPa", poisson=0.3)
+    grid = Grid((0.4e-3, 6e-3), (96, 24))
+    system = ContactSystem(grid, 0.5 * material.young / 0.91, 1200.0)
+    gap = np.broadcast_to(grid.mesh[0] ** 2 / (2 * RADIUS), grid.cells)
+    pressure = DcFft().solve(ContactProblem(system, gap, 1200.0)).pressure
+    operator = cerruti(grid.cells, grid.spacing, tangential_compliances([material, material]), 1)
+    drag = dragged(operator, 1.6e-6, MU * pressure)
+    middle = np.s_[:, grid.cells[1] // 2]
+    ratio = np.sum(drag.traction[0][middle]) / np.sum(MU * pressure[middle])
+    pressed = pressure[middle] > 0
+    stuck = pressed & (drag.slip[middle] == 0)
+    assert 0.3 <= ratio <= 0.8
+    c, a = 0.5 * np.sum(stuck), 0.5 * np.sum(pressed)
+    assert c == pytest.approx(a * np.sqrt(1 - ratio), abs=0.6)
