@@ -6,6 +6,7 @@ import math
 import warnings
 from collections import UserDict
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import islice
 from typing import Any
@@ -13,9 +14,12 @@ from typing import Any
 import numpy as np
 
 from tribo.case import Body, Case
+from tribo.contact.dcfft import DcFft
+from tribo.contact.solver import ContactSolver
 from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSystem
+from tribo.core.errors import CaseError
 from tribo.core.fields import (
     FRICTION_COEFFICIENT,
     LOAD_SHARE,
@@ -30,6 +34,7 @@ from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
 from tribo.effects.effect import Effect
 from tribo.evolution.local_fields import effect_fields
+from tribo.motion.exposure import Exposure, Stationary
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
@@ -50,8 +55,9 @@ FINE = (3, 5)
 """Cells along x and y that take the place of one; its middle is that of the middle one."""
 LOAD = 100.0
 RADIUS = 5e-3
-SOLVER = "winkler"
-"""The contact solver of the samples and of runs."""
+SOLVERS: Mapping[str, type[ContactSolver]] = {"winkler": Winkler, "dcfft": DcFft}
+CONTACTS = [(solver, passing) for passing in (1, 0) for solver in SOLVERS]
+"""Contacts that an effect may serve: the solver, and how many of the bodies pass."""
 STEPS = 2000
 """Of a run, at most; most take fewer than a hundred."""
 RESUMED = 3
@@ -295,8 +301,15 @@ def small_case(
     effects: Sequence[Any] = (),
     **more: Any,
 ) -> Case:
-    """Return a case on elastic springs, both bodies under one law, if both have places for it."""
-    kinematics = kinematics or sliding(3.0)
+    """Return a case on elastic springs, both bodies under one law, if both have places for it.
+
+    On half-spaces, or with bodies that both stay, where an effect serves no other contact.
+    """
+    asked = [*(kinematics.effects() if kinematics else ()), *effects]
+    each = [served(effect, contact_conditions(effect, given)) for effect in asked]
+    common = (contact for contact in CONTACTS if all(contact in of_one for of_one in each))
+    solver, passing = next(common, CONTACTS[0])
+    kinematics = kinematics or (sliding(3.0) if passing else _Staying(**dict(sliding(3.0))))
     others = (*more.values(), *more.get("observers", ()))
     material = for_models(STEEL, law, kinematics, *effects, *others)
     provided = {f.name for e in effects for f in (*e.provides, *e.state_fields)}
@@ -317,7 +330,7 @@ def small_case(
         kinematics=kinematics,
         friction=None if friction in provided else float(field(friction, (), given, np.zeros(()))),
         effects=[*([_providing(needed, given)] if needed else []), *effects],
-        **{"contact": Winkler(), "stepping": LONG_STEPS, **more},
+        **{"contact": SOLVERS[solver](), "stepping": LONG_STEPS, **more},
     )
 
 
@@ -326,6 +339,23 @@ def sliding(distance: float) -> Reciprocating:
     return Reciprocating(
         stroke=2e-3, frequency=SPEED / 4e-3, distance=distance, positions="average"
     )
+
+
+class _Staying(Reciprocating):
+    """Back and forth sliding by so little that the points of both bodies stay in contact."""
+
+    def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
+        return {name: Stationary(grid) for name in bodies}
+
+
+def served(effect: Effect, given: ContactConditions) -> list[tuple[str, int]]:
+    """Return the contacts that an effect does not refuse: solver, and how many bodies pass."""
+    found, names = [], list(given.materials)
+    for solver, passing in CONTACTS:
+        with suppress(CaseError):
+            effect.check(given.system, frozenset(names[len(names) - passing :]), solver)
+            found.append((solver, passing))
+    return found
 
 
 def _providing(names: Sequence[str], given: Mapping[str, FieldValue]) -> Effect:

@@ -1,0 +1,1 @@
+"""Fretting: partial slip in a contact, and wear by the slip, for tribo."""

@@ -1,0 +1,118 @@
+"""Cerruti's displacement along the surface under tangential traction, as an operator."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from functools import lru_cache
+
+import numpy as np
+import scipy
+from tribo import Array, Material
+
+FLOOR = 0.05
+"""Least eigenvalue that preconditions, as a part of the mean one: folded kernels oscillate."""
+
+
+def tangential_compliances(materials: Iterable[Material]) -> tuple[float, float]:
+    """Return A = Σ 1/(2πG) and B = Σ ν/(2πG) of two bodies, in 1/Pa, with G = E/(2(1 + ν))."""
+    shear = [(m.young / (2 * (1 + m.poisson)), m.poisson) for m in materials]
+    whole = sum(1 / (2 * math.pi * g) for g, _ in shear)
+    return whole, sum(nu / (2 * math.pi * g) for g, nu in shear)
+
+
+def dundurs_beta(materials: Iterable[Material]) -> float:
+    """Return Dundurs' β, the coupling of pressure and traction; 0 for bodies of one material."""
+    one, other = (
+        (2 * (1 + m.poisson) / m.young, 1 - 2 * m.poisson, 1 - m.poisson) for m in materials
+    )
+    unlike = one[0] * one[1] - other[0] * other[1]
+    return 0.5 * unlike / (one[0] * one[2] + other[0] * other[2])
+
+
+def coefficients(
+    shape: tuple[int, int], spacing: tuple[float, float], compliances: tuple[float, float]
+) -> Array:
+    """Return uxx, uyy and uxy under a traction of 1 on one cell, shape (3, nx, ny), in m/Pa.
+
+    Entry (i, j) belongs to the offset of (i, j) cells, counted round as a circular convolution of
+    `shape` (nx, ny) needs it; cells have the edges `spacing` (m), bodies the compliances A and B
+    (1/Pa). u is the displacement of one body less the displacement of the other. With [·] the sum
+    over the corners of a cell, signs + − − +, and r² = x² + y²::
+
+        uxx = A [y ln(x + r)] + (A − B) [x ln(y + r)],  uyy alike,  uxy = −B [r]
+
+    References
+    ----------
+    Johnson, K. L. (1985), Contact Mechanics, section 3.6 (Cerruti), integrated over a rectangle.
+    """
+    # Corners lie half a cell off, so that none has x = 0 or y = 0.
+    x, y = ((np.arange(n // 2 + 2) - 0.5) * d for n, d in zip(shape, spacing, strict=True))
+    x, y = x[:, None], y[None, :]
+    # arcsinh(x/|y|) is ln(x + r) less ln |y|, which the differences along x take out.
+    along, across = y * np.arcsinh(x / np.abs(y)), x * np.arcsinh(y / np.abs(x))
+    whole, less = compliances[0], compliances[0] - compliances[1]
+    corners = [whole * along + less * across, less * along + whole * across]
+    corners.append(-compliances[1] * np.hypot(x, y))
+    quarters = np.diff(np.diff(np.array(corners), axis=1), axis=2)
+    i, j = (np.arange(n) for n in shape)
+    near = np.ix_(np.minimum(i, shape[0] - i), np.minimum(j, shape[1] - j))
+    wrapped = np.array([quarter[near] for quarter in quarters])
+    for axis, (at, count) in enumerate(zip((i, j), shape, strict=True)):
+        odd = np.sign(count - 2 * at) * (at > 0)
+        wrapped[2] *= np.expand_dims(odd, 1 - axis)
+    return wrapped
+
+
+class Cerruti:
+    """Two half-spaces under tangential traction that is constant in each cell, in free space.
+
+    The convolution is padded with zeros (DC-FFT), as that of the normal contact. Parameters are
+    those of `coefficients`, on a box, and the components: 1 for tractions along x alone, 2 for
+    both. With one an object is an `Operator` of `tribo.solve_bounded`.
+    """
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        spacing: tuple[float, float],
+        compliances: tuple[float, float],
+        components: int = 2,
+    ) -> None:
+        self.shape, self.spacing, self.components = shape, spacing, components
+        self._padded = tuple(scipy.fft.next_fast_len(2 * n - 1, real=True) for n in shape)
+        kernels = coefficients((self._padded[0], self._padded[1]), spacing, compliances)
+        # Even in both, or odd in both: the spectra are real.
+        self._spectra = scipy.fft.rfft2(kernels).real
+        (nx, ny), twice = shape, (2 * shape[0], 2 * shape[1])
+        folded = coefficients(twice, spacing, compliances)[:components]
+        folded = folded.reshape(components, 2, nx, 2, ny).sum(axis=(1, 3))
+        self._symbols = scipy.fft.rfft2(folded).real
+        self.typical = float(np.mean(self._symbols))
+        """A mean eigenvalue, in m/Pa."""
+        np.maximum(self._symbols, FLOOR * self.typical, out=self._symbols)
+
+    def apply(self, traction: Array) -> Array:
+        """Return the displacement (m) under a traction (Pa), (components, nx, ny) or (nx, ny)."""
+        (nx, ny), (uxx, uyy, uxy) = self.shape, self._spectra
+        modes = scipy.fft.rfft2(traction, self._padded)
+        if traction.ndim == 2 or self.components == 1:
+            modes *= uxx
+        else:
+            one, other = modes
+            modes = np.array([uxx * one + uxy * other, uxy * one + uyy * other])
+        return np.asarray(scipy.fft.irfft2(modes, self._padded)[..., :nx, :ny])
+
+    def symbol(self) -> Array:
+        """Return the eigenvalues of the periodic operator with the same near field, along x."""
+        return np.asarray(self._symbols[0].copy())
+
+    def preconditioned(self, slip: Array) -> Array:
+        """Return about the traction that gives a displacement, both (components, nx, ny)."""
+        modes = scipy.fft.rfft2(slip)
+        modes /= self._symbols
+        return np.asarray(scipy.fft.irfft2(modes, slip.shape[-2:]))
+
+
+cerruti = lru_cache(maxsize=16)(Cerruti)
+"""`Cerruti`, kept for boxes that come again."""

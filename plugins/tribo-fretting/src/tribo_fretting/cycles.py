@@ -1,0 +1,97 @@
+"""What a cycle of a result does: its loop, its energy, and where the contact sticks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from tribo import Array, Mask, Material, Result
+
+from tribo_fretting.loading import first_loading
+from tribo_fretting.motion import Fretting
+
+POINTS = 16
+"""Of the first loading, from which a loop is drawn."""
+
+
+def motion_of(result: Result) -> Fretting | None:
+    """Return the motion of a result, if it is fretting."""
+    given = dict(result.case["kinematics"])
+    return Fretting.model_validate(given) if given.pop("type") == Fretting.type else None
+
+
+@dataclass(frozen=True)
+class SavedCycle:
+    """The cycle at a save of a result that frets; -1 is the last save."""
+
+    result: Result
+    motion: Fretting
+    save: int
+
+    @property
+    def amplitude(self) -> float:
+        """Amplitude to each side, in m."""
+        return self.motion.amplitude_at(float(self.result.times[self.save]))
+
+    @cached_property
+    def pressure(self) -> Array:
+        """Contact pressure, in Pa."""
+        return self.result.field("pressure", self.save)
+
+    @cached_property
+    def slip(self) -> Array:
+        """Slip of each point in the contact from one end of the stroke to the other, in m."""
+        return np.where(self.pressure > 0, 2 * self.amplitude * self._kept("local_slip"), 0.0)
+
+    @property
+    def stuck(self) -> Mask:
+        """Where the contact sticks."""
+        return np.asarray((self.pressure > 0) & (self.slip == 0))
+
+    @property
+    def force(self) -> float:
+        """Amplitude of the tangential force, in N."""
+        return float(np.sum(self._kept("traction_x"))) * self.result.grid.cell_area
+
+    @property
+    def energy(self) -> float:
+        """Energy that the cycle dissipates, in J."""
+        traction = np.hypot(self._kept("traction_x"), self._kept("traction_y"))
+        return 2 * float(np.sum(traction * self.slip)) * self.result.grid.cell_area
+
+    @cached_property
+    def friction(self) -> Array:
+        """Coefficient of friction at each point."""
+        if self.result.has("friction_coefficient"):
+            return self._kept("friction_coefficient")
+        given = self.result.case["friction"]["coefficient"]
+        return np.full_like(self.pressure, given)
+
+    @cached_property
+    def materials(self) -> dict[str, Material]:
+        """The bodies' materials, by name."""
+        bodies = self.result.case["bodies"].items()
+        return {name: Material.model_validate(body["material"]) for name, body in bodies}
+
+    def loop(self) -> tuple[Array, Array]:
+        """Return the displacement of the rig (m) and the tangential force (N) along the cycle.
+
+        From the first loading, by Masing's rule: the branches are twice as large.
+        """
+        first = [(0.0, 0.0)]
+        for part in np.linspace(0.0, 1.0, POINTS + 1)[1:]:
+            amplitude, grid = float(part) * self.amplitude, self.result.grid
+            drag = first_loading(
+                self.motion, grid, self.materials, self.pressure, self.friction, amplitude
+            )
+            force = float(np.sum(drag.traction[0])) * self.result.grid.cell_area
+            rig = force / self.motion.stiffness if self.motion.stiffness else 0.0
+            first.append((drag.displacement + rig, force))
+        one = np.array(first)
+        back = one[-1] - 2 * one
+        moved, force = np.concatenate([back, -back]).T
+        return moved, force
+
+    def _kept(self, name: str) -> Array:
+        return self.result.field(name, self.save, self.result.body_names[0])

@@ -1,0 +1,83 @@
+"""The motion of fretting: to and fro by less than the contact is long, both bodies stay in it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Self
+
+import numpy as np
+from pydantic import ConfigDict, model_validator
+from tribo import CaseError, Effect, Exposure, Grid, Kinematics, Quantity, Stationary
+
+from tribo_fretting.drive import Drive
+from tribo_fretting.partial_slip import PartialSlip
+
+
+class Fretting(Kinematics, Drive):
+    """To and fro between ±δ at frequency f: a path of 4 δ each cycle, along x.
+
+    Points of both bodies stay in the contact. How much of the path each point slips is the partial
+    slip that the motion brings along, `fretting.partial_slip`.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"amplitude": "3 um", "frequency": "20 Hz", "cycles": 1e5}]}
+    )
+
+    type = "fretting.motion"
+    turns_back = True
+    frequency: Annotated[float, Quantity("Hz", above=0, usual=(1e-6, 1e5))]
+    """Full cycles, to and fro, per second."""
+    duration: Annotated[float, Quantity("s", above=0)] | None = None
+    """How long it runs."""
+    cycles: Annotated[float, Quantity("1", above=0)] | None = None
+    """How many full cycles it runs."""
+
+    @model_validator(mode="after")
+    def _one_end(self) -> Self:
+        if (self.duration is None) == (self.cycles is None):
+            raise ValueError("give exactly one of duration and cycles")
+        return self
+
+    @property
+    def end_time(self) -> float:
+        """Time at which the motion ends, in s."""
+        end = self.duration or (self.cycles or 0.0) / self.frequency
+        last = self.stages[-1][0]
+        if last < end * (1 - 1e-12):
+            raise CaseError(
+                f"the stages of the amplitude end at {last:g} s, before the run does at {end:g} s; "
+                "give them up to then",
+                "kinematics.amplitude",
+            )
+        return end
+
+    @property
+    def track_extent(self) -> float:
+        """Length of the longest stroke, in m."""
+        return 2 * max(amplitude for _, amplitude in self.stages)
+
+    @property
+    def edges(self) -> Sequence[float]:
+        """Times at which one stage of the amplitude ends and the next begins, in s."""
+        return [end for end, _ in self.stages[:-1]]
+
+    def distance_at(self, time: float) -> float:
+        """Return the path until `time`, in m."""
+        edges = (edge for edge in self.edges if edge < self.end_time)
+        times = np.array([0.0, *edges, self.end_time])
+        speeds = [4 * self.frequency * self.amplitude_at(end) for end in times[1:]]
+        path = np.concatenate([[0.0], np.cumsum(np.diff(times) * speeds)])
+        return float(np.interp(time, times, path))
+
+    def coarsened(self, half_width_x: float) -> Kinematics:
+        """Return the motion for a coarse grid, whose ring of slip is narrow."""
+        return self.model_copy(update={"allow_narrow_ring": True})
+
+    def effects(self) -> Sequence[Effect]:
+        """Return the partial slip under this motion."""
+        return [PartialSlip(**{name: getattr(self, name) for name in Drive.model_fields})]
+
+    def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
+        """Return that the points of both bodies stay in contact."""
+        return {name: Stationary(grid) for name in bodies}

@@ -1,0 +1,119 @@
+"""Conjugate gradients on discs: the traction |q| ≤ μp of a contact that is dragged along."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from tribo import Array, NumericalError
+
+from tribo_fretting.cerruti import Cerruti
+
+ON_RIM = 1e-12
+"""Relative distance from the rim of its disc within which a traction is on it."""
+
+
+@dataclass(frozen=True)
+class Drag:
+    """A contact that was dragged along x from a traction of 0.
+
+    By a displacement, in m, to a traction in Pa, shape (components, nx, ny). Points have slipped by
+    `slip` (nx, ny), in m: 0 where they stick, and beyond the contact as far as the surfaces moved
+    along each other. An iteration costs two calls of the operator, one where no cell meets its rim.
+    """
+
+    displacement: float
+    traction: Array
+    slip: Array
+    iterations: int
+
+
+def dragged(
+    operator: Cerruti,
+    displacement: float,
+    limit: Array,
+    start: Array | None = None,
+    tolerance: float = 1e-9,
+    max_iterations: int = 500,
+) -> Drag:
+    """Minimise ½ qᵀA q − δ Σ qₓ over |q| ≤ μp in each cell.
+
+    The gradient is the slip δ − A q reversed: it is 0 within the disc, and points outward on its
+    rim. Preconditioned conjugate gradients move the cells within their discs; on a rim the cells
+    move along it alone. There its curvature adds λ/(μp) to the stiffness, with the slip λ: without
+    that the tractions of two components do not converge.
+
+    Parameters
+    ----------
+    operator : Cerruti
+        A.
+    displacement : float
+        δ along x, in m; positive.
+    limit : ndarray, shape (nx, ny)
+        μp, in Pa; 0 beyond the contact.
+    start : ndarray, shape (components, nx, ny), optional
+        A traction to start from; if left out, 0, or μp along x where all points slip under that.
+    tolerance : float
+        What the slip within the discs and along their rims must fall to, relative to δ.
+    max_iterations : int
+        `NumericalError` after that many.
+    """
+    drive = np.zeros((operator.components, 1, 1))
+    drive[0] = displacement
+    pressed = limit > 0
+    safe = np.where(pressed, limit, 1.0)
+    if start is None:
+        start = np.zeros((operator.components, *limit.shape))
+        start[0] = limit
+        if np.any(operator.apply(start)[0] > displacement):
+            start[0] = 0.0
+    q = _on_discs(start, limit)
+    moved = operator.apply(q)
+    direction = before = None
+    was_sliding, decrease = np.zeros_like(pressed), 1.0
+    for iteration in range(max_iterations + 1):
+        slip = drive - moved
+        normal = q / safe
+        outward = np.sum(slip * normal, axis=0)
+        sliding = pressed & (_lengths(q) >= limit * (1 - ON_RIM)) & (outward > 0)
+        normal *= sliding
+        residual = pressed * slip - outward * normal
+        error = float(np.max(np.abs(residual)))
+        if error <= tolerance * displacement:
+            whole = np.where(sliding, outward, 0.0)
+            return Drag(displacement, q, np.where(pressed, whole, _lengths(slip)), iteration)
+        curved = np.where(sliding, outward / safe, 0.0)
+        scale = pressed / np.sqrt(1 + curved / operator.typical)
+        z = _tangent(scale * operator.preconditioned(scale * residual), normal)
+        if direction is None or not np.array_equal(sliding, was_sliding):
+            direction = z
+        else:
+            beta = max(0.0, float(np.sum(z * (residual - before))) / decrease)
+            direction = z + beta * _tangent(direction, normal)
+        decrease, before, was_sliding = float(np.sum(residual * z)), residual, sliding
+        response = operator.apply(direction)
+        stiffness = np.sum(direction * (response + curved * direction))
+        length = float(np.sum(residual * direction) / stiffness)
+        ahead = q + length * direction
+        q = _on_discs(ahead, limit)
+        # Where no cell left its disc the displacement is known.
+        moved = moved + length * response if np.array_equal(q, ahead) else operator.apply(q)
+    raise NumericalError(
+        f"partial slip did not converge in {max_iterations} iterations: slip is off by "
+        f"{error / displacement:.1e} of the displacement, allowed are {tolerance:.1e}; raise "
+        "kinematics.tolerance"
+    )
+
+
+def _lengths(vectors: Array) -> Array:
+    return np.asarray(np.sqrt(np.sum(vectors**2, axis=0)))
+
+
+def _tangent(vectors: Array, normal: Array) -> Array:
+    return np.asarray(vectors - np.sum(vectors * normal, axis=0) * normal)
+
+
+def _on_discs(traction: Array, limit: Array) -> Array:
+    length = _lengths(traction)
+    beyond = length > limit
+    return np.asarray(traction * np.where(beyond, limit / np.where(beyond, length, 1.0), 1.0))

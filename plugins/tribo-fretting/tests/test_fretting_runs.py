@@ -1,0 +1,174 @@
+"""Wear of a ball that frets."""
+
+import numpy as np
+import pytest
+from fretting_problems import LOAD, MU, STEEL, K, ball, case
+from tribo import CaseError, Simulation
+
+from tribo_fretting.closed_forms import force_ratio, shift, worn_load_share
+from tribo_fretting.motion import Fretting
+
+
+def run(*args, **changes):
+    with Simulation(case(*args, **changes)).run() as result:
+        volume = result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
+        return volume, float(result.dataset["friction_energy"][-1]), result.totals()
+
+
+STAGES = [{"until": "2000 s", "amplitude": "2 um"}, {"until": "5000 s", "amplitude": "3 um"}]
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"motion": {"cycles": 37.5}},
+        {"amplitude": STAGES},
+        {"motion": {"direction": "free"}, "k": 1e-16},
+        {"motion": {"stiffness": "50 N/um"}, "amplitude": "4 um", "k": 1e-16},
+    ],
+    ids=["few cycles", "stages", "free", "rig"],
+)
+def test_worn_volume_goes_with_the_energy_of_the_loops(changes):
+    volume, energy, _ = run(**changes)
+    assert volume == pytest.approx(changes.get("k", K) / MU * energy, rel=1e-10, abs=0)
+
+
+def test_energy_of_a_run_is_that_of_its_cycles():
+    steel = ball(40, window=5e-4)
+    drag = steel.dragged(2.2e-6)
+    _, energy, _ = run(cells=40, k=1e-19)
+    assert energy == pytest.approx(1e5 * steel.energy(drag), rel=2e-4, abs=0)
+
+
+def test_a_hundred_thousand_cycles_take_few_solves():
+    volume, energy, totals = run(cells=32)
+    assert totals["contact_solves"] <= 60
+    assert volume == pytest.approx(K / MU * energy, rel=1e-10, abs=0)
+
+
+def test_the_energy_law_wears_by_the_slip():
+    pytest.importorskip("tribo_energy")
+    plain, _, _ = run(k=1e-16)
+    law = {"type": "energy.dissipation", "alpha": 1e-16 / MU}
+    dissipating, _, _ = run(law=law, effects=[{"type": "energy.friction_traction"}])
+    assert dissipating == pytest.approx(plain, rel=1e-6, abs=0)
+
+
+def test_volumes_go_on_from_partial_to_gross_slip():
+    steel = ball(8)
+    gross = shift(1.0, MU * LOAD, steel.contact_radius, steel.compliance)
+    parts = np.array([0.98, 1.0, 1.02, 1.04])
+    volumes = np.array([run(amplitude=gross * part, k=1e-19)[0] for part in parts])
+    steps = np.diff(volumes)
+    sliding = 4e5 * 1e-19 * LOAD * gross * 0.02
+    assert np.all(steps > 0)
+    assert np.max(steps) <= 1.1 * sliding
+    assert steps[-1] == pytest.approx(sliding, rel=1e-3, abs=0)
+
+
+def test_a_rig_takes_a_part_of_the_amplitude():
+    steel = ball(8)
+    a, c = steel.contact_radius, steel.compliance
+    moved = shift(0.8, MU * LOAD, a, c)
+    rig = moved + 0.8 * MU * LOAD / 5e7
+    with Simulation(
+        case(48, rig, k=0.0, motion={"stiffness": "50 N/um", "cycles": 1})
+    ).run() as result:
+        force = np.sum(result.field("traction_x", -1, "ball")) * result.grid.cell_area
+    assert force == pytest.approx(0.8 * MU * LOAD, rel=1e-3, abs=0)
+    assert force_ratio(moved, MU * LOAD, a, c) == pytest.approx(0.8, rel=1e-9, abs=0)
+
+
+def test_a_force_amplitude_turns_the_motion_back():
+    with Simulation(
+        case(48, k=0.0, motion={"force_amplitude": 0.8 * MU * LOAD, "cycles": 1})
+    ).run() as result:
+        force = np.sum(result.field("traction_x", -1, "ball")) * result.grid.cell_area
+    assert force == pytest.approx(0.8 * MU * LOAD, rel=1e-7, abs=0)
+
+
+def test_stages_lead_along_their_own_path():
+    motion = Fretting(amplitude=STAGES, frequency=20, duration=4000)
+    path = 4 * 20 * 2000 * np.array([2e-6, 2e-6 + 3e-6])
+    assert [motion.distance_at(t) for t in (2000, 4000)] == pytest.approx(path, rel=1e-12, abs=0)
+    assert motion.time_at(motion.distance_at(3000.0)) == pytest.approx(3000, rel=1e-12, abs=0)
+    assert motion.edges == [2000]
+
+
+def bodies(**changes):
+    other = case()["bodies"]
+    return {name: {**of, **changes} for name, of in other.items()}
+
+
+ALUMINIUM = {"young": "70 GPa", "poisson": 0.33}
+LAYER = {"thickness": "1 um", "young": "400 GPa"}
+REFUSED = {
+    "no friction": ({"friction": None}, "coefficient of friction"),
+    "springs": ({"contact": {"type": "winkler", "modulus": 1e15}}, "winkler"),
+    "repeating": ({"contact": {"type": "periodic"}}, "periodic"),
+    "layer": ({"bodies": bodies(layers=[LAYER])}, "layer"),
+    "hardness": ({"bodies": bodies(material={**STEEL, "hardness": "1 GPa"})}, "1 GPa"),
+    "unlike": (
+        {
+            "bodies": case()["bodies"]
+            | {"flat": {"surface": {"type": "flat"}, "material": ALUMINIUM}}
+        },
+        "%",
+    ),
+    "long": ({"amplitude": "100 um"}, "reciprocating"),
+    "narrow": ({"amplitude": "1 um"}, "cells wide"),
+    "sticks": ({"amplitude": "1 nm"}, "sticks"),
+    "two ends": ({"motion": {"duration": "1 s"}}, "exactly one"),
+    "short stages": ({"amplitude": STAGES, "motion": {"cycles": 2e5}}, "5000 s"),
+    "passing": (
+        {
+            "kinematics": {
+                "type": "reciprocating",
+                "stroke": "2 mm",
+                "frequency": 1,
+                "cycles": 5,
+                "positions": "average",
+            },
+            "effects": [{"type": "fretting.partial_slip", "amplitude": "1 um"}],
+        },
+        "pass through",
+    ),
+}
+
+
+def test_a_trial_on_a_coarse_grid_takes_a_narrow_ring():
+    motion = Fretting(amplitude="1 um", frequency=20, cycles=1)
+    trial = case(k=0.0) | {"kinematics": motion.coarsened(1e-4)}
+    assert Simulation(trial).run().saves()[-1]["friction_energy_J"] > 0
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_partial_slip_is_not_for_is_refused_in_one_line(name):
+    changes, words = REFUSED[name]
+    wrong = {key: value for key, value in case(**changes).items() if value is not None}
+    with pytest.raises(CaseError, match=words) as caught:
+        Simulation(wrong).run()
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_in_the_end_the_ball_stands_on_what_sticks():
+    # ν = 0: the ring of slip has worn until it bears nothing (MDR); E* is E/2.
+    cork = {**STEEL, "poisson": 0.0}
+    first = ball(8, poisson=0.0)
+    moved = shift(0.875, MU * LOAD, first.contact_radius, first.compliance)
+    coarse = {"type": "implicit", "depth_tolerance": 0.02, "pressure_tolerance": 0.3}
+    wears = case(32, moved, k=3e-13, size=3.4 * first.contact_radius, stepping=coarse)
+    for body in wears["bodies"].values():
+        body["material"] = cork
+    result = Simulation(wears).run()
+    approach, pressure = result.saves()[-1]["approach_m"], result.field("pressure", -1)
+    stuck = (pressure > 0) & (result.field("local_slip", -1, "ball") == 0)
+    assert np.sum(pressure[stuck]) >= 0.999 * np.sum(pressure)
+    radius = np.sqrt(stuck.sum() * result.grid.cell_area / np.pi)
+    whole = np.sqrt(10e-3 * approach)
+    unworn = 4 / 3 * 103.5e9 * np.sqrt(10e-3) * approach**1.5
+    low, high = (
+        unworn * worn_load_share((radius + way * 0.5 * result.grid.spacing[0]) / whole)
+        for way in (-1, 1)
+    )
+    assert low <= LOAD <= high
