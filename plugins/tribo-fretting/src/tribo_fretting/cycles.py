@@ -17,7 +17,7 @@ POINTS = 16
 
 def motion_of(result: Result) -> Fretting | None:
     """Return the motion of a result, if it is fretting."""
-    given = dict(result.case["kinematics"])
+    given = dict(result.case_tables["kinematics"])
     return Fretting.model_validate(given) if given.pop("type") == Fretting.type else None
 
 
@@ -65,13 +65,13 @@ class SavedCycle:
         """Coefficient of friction at each point."""
         if self.result.has("friction_coefficient"):
             return self._kept("friction_coefficient")
-        given = self.result.case["friction"]["coefficient"]
+        given = self.result.case_tables["friction"]["coefficient"]
         return np.full_like(self.pressure, given)
 
     @cached_property
     def materials(self) -> dict[str, Material]:
         """The bodies' materials, by name."""
-        bodies = self.result.case["bodies"].items()
+        bodies = self.result.case_tables["bodies"].items()
         return {name: Material.model_validate(body["material"]) for name, body in bodies}
 
     def loop(self) -> tuple[Array, Array]:
