@@ -1,4 +1,9 @@
-"""What every test compares by."""
+"""What every test compares by, and on how many threads."""
+
+import os
+
+# Before NumPy is imported: of small matrices, threads that wait for each other take the time.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 import pytest
