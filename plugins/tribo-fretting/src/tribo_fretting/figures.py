@@ -10,7 +10,7 @@ from tribo_fretting.cycles import SavedCycle
 
 def loops(cycles: list[SavedCycle], frequency: float) -> Figure:
     """Draw the tangential force over the displacement at up to five saves; frequency in Hz."""
-    figure = Figure(figsize=(3.35, 2.6))
+    figure = Figure(figsize=(3.35, 2.6), layout="constrained")
     axes = figure.add_subplot(xlabel="Displacement (µm)", ylabel="Tangential force (N)")
     chosen = np.unique(np.linspace(0, len(cycles) - 1, min(5, len(cycles))).round().astype(int))
     for at, shade in zip(chosen, np.linspace(0.7, 0.0, len(chosen)), strict=True):
@@ -23,7 +23,7 @@ def loops(cycles: list[SavedCycle], frequency: float) -> Figure:
 
 def slip_map(cycle: SavedCycle) -> Figure:
     """Draw how far points slip from one end of the stroke to the other, and where they stick."""
-    figure = Figure(figsize=(3.35, 2.8))
+    figure = Figure(figsize=(3.35, 2.8), layout="constrained")
     axes = figure.add_subplot(xlabel="x (µm)", ylabel="y (µm)")
     grid, pressed = cycle.result.grid, cycle.pressure > 0
     x, y = (1e6 * axis for axis in (grid.x, grid.y))
