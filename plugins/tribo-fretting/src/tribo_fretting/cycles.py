@@ -65,8 +65,7 @@ class SavedCycle:
         """Coefficient of friction at each point."""
         if self.result.has("friction_coefficient"):
             return self._kept("friction_coefficient")
-        given = self.result.case_tables["friction"]["coefficient"]
-        return np.full_like(self.pressure, given)
+        return np.full_like(self.pressure, self.result.case_tables["friction"]["coefficient"])
 
     @cached_property
     def materials(self) -> dict[str, Material]:

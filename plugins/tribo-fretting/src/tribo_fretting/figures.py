@@ -10,21 +10,21 @@ from tribo_fretting.cycles import SavedCycle
 
 def loops(cycles: list[SavedCycle], frequency: float) -> Figure:
     """Draw the tangential force over the displacement at up to five saves; frequency in Hz."""
-    figure = Figure(figsize=(3.35, 2.6))
+    figure = Figure(figsize=(3.35, 2.6), layout="constrained")
     axes = figure.add_subplot(xlabel="Displacement (µm)", ylabel="Tangential force (N)")
     chosen = np.unique(np.linspace(0, len(cycles) - 1, min(5, len(cycles))).round().astype(int))
     for at, shade in zip(chosen, np.linspace(0.7, 0.0, len(chosen)), strict=True):
         moved, force = cycles[at].loop()
         number = frequency * float(cycles[at].result.times[at])
-        axes.plot(1e6 * moved, force, color=str(shade), label=f"{number:.3g} cycles")
+        axes.plot(1e6 * moved, force, color=str(shade), label=f"{number:.0f} cycles")
     axes.legend()
     return figure
 
 
 def slip_map(cycle: SavedCycle) -> Figure:
     """Draw how far points slip from one end of the stroke to the other, and where they stick."""
-    figure = Figure(figsize=(3.35, 2.8))
-    axes = figure.add_subplot(xlabel="x (µm)", ylabel="y (µm)", aspect="equal")
+    figure = Figure(figsize=(3.35, 2.8), layout="constrained")
+    axes = figure.add_subplot(xlabel="x (µm)", ylabel="y (µm)")
     grid, pressed = cycle.result.grid, cycle.pressure > 0
     x, y = (1e6 * axis for axis in (grid.x, grid.y))
     slip = np.where(pressed, 1e6 * cycle.slip, np.nan)
@@ -34,5 +34,6 @@ def slip_map(cycle: SavedCycle) -> Figure:
         if cells.any() and not cells.all():
             axes.contour(x, y, cells.T.astype(float), [0.5], colors=look, linewidths=1.0)
     rows, columns = x[pressed.any(axis=1)], y[pressed.any(axis=0)]
-    axes.set(xlim=1.1 * rows[[0, -1]], ylim=1.1 * columns[[0, -1]])
+    aspect = "equal" if 1 / 3 < np.ptp(rows) / np.ptp(columns) < 3 else "auto"
+    axes.set(xlim=1.1 * rows[[0, -1]], ylim=1.1 * columns[[0, -1]], aspect=aspect)
     return figure
