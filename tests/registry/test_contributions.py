@@ -48,11 +48,13 @@ CHANGES = ("grid.cells=32", "grid.size=0.7 mm", "kinematics.duration=0.1", "outp
 
 @pytest.fixture(autouse=True)
 def installed(folder, monkeypatch):
-    """Three plugins that add everything; nothing else is installed."""
+    """Three plugins that add everything, and one of hooks alone; nothing else is installed."""
     for name in ("adds_a", "adds_b", "adds_c"):
         code = observer(f"{name}.calm") + HOOKS.format(name)
         distribute(folder, name, "1.0", {f"{name}.calm": name}, **{name: code})
-    os.environ["TRIBO_PLUGINS"] = "adds_a,adds_b,adds_c"
+    alone = "from tribo import hookimpl\n" + HOOKS.format("alone")
+    distribute(folder, "adds-alone", "1.0", {"adds-alone": "adds_alone"}, adds_alone=alone)
+    os.environ["TRIBO_PLUGINS"] = "adds_a,adds_b,adds_c,adds-alone"
     monkeypatch.chdir(folder)
 
 
@@ -74,19 +76,18 @@ def run(*observers):
 
 
 @pytest.mark.slow
-def test_the_plugins_of_a_case_add_rows_and_pictures_and_no_others_do():
+def test_plugins_of_a_case_and_those_of_hooks_alone_add_rows_and_pictures_and_no_others_do():
     run("adds_b.calm", "adds_a.calm")
     default_registry.cache_clear()
     rows = json.loads(told("show", "case.h5", "--json"))["lab"]["plugins"]
-    assert {row["label"] for row in rows} == {"path of adds_a", "path of adds_b"}
+    names = {"adds_a", "adds_b", "alone"}
+    assert {row["label"] for row in rows} == {f"path of {name}" for name in names}
     assert "path of adds_b: 0.01 m" in told("show", "case.h5")
     with Result.open("case.h5") as result:
         pictures = result_pictures(result)
-    added = {name: draw for name, draw in pictures.items() if name.startswith("adds")}
-    assert {path.name for path in write_figures(added, Path())} == {
-        "adds_a_picture.png",
-        "adds_b_picture.png",
-    }
+    added = {name: draw for name, draw in pictures.items() if name.endswith("_picture")}
+    written = {path.name for path in write_figures(added, Path())}
+    assert written == {f"{name}_picture.png" for name in names}
     # A result is shown without the plugins that made it.
     os.environ["TRIBO_DISABLE_PLUGINS"] = "*"
     default_registry.cache_clear()
@@ -138,6 +139,8 @@ def test_a_hook_that_fails_is_named_and_hurts_no_other(folder, instead, words):
 
 
 def test_verify_has_the_cases_of_every_plugin():
-    rows = json.loads(told("verify", "--only", "case of adds_", "--json"))["rows"]
+    rows = json.loads(told("verify", "--only", "case of ", "--json"))["rows"]
     found = {row["case"]: (row["expected"], row["got"], row["verdict"]) for row in rows}
-    assert found == {f"case of adds_{name}": (2.0, 2.5, "holds") for name in "abc"}
+    assert found == {
+        f"case of {name}": (2.0, 2.5, "holds") for name in ("adds_a", "adds_b", "adds_c", "alone")
+    }

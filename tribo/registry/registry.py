@@ -277,7 +277,7 @@ def _item(hook: str, item: object) -> object:
     return item
 
 
-def from_packages(hook: str, own: object, **arguments: object) -> list[Any]:
+def from_packages(hook: str, own: object = None, **arguments: object) -> list[Any]:
     """Return the items that `own`, the imported plugins and those of hooks alone answer."""
     registry = default_registry()
     for plugin in registry.plugins:
@@ -287,15 +287,14 @@ def from_packages(hook: str, own: object, **arguments: object) -> list[Any]:
 
 
 def from_plugins_of(result: Result, hook: str) -> list[Any]:
-    """Return the items answered to a hook about a result, by the plugins whose models it names.
+    """Return the items answered to a hook about a result, as `from_packages` does.
 
-    Those that are not installed are left out.
+    The plugins whose models the result names are asked too; those not installed are left out.
     """
-    registry = default_registry()
     for made in result.provenance["components"].values():
         with suppress(CaseError):
-            registry.find(str(made["type"]))
-    return registry.ask(hook, result=result)
+            default_registry().find(str(made["type"]))
+    return from_packages(hook, result=result)
 
 
 def place(error: BaseException, *entry_points: str) -> str:
