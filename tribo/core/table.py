@@ -31,7 +31,7 @@ else:
     ModelMetaclass = type(BaseModel)
 
 
-class _Made(ModelMetaclass):
+class _TableClass(ModelMetaclass):
     """The class of tables: made in Python, they tell errors in the words of a case."""
 
     def __call__(self, *values: Any, **named: Any) -> Any:
@@ -45,7 +45,7 @@ class _Made(ModelMetaclass):
             raise case_error(error) from None
 
 
-class Table(BaseModel, metaclass=_Made):
+class Table(BaseModel, metaclass=_TableClass):
     """A frozen table that refuses unknown keys, and explains errors in the words of a case."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
