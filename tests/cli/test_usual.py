@@ -137,5 +137,10 @@ PATH = {"length": "5 mm", "area": "28 mm^2"}
     ],
 )
 def test_packages_ask_too(effect, forgotten, asked):
-    (doubt,) = unusual(validate_case({**CASE, "effects": [{**effect, **forgotten}]}))
+    bodies = {
+        name: {**body, "material": {**body["material"], "conductivity": 46}}
+        for name, body in CASE["bodies"].items()
+    }
+    asking = {**CASE, "bodies": bodies, "effects": [{**effect, **forgotten}]}
+    (doubt,) = unusual(validate_case(asking))
     assert doubt.words.startswith(f"effects.0.{asked}, usual are ")

@@ -109,7 +109,7 @@ def test_it_needs_keeps_and_refuses_what_either_does():
 
 def test_two_laws_that_keep_the_same_field_are_refused():
     twice = {"type": "running_in", "factor": 2, "over": 1e9}
-    with pytest.raises(CaseError, match="'pressure_distance' is declared twice"):
+    with pytest.raises(ValueError, match="'pressure_distance' is declared twice"):
         RunningIn.model_validate({**twice, "law": {**twice, "law": ARCHARD}})
 
 

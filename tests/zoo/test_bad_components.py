@@ -105,7 +105,7 @@ def test_what_an_observer_does_to_its_own_view_changes_no_bit(tmp_path):
     np.testing.assert_array_equal(plain.field("pressure", -1), watched.field("pressure", -1))
     worn = [result.body("ball").wear_depth[-1] for result in results]
     np.testing.assert_array_equal(*worn)
-    assert len(watched.case["observers"]) == 1
+    assert len(watched.case_tables["observers"]) == 1
 
 
 @pytest.mark.slow

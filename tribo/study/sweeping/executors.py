@@ -163,8 +163,8 @@ def _distributed() -> Any:
             "dask.distributed is not installed; install it with: pip install dask distributed"
         ) from None
     # Errors are reported as our own; dask would log them with tracebacks.
-    for name in list(logging.root.manager.loggerDict):
-        if name.split(".")[0] == "distributed":
+    for name in (*logging.root.manager.loggerDict, "asyncio"):
+        if name.split(".")[0] in ("distributed", "asyncio"):
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     return distributed
 

@@ -17,8 +17,8 @@ POINTS = 16
 
 def motion_of(result: Result) -> Fretting | None:
     """Return the motion of a result, if it is fretting."""
-    given = dict(result.case_tables["kinematics"])
-    return Fretting.model_validate(given) if given.pop("type") == Fretting.type else None
+    given = dict(result.case_tables.get("kinematics", {}))
+    return Fretting.model_validate(given) if given.pop("type", None) == Fretting.type else None
 
 
 @dataclass(frozen=True)
