@@ -25,6 +25,7 @@ from tribo.core.arrays import Mask as Mask
 from tribo.core.arrays import Region as Region
 from tribo.core.box import Box as Box
 from tribo.core.coating import Coating as Coating
+from tribo.core.column import Column as Column
 from tribo.core.contact import ContactProblem as ContactProblem
 from tribo.core.contact import ContactSolution as ContactSolution
 from tribo.core.contact import ContactSystem as ContactSystem

@@ -21,6 +21,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from tribo.core import shorthand
+from tribo.core.column import Column
 from tribo.core.errors import CaseError
 from tribo.core.explain import refused, told
 from tribo.core.fields import Field, check_declared
@@ -54,6 +55,9 @@ class Component(Table, ABC):
     material_properties: ClassVar[tuple[Field, ...]] = ()
     """What it needs of materials: of that of its body, or of both if it belongs to none. Each is
     the name of a key of `Material`, or of one of its `properties`, which a case then gives."""
+
+    columns: ClassVar[Sequence[Column]] = ()
+    """Numbers that the result has at each step and save beside its own, read off a `Snapshot`."""
 
     @classmethod
     def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:

@@ -3,9 +3,14 @@
 import warnings
 
 import pytest
+from command_line import tribo
 from paper_models import K, archard, small
 
-from tribo import Archard, Finding, Observer, PluginError, Simulation, Stop, TriboWarning
+from tribo import Archard, Finding, Observer, PluginError, Result, Simulation, Stop, TriboWarning
+from tribo.registry.registry import default_registry
+from tribo.simulation.assembly import assemble
+from tribo.simulation.predict import predict
+from tribo.templates import template
 
 
 class Hot(Archard):
@@ -52,9 +57,51 @@ def test_a_law_warns_once_of_each_body_with_time_and_place():
 def test_an_observer_ends_the_run_with_its_reason():
     result = case(archard(K), (Until(),)).run()
     assert result.status == "done"
-    assert 2 <= result.distances[-1] < 6
+    assert result.distances[-1] == pytest.approx(2.0, rel=1e-5)
     (stop,) = (each for each in result.findings if each.kind == "stop")
     assert (stop.words, stop.place) == ("ended by test.until", "observers.0")
+
+
+def test_an_observer_of_the_run_alone_and_the_trial_of_a_check_end_it_too():
+    result = case(archard(K)).run(observers=[Until()])
+    assert (result.status, result.notices[-1].split()[-1]) == ("done", "test.until")
+    said = [each.words for each in predict(assemble(case(archard(K), (Until(),)))).problems]
+    (foreseen,) = [each for each in said if each.endswith("ended by test.until")]
+    assert foreseen.startswith("at ")
+
+
+class Fails(Archard):
+    """Cannot say what it has to say."""
+
+    type = "test.fails"
+
+    def findings(self, snapshot):
+        """Divide by zero."""
+        yield 1 / 0
+
+
+def test_a_model_that_fails_to_speak_is_named():
+    with pytest.raises(PluginError, match=r"test\.fails.*ZeroDivisionError"):
+        Simulation(case(Fails(k=K))).run()
+
+
+def test_a_run_that_a_model_ends_is_no_failure_of_a_command(tmp_path):
+    code = (
+        "from tribo import Finding, Observer\n\nclass Mileage(Observer):\n"
+        "    def findings(self, snapshot):\n"
+        "        return [Finding('stop', 'far enough')] * (snapshot.state.distance > 0.005)\n"
+    )
+    (tmp_path / "law.py").write_text(code)
+    (tmp_path / "my.toml").write_text('observers = ["mileage"]\n' + template("ball_on_disk"))
+    changes = ("kinematics.duration=0.2", "output.save_times=[]", "grid.size=0.7 mm")
+    words = [word for change in (*changes, "grid.cells=24") for word in ("--set", change)]
+    default_registry.cache_clear()
+    done = tribo("run", "my.toml", "--plugin", "law.py", *words, cwd=tmp_path)
+    default_registry.cache_clear()
+    assert done.returncode == 0, done.stderr
+    assert "far enough" in done.stdout
+    with Result.open(tmp_path / "my.h5") as result:
+        assert result.times[-1] < 0.2
 
 
 def test_what_is_no_finding_is_refused():

@@ -157,7 +157,7 @@ def test_a_run_that_was_interrupted_goes_on(foundations, tmp_path):
 
 @pytest.mark.slow
 def test_a_run_that_fails_as_it_goes_on_keeps_what_was_saved(tmp_path, monkeypatch):
-    def march(model, state, error):
+    def march(model, state, watch, error):
         raise error
         yield
 

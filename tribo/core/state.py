@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from tribo.core.arrays import Array
+from tribo.core.column import Column
 from tribo.core.contact import ContactSolution, ContactSystem
 from tribo.core.fields import Field, WearRate
 from tribo.core.findings import Finding
@@ -192,6 +193,8 @@ class RunInfo:
         What the effects provide.
     between_fields : tuple of Field, optional
         What the effects remember in the contact frame, or as one number.
+    columns : tuple of Column, optional
+        Numbers that models and observers add to each step.
     resumed_from : Snapshot or None
         The state a resumed run starts from.
     wall_time : float
@@ -206,6 +209,7 @@ class RunInfo:
     provenance: Mapping[str, object]
     effect_fields: tuple[Field, ...] = ()
     between_fields: tuple[Field, ...] = ()
+    columns: tuple[Column, ...] = ()
     resumed_from: Snapshot | None = None
     wall_time: float = 0.0
 
@@ -222,9 +226,12 @@ class Snapshot:
         Its scalars.
     effects : Mapping[str, Mapping[str, ndarray]], optional
         Fields of the effects for the pressure and speed of `state`, by field
-        and body, shape (nx, ny). Empty but at saves.
+        and body, shape (nx, ny). Empty but at saves, unless a model or observer has columns.
+    columns : Mapping, optional
+        Values of the columns of models and observers, by name: a number, or numbers by body.
     """
 
     state: State
     measures: Measures
     effects: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)
+    columns: Mapping[str, float | Mapping[str, float]] = field(default_factory=dict)

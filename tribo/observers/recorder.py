@@ -16,12 +16,20 @@ from pydantic import PrivateAttr
 
 from tribo.core.errors import CaseError, OutputError, TriboWarning
 from tribo.core.findings import as_json
-from tribo.core.measures import Measures
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.observers.observer import Observer
 from tribo.result.checkpoint import Checkpoint, RunFolder, fingerprint
 from tribo.result.hdf5 import empty_image, filled_image
-from tribo.result.layout import EFFECT, Rows, Variable, part_of, save_row, step_row, variables
+from tribo.result.layout import (
+    EFFECT,
+    SAVED,
+    Rows,
+    Variable,
+    part_of,
+    save_row,
+    step_row,
+    variables,
+)
 from tribo.result.read import Result
 from tribo.result.sealed import write_sealed
 
@@ -119,7 +127,7 @@ class Recorder(Observer):
 
     def on_step(self, snapshot: Snapshot) -> None:
         """Add to the history; now and then write a checkpoint."""
-        self._append_step(snapshot.measures)
+        self._append_step(snapshot)
         due = time.monotonic() - self._last_checkpoint >= self.checkpoint_every
         # A state that counts a save still to be written has its checkpoint with that.
         if due and snapshot.state.saves == self._saved:
@@ -165,8 +173,8 @@ class Recorder(Observer):
         folder = self._folder
         return Result(self._image, "the result") if folder is None else Result.open(folder.result)
 
-    def _append_step(self, measures: Measures) -> None:
-        self._steps.append(step_row(measures))
+    def _append_step(self, snapshot: Snapshot) -> None:
+        self._steps.append(step_row(snapshot, self._table))
         self._rows += 1
 
     def _append_save(self, snapshot: Snapshot) -> None:
@@ -198,7 +206,7 @@ class Recorder(Observer):
         """Write the moment at which the run ends before its time."""
         state = snapshot.state
         if self._rows <= state.steps:
-            self._append_step(snapshot.measures)
+            self._append_step(snapshot)
         whole = bool(snapshot.effects) or not self._effects
         if whole and self._saved < state.saves:
             self._append_save(snapshot)
@@ -231,11 +239,11 @@ class Recorder(Observer):
 
 def _gone_on_with(stopped: Result, run: RunInfo) -> dict[str, Any]:
     """Return the provenance of a stopped run, with what it goes on with."""
-    provided = {field.name for field in run.effect_fields}
-    kept = {field.name for field in stopped.fields_of(EFFECT).values()}
+    provided = {field.name for field in run.effect_fields} | {c.name for c in run.columns}
+    kept = {f.name for kind in (EFFECT, *SAVED) for f in stopped.fields_of(kind).values()}
     if kept != provided:
         raise CaseError(
-            f"the effects provide {', '.join(sorted(provided)) or 'nothing'}, but the result keeps "
+            f"the models provide {', '.join(sorted(provided)) or 'nothing'}, but the result keeps "
             f"{', '.join(sorted(kept)) or 'nothing'} of them; start again with 'tribo run --force'"
         )
     made = dict(stopped.provenance)

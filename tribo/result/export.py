@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from tribo.core.arrays import Array
+from tribo.core.column import labelled
 from tribo.core.writing import make_folder, write_file
-from tribo.result.columns import labelled
 from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
 

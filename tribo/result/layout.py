@@ -13,12 +13,13 @@ import numpy as np
 from tribo.core.arrays import Array, middle_rows
 from tribo.core.fields import Field
 from tribo.core.findings import as_json
-from tribo.core.measures import Measures
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
 
 FORMAT = 2
 STATE, EFFECT, TRACK_STATE, BETWEEN = "state", "effect", "track_state", "between"
+SAVED, STEPPED = ("saved", "saved_of_body"), ("stepped", "stepped_of_body")
+HISTORY = "history_"
 TRACK, TRACK_PLASTIC = "track_depth", "track_plastic"
 
 Rows = dict[str, Any]
@@ -31,7 +32,8 @@ class Variable:
 
     A field of a model has a `kind`, the name that it has in the model, and the bodies that have it
     (NaN for the others): ``"state"`` is kept on a body, ``"track_state"`` along its whole track,
-    ``"effect"`` provided by an effect, ``"between"`` kept by one.
+    ``"effect"`` provided by an effect, ``"between"`` kept by one. A column of a model is of a kind
+    in `SAVED` and, where it is one of the history, in `STEPPED`; the second is that of the bodies.
     """
 
     dims: tuple[str, ...]
@@ -51,6 +53,8 @@ DIMS: Mapping[str, tuple[str, ...]] = {
     EFFECT: _ON_BODY,
     TRACK_STATE: _ON_TRACK,
     BETWEEN: _ON_WINDOW,
+    **dict(zip(SAVED, (("time",), ("time", "body")), strict=True)),
+    **dict(zip(STEPPED, (("step",), ("step", "body")), strict=True)),
 }
 """Dimensions of a field of a model by its kind; one that is uniform has the time alone."""
 
@@ -93,13 +97,13 @@ FIXED = {
     for prefix, dims, columns in (
         ("", ("time",), COLUMNS),
         ("", ("time", "body"), BODY_COLUMNS),
-        ("history_", ("step",), COLUMNS),
-        ("history_", ("step", "body"), BODY_COLUMNS + ROUGHNESS_COLUMNS),
+        (HISTORY, ("step",), COLUMNS),
+        (HISTORY, ("step", "body"), BODY_COLUMNS + ROUGHNESS_COLUMNS),
     )
     for column in columns
 }
 """What every result has by name, but for those of a track, and no fields of models."""
-ROUGHNESS = tuple(f"history_{part.name}" for part in ROUGHNESS_COLUMNS)
+ROUGHNESS = tuple(HISTORY + part.name for part in ROUGHNESS_COLUMNS)
 """The variables of `FIXED` that a result has only where a body is rough."""
 
 
@@ -136,6 +140,12 @@ def variables(run: RunInfo) -> dict[str, Variable]:
             name = f"{kind}_{name}"
         dims = ("time",) if kind == BETWEEN and field.uniform else DIMS[kind]
         table[name] = Variable(dims, field.unit, field.description, None, kind, field.name, owners)
+    for column in run.columns:
+        name, whose = column.name, tuple(body.name for body in bodies if column.of_bodies)
+        name = f"column_{name}" if name in table or name == "body" else name
+        for kinds, key in ((SAVED, name), (STEPPED, HISTORY + name)):
+            kind, about = kinds[column.of_bodies], (column.unit, column.description)
+            table[key] = Variable(DIMS[kind], *about, None, kind, column.name, whose)
     return table
 
 
@@ -151,24 +161,27 @@ def _owners(run: RunInfo) -> dict[tuple[str, Field], tuple[str, ...]]:
     return found
 
 
-def step_row(measures: Measures) -> Rows:
+def step_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
     """Return what a step adds to the history."""
-    row = {f"history_{name}": value for name, value in _scalars(measures).items()}
-    bodies = measures.bodies.values()
-    if any(body.roughness for body in bodies):
+    row = {HISTORY + name: value for name, value in _scalars(snapshot).items()}
+    bodies = snapshot.measures.bodies
+    if any(body.roughness for body in bodies.values()):
         for part in ROUGHNESS_COLUMNS:
-            row[f"history_{part.name}"] = [part.read(body) for body in bodies]
-    return row
+            row[HISTORY + part.name] = [part.read(snapshot, body) for body in bodies]
+    return row | _of_models(snapshot, table, STEPPED)
 
 
 def save_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
     """Return what a save adds."""
     state, shape = snapshot.state, snapshot.state.contact.pressure.shape
-    row: Rows = {**_scalars(snapshot.measures), "pressure": state.contact.pressure}
+    row: Rows = {**_scalars(snapshot), "pressure": state.contact.pressure}
+    row |= _of_models(snapshot, table, SAVED)
     wear = {name: body.wear for name, body in state.bodies.items()}
     plastic = {name: body.plastic for name, body in state.bodies.items()}
     own = {"wear_depth": wear, "plastic_depth": plastic, TRACK: wear, TRACK_PLASTIC: plastic}
     for name, variable in table.items():
+        if variable.kind in (*SAVED, *STEPPED):
+            continue
         if variable.kind == BETWEEN:
             kept = state.between[variable.field]
             row[name] = kept if variable.dims == _ON_WINDOW else float(kept[0, 0])
@@ -222,9 +235,15 @@ def _on_track(state: State, of_bodies: Mapping[str, Array]) -> Array:
     return stacked
 
 
-def _scalars(measures: Measures) -> Rows:
-    bodies = measures.bodies.values()
+def _scalars(snapshot: Snapshot) -> Rows:
+    bodies = snapshot.measures.bodies
     return {
-        **{column.name: column.read(measures) for column in COLUMNS},
-        **{part.name: [part.read(body) for body in bodies] for part in BODY_COLUMNS},
+        **{column.name: column.read(snapshot) for column in COLUMNS},
+        **{part.name: [part.read(snapshot, body) for body in bodies] for part in BODY_COLUMNS},
     }
+
+
+def _of_models(snapshot: Snapshot, table: Mapping[str, Variable], kinds: tuple[str, ...]) -> Rows:
+    """Return the columns of models."""
+    values = {n: snapshot.columns[v.field] for n, v in table.items() if v.kind in kinds}
+    return {n: [*v.values()] if isinstance(v, Mapping) else v for n, v in values.items()}

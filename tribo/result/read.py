@@ -12,6 +12,7 @@ import numpy as np
 
 from tribo.core import shorthand
 from tribo.core.arrays import Array
+from tribo.core.column import labelled
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
@@ -22,9 +23,9 @@ from tribo.core.rounding import ROUND_OFF
 from tribo.core.words import did_you_mean, suggestion
 from tribo.result import checks
 from tribo.result.body import BodyResult, checked_save
-from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
+from tribo.result.columns import INVARIANTS
 from tribo.result.header import read_header
-from tribo.result.layout import EFFECT, STATE
+from tribo.result.layout import BETWEEN, EFFECT, HISTORY, STATE
 from tribo.result.opening import source_of
 from tribo.result.sealed import write_sealed
 
@@ -292,36 +293,32 @@ class Result:
         """Return ``"saves"`` or ``"history"`` as columns, named with their units.
 
         A body's are called ``bodies.NAME.max_wear_depth_m``; the history has a rough one's Sa too.
+        Those of models follow.
         """
-        prefix = "" if name == "saves" else "history_"
-        columns = {c.label: self._scalars[prefix + c.name] for c in COLUMNS}
+        dim = "time" if name == "saves" else "step"
+        columns, of_bodies = {}, {}
+        for key, its in self._variables.items():
+            label = labelled(its.field or key.removeprefix(HISTORY), its.unit)
+            if its.dims == (dim,) and its.kind != BETWEEN and key != "step":
+                columns[label] = self._scalars[key]
+            elif its.dims == (dim, "body"):
+                of_bodies[label] = self._scalars[key].T
         for index, body in enumerate(self.body_names):
-            for part in BODY_COLUMNS:
-                values = self._scalars[prefix + part.name]
-                columns[f"bodies.{body}.{part.label}"] = values[:, index]
-            for part in ROUGHNESS_COLUMNS:
-                rough = self._scalars.get(prefix + part.name)
-                if rough is not None and not np.isnan(rough[:, index]).all():
-                    columns[f"bodies.{body}.{part.label}"] = rough[:, index]
+            own = ((label, values[index]) for label, values in of_bodies.items())
+            columns |= {f"bodies.{body}.{label}": v for label, v in own if not np.isnan(v).all()}
         return columns
 
     def saves(self) -> list[dict[str, Any]]:
         """Return the scalars of each save that it has, those of the bodies under ``bodies``."""
-        table = self.table("saves")
-        known = {c.label: table[c.label] for c in COLUMNS}
-        return [
-            {
-                **{label: float(v[i]) for label, v in known.items() if not np.isnan(v[i])},
-                "bodies": {
-                    body: {
-                        part.label: float(table[f"bodies.{body}.{part.label}"][i])
-                        for part in BODY_COLUMNS
-                    }
-                    for body in self.body_names
-                },
-            }
-            for i in range(len(self.times))
-        ]
+        table, rows = self.table("saves"), []
+        for i in range(len(self.times)):
+            row = {label: float(v[i]) for label, v in table.items() if not np.isnan(v[i])}
+            bodies: dict[str, dict[str, float]] = {body: {} for body in self.body_names}
+            for label in [each for each in row if each.startswith("bodies.")]:
+                _, body, own = label.split(".")
+                bodies[body][own] = row.pop(label)
+            rows.append({**row, "bodies": bodies})
+        return rows
 
     def report(self) -> LabReport:
         """Return what a laboratory would measure of the result."""
@@ -373,8 +370,7 @@ class Result:
         """Return the worst value, over all steps, of each invariant that the run was held to."""
         return {
             column.label: float(np.max(self._scalars[f"history_{column.name}"], initial=0))
-            for column in COLUMNS
-            if column.path.startswith(("residuals.", "invariants."))
+            for column in INVARIANTS
         }
 
     def fields_of(self, kind: str, body: str | None = None) -> dict[str, Field]:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from tribo.result.columns import labelled
+from tribo.core.column import labelled
 from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
 

@@ -37,7 +37,7 @@ class Audience:
 
     def step(self, snapshot: Snapshot, *, save: bool) -> None:
         """Tell of an accepted step, and of the save that it may be; all get the same view."""
-        shown = _view(snapshot)
+        shown = view(snapshot)
         for observer in self._observers:
             guard = Guard(observer)
             guard.ask(observer.on_step, shown)
@@ -52,7 +52,7 @@ class Audience:
         # The recorder comes last, so that nothing another one raises costs a result.
         with ExitStack() as finishing:
             for observer in self._started:
-                finishing.callback(_finish, observer, _view(snapshot), reason)
+                finishing.callback(_finish, observer, view(snapshot), reason)
 
 
 def _finish(observer: Observer, snapshot: Snapshot, reason: str) -> None:
@@ -64,14 +64,14 @@ def _finish(observer: Observer, snapshot: Snapshot, reason: str) -> None:
         warnings.warn(str(error), TriboWarning, stacklevel=2)
 
 
-def _view(value: Any) -> Any:
+def view(value: Any) -> Any:
     """Return `value` with read-only arrays, and containers of its own, however deep."""
     if isinstance(value, np.ndarray):
         return readonly(value)
     if isinstance(value, Mapping):
-        return {name: _view(each) for name, each in value.items()}
+        return {name: view(each) for name, each in value.items()}
     if isinstance(value, tuple | list):
-        return type(value)(map(_view, value))
+        return type(value)(map(view, value))
     if is_dataclass(value) and not isinstance(value, type):
-        return replace(value, **{f.name: _view(getattr(value, f.name)) for f in fields(value)})
+        return replace(value, **{f.name: view(getattr(value, f.name)) for f in fields(value)})
     return value

@@ -7,17 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tribo.component import Component, components
 from tribo.core.errors import OutOfWindow, PluginError
-from tribo.core.findings import Finding, chattering, ended
+from tribo.core.findings import chattering, ended
 from tribo.core.measures import half_widths
-from tribo.core.state import Snapshot, State
-from tribo.evolution.local_fields import effect_fields
-from tribo.guards.guard import Guard
+from tribo.core.state import State
 from tribo.model.model import Model
 from tribo.simulation.beginning import first_state
 from tribo.simulation.doubt import doubting
-from tribo.simulation.measure import measure
 from tribo.simulation.validity import (
     check_stroke,
     coarse_cycle,
@@ -27,6 +23,7 @@ from tribo.simulation.validity import (
     of_case,
     peak_at_the_edge,
 )
+from tribo.simulation.watch import Watch
 from tribo.stepping.invariants import chatters, hold
 from tribo.stepping.step import distance_until, start_sliding
 
@@ -68,20 +65,22 @@ def _stops(model: Model) -> list[float]:
     return sorted(model.saves | {time for time in edges if 0 < time < model.end_time})
 
 
-def march(model: Model, state: State) -> Iterator[Accepted]:
+def march(model: Model, state: State, watch: Watch | None = None) -> Iterator[Accepted]:
     """Yield the accepted states after `state`, to the end of the run.
+
+    A model of the case, or what is in `watch`, may end it sooner.
 
     `NumericalError` if the contact reaches the edge of the window, a body wears more than it can,
     or a step cannot be carried out.
     """
-    limit = _limit(model)
+    limit, watch = _limit(model), watch or Watch(model)
     if _depth(model, state) >= limit:
         return
     with doubting(model.case):
         # Which stops are left follows from the time alone, so a resumed run sees the same.
         for until in _stops(model):
             while state.time < until:
-                state = _advanced(model, state, until, limit)
+                state = watch.told(_advanced(model, state, until, limit, watch))
                 worn_out = _depth(model, state) >= limit
                 last = worn_out or state.time >= model.end_time or state.has_finding("stop")
                 if last:
@@ -94,18 +93,20 @@ def march(model: Model, state: State) -> Iterator[Accepted]:
                     return
 
 
-def _advanced(model: Model, state: State, until: float, limit: float) -> State:
-    """Return the next state that holds, the wear depth up to its limit."""
+def _advanced(model: Model, state: State, until: float, limit: float, watch: Watch) -> State:
+    """Return the next state that holds, up to the limit of the depth or where a model stops."""
     try:
         after = model.case.stepping.advance(model, state, until)
         if _depth(model, after) > limit:
             after = _up_to_depth(model, state, after, limit)
+        if watch.ends(after):
+            after = _up_to_a_stop(model, state, after, watch)
     except PluginError as error:
         error.args = (f"{error}, at {state.distance:.6g} m ({state.time:.6g} s)",)
         raise
     after = hold(model, state, after)
     _check_window(model, after)
-    return _told_by_models(model, _with_findings(model, hold_wear(model, after)))
+    return _with_findings(model, hold_wear(model, after))
 
 
 def _up_to_depth(model: Model, state: State, after: State, limit: float) -> State:
@@ -122,16 +123,39 @@ def _up_to_depth(model: Model, state: State, after: State, limit: float) -> Stat
         # Where the rate jumps, as between layers, a line may lead nowhere; halves do not.
         width = high - low
         trial = low + (0.5 if slow else part) * width
-        time = model.motion.time_at(state.distance + trial)
-        cut = model.case.stepping.step(model, state, trial, time)
+        cut = _cut(model, state, after, trial)
         depth = _depth(model, cut)
         if depth >= limit:
-            kept = tuple(f for f in after.findings if (f.distance or 0.0) <= cut.distance)
-            high, depth_high, after = trial, depth, replace(cut, findings=kept)
+            high, depth_high, after = trial, depth, cut
         else:
             low, depth_low = trial, depth
         slow = high - low > 0.5 * width
     return after
+
+
+def _up_to_a_stop(model: Model, state: State, after: State, watch: Watch) -> State:
+    """Return the state after the part of a step in which a model or observer ends the run.
+
+    It is accurate to a millionth of the path; at rest it is the whole step.
+    """
+    state = start_sliding(model, state)
+    low, high = 0.0, after.distance - state.distance
+    while high - low > DEPTH_ACCURACY * after.distance:
+        trial = 0.5 * (low + high)
+        cut = _cut(model, state, after, trial)
+        if watch.ends(cut):
+            high, after = trial, cut
+        else:
+            low = trial
+    return after
+
+
+def _cut(model: Model, state: State, after: State, increment: float) -> State:
+    """Return the state after the first part of a step, of a length in m, that led to `after`."""
+    time = model.motion.time_at(state.distance + increment)
+    cut = model.case.stepping.step(model, state, increment, time)
+    kept = tuple(f for f in after.findings if (f.distance or 0.0) <= cut.distance)
+    return replace(cut, findings=kept)
 
 
 def _limit(model: Model) -> float:
@@ -174,23 +198,6 @@ def _with_findings(model: Model, state: State) -> State:
         state = state.with_findings(*of_case(model), *([few] if few else []))
     if chatters(state) and not state.has_finding("chattering"):
         state = state.from_here(chattering(state.invariants.chattering))
-    return state
-
-
-def _told_by_models(model: Model, state: State) -> State:
-    """Return the state with what the components of the case have to say of it, each kind once."""
-    snapshot = None
-    for place, component in components(model.case):
-        if type(component).findings is Component.findings:
-            continue
-        if snapshot is None:
-            snapshot = Snapshot(state, measure(model, state), effect_fields(model, state))
-        guard = Guard(component)
-        for answer in tuple(guard.ask(component.findings, snapshot)):
-            finding = guard.typed(answer, Finding, "a finding")
-            finding = finding if finding.place else replace(finding, place=place)
-            if (finding.kind, finding.place) not in {(f.kind, f.place) for f in state.findings}:
-                state = state.from_here(finding)
     return state
 
 

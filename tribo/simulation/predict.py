@@ -34,6 +34,7 @@ from tribo.simulation.validity import (
     positions_for,
     too_wide,
 )
+from tribo.simulation.watch import Watch
 from tribo.stepping.implicit import Implicit
 from tribo.stepping.step import start_sliding
 
@@ -180,11 +181,11 @@ def _stopping(
     return stopping, warned
 
 
-def _worn(model: Model, coarse: Model, state: State) -> tuple[State, float | None]:
+def _worn(model: Model, coarse: Model, state: State, watch: Watch) -> tuple[State, float | None]:
     """Return the end of a coarse run, and when its contact outgrew the window of `model`, in s."""
     when = None
     try:
-        for accepted in march(coarse, state):
+        for accepted in march(coarse, state, watch):
             state = accepted.state
             if when is None and not _inside(model, measure(coarse, state)):
                 when = state.time
@@ -234,7 +235,9 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             failed = failed or error
             continue
         try:
-            state, when = _worn(model, coarse, state)
+            # The trial's case has no observers, which may end a run too.
+            watch = Watch(coarse, model.case.observers)
+            state, when = _worn(model, coarse, state, watch)
         except (CaseError, TooWorn) as error:
             # Refused on its way: that does not hang on the cells.
             return CoarseRun(None, error=error, on_any_cells=True)
@@ -247,7 +250,10 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             when,
             limitation(replace(coarse, motion=model.motion), state),
             tuple(worn_through(state.findings)),
-            tuple(finding for finding, _ in implausible(coarse, state)),
+            (
+                *(finding for finding, _ in implausible(coarse, state)),
+                *(replace(each, words=f"at {each.time:.3g} s {each.words}") for each in watch.said),
+            ),
             run_time=_run_time(model, coarse, took)
             if isinstance(model.case.stepping, Implicit)
             else None,

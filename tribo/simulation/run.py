@@ -35,8 +35,8 @@ from tribo.simulation.doubt import doubting
 from tribo.simulation.effects import MissingFieldError
 from tribo.simulation.interrupt import interrupts_held
 from tribo.simulation.march import begin, march
-from tribo.simulation.measure import measure
 from tribo.simulation.positions import composed
+from tribo.simulation.watch import Watch
 
 OTHERS = (".csv", ".json", ".pdf", ".png", ".svg", ".toml", ".txt", ".xls", ".xlsx")
 """Endings of files that are not HDF5."""
@@ -235,8 +235,9 @@ class Simulation:
         changed: bool = False,
     ) -> Result:
         audience = Audience((recorder, *self.model.case.observers, *extra))
-        snapshot = self._snapshot(state)
-        info = self._info(snapshot if resumed else None, wall_time)
+        watch = Watch(self.model, extra)
+        snapshot = watch.snapshot(state)
+        info = self._info(snapshot if resumed else None, wall_time, watch)
         reason = "failed"
         try:
             with interrupts_held() as requested:
@@ -245,9 +246,9 @@ class Simulation:
                     _announce((), state.findings)
                     snapshot = self._with_effects(snapshot)
                     audience.step(snapshot, save=True)
-                for accepted in march(self.model, state):
+                for accepted in march(self.model, state, watch):
                     _announce(snapshot.state.findings, accepted.state.findings)
-                    snapshot = self._snapshot(accepted.state)
+                    snapshot = watch.snapshot(accepted.state)
                     if accepted.save:
                         snapshot = self._with_effects(snapshot)
                     audience.step(snapshot, save=accepted.save)
@@ -284,17 +285,15 @@ class Simulation:
             raise Interrupted(f"stopped in the last step of a run{whole}")
         return recorder.result()
 
-    def _snapshot(self, state: State) -> Snapshot:
-        return Snapshot(state, measure(self.model, state))
-
     def _with_effects(self, snapshot: Snapshot) -> Snapshot:
-        return replace(snapshot, effects=effect_fields(self.model, snapshot.state))
+        known = snapshot.effects
+        return replace(snapshot, effects=known or effect_fields(self.model, snapshot.state))
 
     def _provenance(self) -> dict[str, object]:
         components = {place: Guard(c).ask(origin, c) for place, c in named(self.model.case)}
         return provenance(components, [plugin.facts for plugin in self._plugins])
 
-    def _info(self, resumed_from: Snapshot | None, wall_time: float) -> RunInfo:
+    def _info(self, resumed_from: Snapshot | None, wall_time: float, watch: Watch) -> RunInfo:
         model, made = self.model, self._provenance()
         if model.case.begin is not None and resumed_from is None:
             begin = model.case.begin
@@ -322,6 +321,7 @@ class Simulation:
             provenance=made,
             effect_fields=tuple(f for effect in model.laws.effects for f in effect.provides),
             between_fields=model.laws.kept_on(None),
+            columns=tuple(watch.columns.values()),
             resumed_from=resumed_from,
             wall_time=wall_time,
         )

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from math import isnan, nan
 
+from tribo.core.column import labelled
 from tribo.core.data_table import DataTable, Heading, TableRow
 from tribo.core.words import readable, signed
+from tribo.result.layout import SAVED
 from tribo.study.comparison import Comparison
 from tribo.study.differences import differences
 
@@ -40,14 +43,19 @@ def _at(comparison: Comparison, time: float) -> Iterator[TableRow]:
     """Yield the rows at a time."""
     labels, reference = list(comparison.results), comparison.reference
     saves = {label: comparison.save(label, time) for label in labels}
+    first = comparison.results[reference]
+    fields = (field for kind in SAVED for field in first.fields_of(kind).values())
+    own = [labelled(field.name, field.unit) for field in fields]
     rows = {name: (saves, key, factor, digits) for name, key, factor, digits in _SCALARS}
     for body in comparison.bodies:
         worn = {label: save["bodies"][body] for label, save in saves.items()}
         for name, key, factor, digits in _OF_BODIES:
             rows[f"{body} {name}"] = worn, key, factor, digits
+        rows |= {f"{body} {each}": (worn, each, 1.0, ".4g") for each in own}
+    rows |= {each: (saves, each, 1.0, ".4g") for each in own}
     for row, (tables, key, factor, digits) in rows.items():
-        values = {label: float(table[key]) for label, table in tables.items()}
-        if any(values.values()):
+        values = {label: float(table.get(key, nan)) for label, table in tables.items()}
+        if any(values.values()) and not isnan(sum(values.values())):
             errors = {label: comparison.cell_error(label).get(key, 0.0) for label in labels}
             cells = (
                 readable(factor * values[label], digits)
@@ -56,7 +64,6 @@ def _at(comparison: Comparison, time: float) -> Iterator[TableRow]:
                 for label in labels
             )
             yield TableRow((row, *cells))
-    first = comparison.results[reference]
     off: dict[str, list[str | None]] = {}
     for i, label in enumerate(labels[1:], start=1):
         result = comparison.results[label]

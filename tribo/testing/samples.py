@@ -38,6 +38,7 @@ from tribo.motion.exposure import Exposure, Stationary
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
+from tribo.simulation.watch import Watch
 from tribo.stepping.implicit import Implicit
 from tribo.surfaces.cylinder import Cylinder
 from tribo.surfaces.flat import Flat
@@ -285,6 +286,7 @@ def run(made: Callable[[], Case]) -> None:
             states.append(accepted.state)
             require(len(states) <= STEPS, f"a small run is not done after {STEPS} steps")
         effect_fields(model, states[-1])
+        Watch(model).snapshot(states[-1])
         middle = len(states) // 2
         later = zip(states[middle + 1 :], march(resumed, states[middle]), strict=True)
         for state, again in islice(later, RESUMED):

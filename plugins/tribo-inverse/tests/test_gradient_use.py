@@ -8,6 +8,7 @@ import pytest
 from gradients import BASE, CLOSE, FINE, HARD, Kind, layered, resolved, run
 from paper_models import K, archard, motion, pair, states
 from scipy.optimize import minimize
+from tribo import Finding, Observer
 from tribo.case import Layer, Stop
 from tribo.config.load import validate_case
 from tribo.contact.padded_half_space import HalfSpace
@@ -56,6 +57,18 @@ class Turns(Effect):
 def test_how_a_run_is_computed_has_no_derivative(path):
     with pytest.raises(CaseError, match=f"{path}: says how the run is computed"):
         gradient(run(), Volume("ball"), [path])
+
+
+class Ends(Observer):
+    """Ends the run after 10 mm."""
+
+    def findings(self, snapshot):
+        return [Finding("stop", "far enough")] * (snapshot.state.distance > 0.01)
+
+
+def test_a_run_that_a_model_ends_has_no_gradient():
+    with pytest.raises(CaseError, match=r"observers\.0: .*far enough"):
+        gradient(run(observers=[Ends()]), Volume("ball"), ["load.normal"])
 
 
 def test_a_hardness_of_both_bodies_is_named_once():

@@ -11,9 +11,9 @@ import pandas
 
 from tribo.case import Case
 from tribo.config.overrides import leaves_at
+from tribo.core.column import labelled
 from tribo.core.errors import CaseError
 from tribo.lab.report import lab_report
-from tribo.result.columns import labelled
 from tribo.result.read import Result
 
 

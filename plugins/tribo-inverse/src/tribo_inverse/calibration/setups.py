@@ -6,11 +6,12 @@ import math
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import compress
 from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from tribo import Array, Case, CaseError, Finding, Simulation, TriboWarning
+from tribo import Array, Case, CaseError, Finding, Observer, Simulation, TriboWarning
 from tribo.kernel_api import (
     Model,
     about,
@@ -100,7 +101,10 @@ def _setup(
         changed = apply_settings(changed, {"output.save_times": reached})
     entries = [entry for test in tests for entry in test.measured]
     times = sorted({entry.time for entry in entries if entry.time is not None})
-    kept = {"output.save_times": times, "observers": []}
+    # An observer that may end a run belongs to it.
+    ending = [type(each).findings is not Observer.findings for each in case.observers]
+    observers = list(compress(changed.get("observers", ()), ending))
+    kept = {"output.save_times": times, "observers": observers}
     ready = apply_settings(changed, {**kept, **chosen(case, model)})
     return Setup(tests[0].name, changed, ready, model)
 

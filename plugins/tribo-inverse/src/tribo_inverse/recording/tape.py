@@ -134,6 +134,13 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
         if accepted.save and time in looked_at:
             states[time] = state
             tape.append(Saved(time))
+    for each in state.findings:
+        if each.kind == "stop" and not each.place.startswith("stop"):
+            raise CaseError(
+                f"a model ends the run at {state.time:g} s ({each.words}), of which no gradient is "
+                "known; let stop.depth or the motion end it",
+                each.place,
+            )
     missing = [time for time in looked_at if time not in states]
     if missing and state.time == 0:
         raise CaseError("is reached before the run begins; give a larger depth", "stop.depth")
