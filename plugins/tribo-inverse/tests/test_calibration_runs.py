@@ -8,14 +8,11 @@ import numpy as np
 import pytest
 from calibrations import cheap, kept_runs, of_kind, on_springs
 from scipy.stats import norm
-from tribo import Finding, Observer, hookimpl
 from tribo.cli.console import Console
 from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
-from tribo.registry.plugins import given
-from tribo.registry.registry import default_registry
 from tribo.simulation.run import Simulation
 
 from tribo_inverse import fit_picture
@@ -47,39 +44,6 @@ BALL_LOSS, DISK_LOSS = measured("ball", "mass", mass(BALL)), measured("disk", "m
 
 def fitting(*paths, **start):
     return [{"path": path, **start} for path in paths]
-
-
-class Ends(Observer):
-    """Ends the run after half of its path."""
-
-    type = "test.ends"
-
-    def findings(self, snapshot):
-        return [Finding("stop", "far enough")] * (snapshot.state.distance > DISTANCE / 2)
-
-
-class Offers:
-    """What a package offers."""
-
-    @hookimpl
-    def tribo_components(self):
-        return [Ends]
-
-
-@pytest.fixture
-def offered():
-    """Let the package take part as if it were installed."""
-    default_registry.cache_clear()
-    default_registry().add(given(Offers()))
-    yield
-    default_registry.cache_clear()
-
-
-@pytest.mark.usefixtures("offered")
-def test_an_observer_that_ends_the_run_ends_those_of_a_calibration():
-    case = {**CASE, "observers": [{"type": "test.ends"}, {"type": "progress"}]}
-    found = calibrate(case, {"measured": [BALL_LOSS], "fit": fitting(BALL_K)})
-    assert found.parameters["value"][0] == pytest.approx(2 * BALL, rel=1e-3, abs=0)
 
 
 def run_with(**changes):
