@@ -164,7 +164,7 @@ def _distributed() -> Any:
         ) from None
     # Errors are reported as our own; dask would log them with tracebacks.
     for name in (*logging.root.manager.loggerDict, "asyncio"):
-        if name.split(".")[0] in ("distributed", "asyncio"):
+        if name.split(".")[0] in ("distributed", "tornado", "asyncio"):
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     return distributed
 
