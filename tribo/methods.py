@@ -37,10 +37,11 @@ def run(
     case: "Case", output: "str | Path | None", progress: bool = False, **options: "Any"
 ) -> "Result":
     """Run a case from the beginning, with a bar if there is to be one."""
-    from tribo.observers.progress import Progress
     from tribo.simulation.run import Simulation
 
     if progress:
+        from tribo.observers.progress import Progress
+
         options["observers"] = [*options.get("observers", ()), Progress()]
     return Simulation(case).run(output, **options)
 

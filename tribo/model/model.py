@@ -70,7 +70,7 @@ class Model:
             return False
         if columns.stop - columns.start + self.cycle.across > self.grid.cells[1]:
             return True
-        return not self.grid.ends_at_window and reaches_border(contact.pressure)
+        return not self.contact.may_reach_edge and reaches_border(contact.pressure)
 
     @cached_property
     def rough(self) -> frozenset[str]:

@@ -115,7 +115,7 @@ class Planar(Steady):
     def cycle(self, grid: Grid) -> Sequence[Position]:
         """Return a position for each stretch, with the way that the path goes there."""
         ends = self._ends(grid)
-        chords, middles = np.diff(self._at(ends), axis=0), self._at(0.5 * (ends[:-1] + ends[1:]))
+        chords, middles = np.diff(self._at(ends), axis=0), self._middles(ends)
         # A path that turns back within a stretch leaves no chord.
         back = np.hypot(*chords.T) < 1e-6 * np.diff(ends)
         chords[back] = (middles - self._at(ends[:-1]))[back]
@@ -128,8 +128,7 @@ class Planar(Steady):
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return the rows and columns of the swept body at each position."""
-        ends = self._ends(grid)
-        cells = np.round(self._at(0.5 * (ends[:-1] + ends[1:])) / grid.spacing).astype(int)
+        cells = np.round(self._middles(self._ends(grid)) / grid.spacing).astype(int)
         if not np.any(np.ptp(cells, axis=0)):
             raise CaseError(
                 "the path stays within a cell; make grid.cells larger, or the window smaller",
@@ -149,6 +148,10 @@ class Planar(Steady):
     def _at(self, slid: Array) -> Array:
         """Return where the path is, once it has slid so far (m), shape (…, 2), in m."""
         return self._place(np.interp(slid, self._slid, self._marks))
+
+    def _middles(self, ends: Array) -> Array:
+        """Return the middle of each stretch, shape (stretches, 2), in m."""
+        return self._at(0.5 * (ends[:-1] + ends[1:]))
 
     def _ends(self, grid: Grid) -> Array:
         """Return the ends of the stretches along the path, in m, from 0 on."""
