@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import warnings
 from collections.abc import Iterator
 from typing import Any
 
 from pydantic import BaseModel
 
 from tribo.component import KIND
-from tribo.core.errors import TriboWarning
+from tribo.core.errors import warn
 from tribo.core.words import said
 from tribo.registry.probe import import_all
 from tribo.registry.registry import Registry, default_registry
@@ -27,7 +26,7 @@ def json_schema(model: type[BaseModel], registry: Registry | None = None) -> Sch
     """
     known = registry or default_registry()
     for plugin in import_all(known):
-        warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=2)
+        warn(f"{plugin} is left out: {plugin.reason}")
     whole: Schema = model.model_json_schema()
     defs = whole.setdefault("$defs", {})
     waiting = list(_places(whole))
@@ -70,11 +69,9 @@ def _schema(registry: Registry, kind: str, name: str) -> Schema | None:
         raise
     except BaseException as error:
         (plugin,) = registry.claimants(name)
-        warnings.warn(
+        warn(
             f"{kind.replace('_', ' ')} {name!r} of {plugin} is left out: making the schema of its "
             f"configuration raised {said(error)}",
-            TriboWarning,
-            stacklevel=3,
         )
         return None
     schema["required"] = ["type", *(key for key in schema.get("required", []) if key != "type")]

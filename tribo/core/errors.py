@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, ClassVar
@@ -96,6 +98,18 @@ class ReaderGone(TriboError):
 
 class TriboWarning(UserWarning):
     """Something a user should know about a run that goes on."""
+
+
+_INSIDE = ("tribo", "pydantic", "pluggy")
+"""Packages, by the start of their names, whose lines no warning points to."""
+
+
+def warn(words: str, category: type[Warning] = TriboWarning) -> None:
+    """Warn at the line of whoever called tribo or one of its packages."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back and frame.f_globals.get("__name__", "").startswith(_INSIDE):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(words, category, stacklevel=level)
 
 
 @contextmanager

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,7 +10,7 @@ import numpy as np
 import scipy.ndimage as ndimage
 
 from tribo.core.arrays import Array, Mask
-from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.errors import CaseError, warn
 from tribo.core.grid import Grid
 from tribo.core.number_tables import table_of_numbers
 from tribo.registry.probe import import_all
@@ -120,10 +119,8 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
                 own, given = (
                     " × ".join(f"{1e6 * p:.4g}" for p in each) for each in (found.pitch, pitch)
                 )
-                warnings.warn(
+                warn(
                     f"{path} states a pitch of {own} µm; that given, {given} µm, is taken",
-                    TriboWarning,
-                    stacklevel=2,
                 )
     except ValueError as error:
         raise CaseError(str(error)) from None

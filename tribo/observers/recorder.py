@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import time
-import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from io import BytesIO
@@ -14,7 +13,7 @@ from typing import Any
 
 from pydantic import PrivateAttr
 
-from tribo.core.errors import CaseError, OutputError, TriboWarning
+from tribo.core.errors import CaseError, OutputError, warn
 from tribo.core.findings import as_json
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.observers.observer import Observer
@@ -83,10 +82,8 @@ class Recorder(Observer):
         try:
             kept, damage = folder.read_checkpoint(case)
             if damage:
-                warnings.warn(
+                warn(
                     f"{damage}; going on from the checkpoint before, at {kept.state.time:.6g} s",
-                    TriboWarning,
-                    stacklevel=2,
                 )
                 folder.drop_newest()
         except CaseError as error:

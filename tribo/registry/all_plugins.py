@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from typing import Any
 
-from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.errors import CaseError, warn
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.probe import import_all
 from tribo.registry.registry import default_registry
@@ -34,5 +33,5 @@ def from_all_plugins(hook: str, own: object = None) -> list[Any]:
     """
     registry = default_registry()
     for plugin in import_all(registry):
-        warnings.warn(f"{plugin} is left out: {plugin.reason}", TriboWarning, stacklevel=3)
+        warn(f"{plugin} is left out: {plugin.reason}")
     return registry.ask(hook, own)

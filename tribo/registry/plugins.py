@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import warnings
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -15,7 +14,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 from tribo.core.distributions import applies, entry_points, lacking
-from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.errors import CaseError, warn
 from tribo.registry.hookspecs import GROUP, PROJECT, api_version
 
 if TYPE_CHECKING:
@@ -158,7 +157,7 @@ def _choose(plugins: list[Plugin]) -> None:
             reason = f"not among those that --plugins or {ONLY} names"
             plugin.status, plugin.reason = "disabled", reason
     for name in sorted((off | only) - known):
-        warnings.warn(f"no plugin is called {name!r}", TriboWarning, stacklevel=3)
+        warn(f"no plugin is called {name!r}")
 
 
 def check_requirements(requires: Iterable[str], plugins: Iterable[Plugin] = ()) -> None:

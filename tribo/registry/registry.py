@@ -19,7 +19,7 @@ from pydantic import BaseModel
 
 from tribo.component import Component, components
 from tribo.core.distributions import unmet
-from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.errors import CaseError, warn
 from tribo.core.words import did_you_mean, said, suggestion
 from tribo.registry import hookspecs
 from tribo.registry.kinds import offered
@@ -209,11 +209,9 @@ class Registry:
                     answered = answer.items() if isinstance(answer, Mapping) else answer or ()
                     items += map(partial(_item, hook), answered)
             except (Exception, SystemExit) as error:
-                warnings.warn(
+                warn(
                     f"{hook} of {each.plugin_name} is left out: it raised {said(error)}"
                     f"{place(error, *packages)}; --no-plugin leaves that plugin out",
-                    TriboWarning,
-                    stacklevel=2,
                 )
         return items
 

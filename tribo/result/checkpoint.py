@@ -11,7 +11,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, fields
@@ -25,7 +24,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution, Residuals
-from tribo.core.errors import CaseError, TriboError, TriboWarning
+from tribo.core.errors import CaseError, TriboError, warn
 from tribo.core.fields import WearRate
 from tribo.core.findings import Finding
 from tribo.core.locks import BusyError, lock
@@ -85,12 +84,10 @@ class RunFolder:
         busy = CaseError(f"{self.result} is in use: another process is writing it")
         try:
             if not lock(self._lock.fileno()):
-                warnings.warn(
+                warn(
                     f"{self.result}: its file system has no locks, so nothing stops another run "
                     "from writing the same file; see that none does, or choose another place with "
                     "-o",
-                    TriboWarning,
-                    stacklevel=2,
                 )
         except BusyError:
             self.unlock()

@@ -6,7 +6,6 @@ the array behind a view, as its `base`, and a plugin runs in this very process.
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from copy import deepcopy
@@ -16,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from tribo.core.arrays import readonly
-from tribo.core.errors import TriboError, TriboWarning
+from tribo.core.errors import TriboError, warn
 from tribo.core.state import RunInfo, Snapshot
 from tribo.guards.guard import Guard
 from tribo.observers.observer import Observer
@@ -61,7 +60,7 @@ def _finish(observer: Observer, snapshot: Snapshot, reason: str) -> None:
     except TriboError as error:
         if reason == "done":
             raise
-        warnings.warn(str(error), TriboWarning, stacklevel=2)
+        warn(str(error))
 
 
 def view(value: Any) -> Any:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -14,7 +13,7 @@ from typing import Any
 from tribo.case import Case
 from tribo.component import components as named
 from tribo.config.load import load_case, validate_case
-from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
+from tribo.core.errors import CaseError, Interrupted, TriboError, warn
 from tribo.core.findings import Finding, failed
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
 from tribo.core.writing import check_new
@@ -330,7 +329,7 @@ class Simulation:
 def _announce(before: Sequence[Finding], after: Sequence[Finding]) -> None:
     for finding in after:
         if finding not in before and finding.is_warning:
-            warnings.warn(str(finding), TriboWarning, stacklevel=4)
+            warn(str(finding))
 
 
 def _held(path: Path) -> str:

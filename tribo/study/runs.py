@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 import re
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from tribo.case import Case
-from tribo.core.errors import CaseError, TriboWarning, about
+from tribo.core.errors import CaseError, about, warn
 from tribo.core.writing import make_folder
 from tribo.observers.observer import Observer
 from tribo.registry.registry import Registry
@@ -47,7 +46,7 @@ def complete(simulation: Simulation, path: Path, observers: Sequence[Observer]) 
             go_on = simulation.reopen(path, observers=observers)
         except CaseError as error:
             # There is no sound checkpoint, or components have changed.
-            warnings.warn(f"{path} is begun anew: {error}", TriboWarning, stacklevel=2)
+            warn(f"{path} is begun anew: {error}")
         else:
             return go_on()
     return simulation.run(path, observers=observers, overwrite=True)

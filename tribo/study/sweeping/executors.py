@@ -17,7 +17,7 @@ from multiprocessing import get_context
 from multiprocessing.connection import wait
 from typing import Any, ParamSpec, TypeVar
 
-from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.errors import CaseError, TriboWarning, warn
 from tribo.registry.plugin_file import add_files, added_files
 
 P = ParamSpec("P")
@@ -75,10 +75,8 @@ def on_scheduler(address: str, patience: float = PATIENCE) -> Iterator[Executor]
     """
     with _connected(_distributed(), address, patience) as client:
         if not client.scheduler_info(n_workers=-1)["workers"]:
-            warnings.warn(
+            warn(
                 f"the scheduler at {address} has no workers yet; the runs wait for some",
-                TriboWarning,
-                stacklevel=3,
             )
         yield client.get_executor(pure=False)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import socket
 import time
-import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from importlib import import_module
@@ -13,7 +12,7 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
-from tribo.core.errors import CaseError, Interrupted, TriboError, TriboWarning
+from tribo.core.errors import CaseError, Interrupted, TriboError, warn
 from tribo.core.locks import BusyError, lock
 from tribo.core.state import Snapshot
 from tribo.core.writing import open_lock, remove
@@ -58,11 +57,9 @@ def locked(path: Path) -> Iterator[None]:
     """
     with open_lock(path) as file:
         if not lock(file.fileno()):
-            warnings.warn(
+            warn(
                 f"{path}: its file system has no locks, so nothing stops another sweep from "
                 "doing the same runs; see that none does",
-                TriboWarning,
-                stacklevel=3,
             )
         try:
             removed = not os.path.samestat(os.fstat(file.fileno()), path.stat())
