@@ -80,3 +80,4 @@ def _prepare() -> None:
     reference.write(DOCS / "_generated")
     for page in (DOCS.parent / "plugins").glob("*/docs/*.md"):
         shutil.copy(page, DOCS / page.name)
+    shutil.copytree(DOCS.parent / "examples" / "notebooks", DOCS / "notebooks", dirs_exist_ok=True)

@@ -19,6 +19,7 @@ from tribo.core.grid import Grid
 from tribo.core.loads import Load, Stage
 from tribo.core.material import Material, Poisson
 from tribo.core.table import Table
+from tribo.core.tree import tree
 from tribo.core.units import Quantity
 from tribo.core.words import checked_name, did_you_mean, suggestion
 from tribo.effects.effect import Effect
@@ -255,6 +256,37 @@ class Case(Table):
         if wrong:
             raise refused(*wrong)
         return self
+
+    def __str__(self) -> str:
+        """Return a short tree of what is not at its default."""
+        return tree(self)
+
+    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
+        """Show the tree in a notebook."""
+        printer.text(tree(self))
+
+    def with_values(self, settings: Mapping[str, Any]) -> Case:
+        """Return this case with other values.
+
+        Parameters
+        ----------
+        settings : Mapping
+            Values by path, as in a case file; another ``type`` drops the other keys of its table.
+
+        Raises
+        ------
+        CaseError
+            If a path leads nowhere, or the new case is wrong.
+
+        Examples
+        --------
+        >>> import tribo
+        >>> case = tribo.load_case("examples/ball_on_disk.toml")
+        >>> case.with_values({"load.normal": "50 N", "contact.type": "winkler"}).load.normal
+        50.0
+        """
+        case: Case = shorthand.changed(self, settings)
+        return case
 
     def check(self) -> Check:
         """Predict the first contact and the end of a run, and what would go wrong on its way."""

@@ -26,6 +26,7 @@ def bind() -> None:
     shorthand.check = check
     shorthand.registry = registry
     shorthand.case = case
+    shorthand.changed = changed
     shorthand.show = show
     shorthand.report = report
     shorthand.plot = plot
@@ -58,6 +59,14 @@ def case(tables: "dict[str, Any]") -> "Case":
     from tribo.config.load import validate_case
 
     return validate_case(tables)
+
+
+def changed(case: "Case", settings: "dict[str, Any]") -> "Case":
+    """Return a case with some values, by path, replaced."""
+    from tribo.config.load import case_tables, validate_case
+    from tribo.config.overrides import apply_settings
+
+    return validate_case(apply_settings(case_tables(case), settings))
 
 
 def show(result: "Result") -> None:

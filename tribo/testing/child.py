@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 import os
 import pickle
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -83,7 +84,10 @@ def child() -> Child:
 
 
 def _begin() -> subprocess.Popen[bytes]:
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    environment = {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join(path or os.getcwd() for path in sys.path),
+    }
     process = subprocess.Popen(
         [sys.executable, "-P", "-c", f"import {__name__} as child; child.serve()"],
         stdin=subprocess.PIPE,
@@ -97,6 +101,8 @@ def _begin() -> subprocess.Popen[bytes]:
 
 def serve() -> None:
     """Make the calls that are asked for on the standard input, until that ends."""
+    # Whoever began it ends it, on Ctrl-C too.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     # What a model prints goes elsewhere.
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)

@@ -1,0 +1,53 @@
+"""A table of a case as a short tree: what is not at its default, in readable units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pydantic import BaseModel
+
+from tribo.core.units import quantities, stated
+
+_INDENT = "  "
+
+
+def tree(table: BaseModel) -> str:
+    """Return a table as lines: its numbers beside its name, the tables in it indented below."""
+    return "\n".join(_lines(type(table).__name__, table))
+
+
+def _lines(name: str, value: Any, depth: int = 0) -> Iterator[str]:
+    inside: dict[str, Any] = {}
+    beside = [value.type] if hasattr(value, "type") else []
+    if isinstance(value, BaseModel):
+        for key, (inner, field) in _given(value).items():
+            if _is_table(inner):
+                inside[key] = inner
+            else:
+                beside.append(f"{key} {_text(inner, field)}")
+    else:
+        inside = dict(value) if isinstance(value, Mapping) else dict(enumerate(value))
+    yield _INDENT * depth + f"{name}: {', '.join(beside)}".removesuffix(": ")
+    for key, inner in inside.items():
+        yield from _lines(str(key), inner, depth + 1)
+
+
+def _given(table: BaseModel) -> dict[str, tuple[Any, Any]]:
+    """Return the values that are not at their defaults, each with its field."""
+    fields = type(table).model_fields
+    return {key: (v, fields[key]) for key, v in table if v != fields[key].default}
+
+
+def _is_table(value: Any) -> bool:
+    if isinstance(value, Mapping):
+        return True
+    inner = value[:1] if isinstance(value, tuple) else (value,)
+    return any(isinstance(each, BaseModel) for each in inner)
+
+
+def _text(value: Any, field: Any) -> str:
+    if isinstance(value, tuple):
+        return f"[{', '.join(_text(each, field) for each in value)}]"
+    unit = next((mark.unit for mark in quantities(field)), "1")
+    return stated(value, unit) if isinstance(value, float) else str(value)
