@@ -8,6 +8,7 @@ from tribo.core import shorthand
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
     from typing import Any
 
@@ -61,7 +62,7 @@ def case(tables: "dict[str, Any]") -> "Case":
     return validate_case(tables)
 
 
-def changed(case: "Case", settings: "dict[str, Any]") -> "Case":
+def changed(case: "Case", settings: "Mapping[str, Any]") -> "Case":
     """Return a case with some values, by path, replaced."""
     from tribo.config.load import case_tables, validate_case
     from tribo.config.overrides import apply_settings

@@ -27,10 +27,11 @@ def _lines(name: str, value: Any, depth: int = 0) -> Iterator[str]:
             else:
                 beside.append(f"{key} {_text(inner, field)}")
     else:
-        inside = dict(value) if isinstance(value, Mapping) else dict(enumerate(value))
+        pairs = value.items() if isinstance(value, Mapping) else enumerate(value)
+        inside = {str(key): inner for key, inner in pairs}
     yield _INDENT * depth + f"{name}: {', '.join(beside)}".removesuffix(": ")
     for key, inner in inside.items():
-        yield from _lines(str(key), inner, depth + 1)
+        yield from _lines(key, inner, depth + 1)
 
 
 def _given(table: BaseModel) -> dict[str, tuple[Any, Any]]:
