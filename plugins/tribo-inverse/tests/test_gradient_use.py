@@ -261,7 +261,8 @@ def test_a_depth_at_the_bottom_of_a_layer_counts_as_just_above_it(body):
     assert found.value == pytest.approx(thicker.value, rel=1e-6)
     for path in paths:
         assert found[path] == pytest.approx(thicker[path], rel=1e-6)
-    assert [found.relative[path] for path in (thickness, below)] == pytest.approx([0, 0], abs=1e-9)
+    # 0 to the tolerance of a contact solve.
+    assert [found.relative[path] for path in (thickness, below)] == pytest.approx([0, 0], abs=1e-8)
     assert thinner[thickness] > 0
 
 
