@@ -103,18 +103,25 @@ class Begin(Table):
     """The save to begin with, by its time; the last if left out."""
 
 
+SaveTime = Annotated[float | str, Quantity("s", at_least=0, also=("m", "lap"))]
+"""A time, or the path slid by then."""
+
+
 class Output(Table):
     """The output times."""
 
-    save_times: tuple[Annotated[float, Quantity("s", at_least=0)], ...] = ()
-    """Times at which all fields are saved; t = 0 and the end always are."""
+    save_times: tuple[
+        Annotated[float | str, Quantity("s", at_least=0, also=("m", "lap"))], ...
+    ] = ()
+    """When all fields are saved, by time or by the path slid until then, as ``"100 m"`` or
+    ``"500 laps"``; t = 0 and the end always are."""
 
 
 class Stop(Table):
     """Ends the run at the first condition that is met."""
 
-    distance: Annotated[float, Quantity("m", above=0)] | None = None
-    """Sliding distance."""
+    distance: Annotated[float | str, Quantity("m", above=0, also=("lap",))] | None = None
+    """Sliding distance, in m or in laps."""
     depth: Annotated[float, Quantity("m", above=0)] | None = None
     """Largest wear depth."""
     body: str | None = None

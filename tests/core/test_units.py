@@ -6,6 +6,8 @@ from typing import Annotated
 import jsonschema
 import pint
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from tribo.core.errors import CaseError
@@ -19,6 +21,11 @@ WRITTEN = [
     ("4 GPa", "Pa"),
     ("2.5 bar", "Pa"),
     ("1500 1/min", "Hz"),
+    ("3.5 ft", "m"),
+    ("3 lbf", "N"),
+    ("30 ksi", "Pa"),
+    ("14 psi", "Pa"),
+    ("4 lb/ft^3", "kg/m^3"),
     ("2 hours", "s"),
     ("700 kgf/mm^2", "Pa"),
     ("90 min", "s"),
@@ -47,9 +54,34 @@ def test_conversion_agrees_with_pint(text, unit):
     assert parse(text, unit) == pytest.approx(expected, rel=1e-14, abs=0)
 
 
+SIGNS = {
+    "times": st.sampled_from(["e{}", "·10^{}", "x10^{}", " × 10^{}", "*10**{}", " · 10{raised}"]),
+    "volume": st.sampled_from(["mm^3", "mm3", "mm**3", "mm³"]),
+    "below": st.sampled_from(
+        ["/(N m)", "/Nm", "/N.m", "/N·m", "/(N·m)", "/(N*m)", "/N/m", " N⁻¹ m⁻¹", "·N^-1·m^-1"]
+    ),
+}
+
+
+@given(digits=st.integers(1, 9999), power=st.integers(-18, 18), **SIGNS)
+def test_every_spelling_of_a_quantity_is_the_same_float(digits, power, times, volume, below):
+    raised = str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    text = f"{digits}{times.format(power, raised=raised)} {volume}{below}"
+    assert parse(text, "1/Pa") == parse(f"{digits}e{power} mm^3/(N m)", "1/Pa")
+
+
 @pytest.mark.parametrize(
     ("text", "unit", "exactly"),
     [
+        ("1/4 in", "m", 0.00635),
+        ("1/3", "1", 1 / 3),
+        ("10⁻⁷ m", "m", 1e-7),
+        ("−5 mm", "m", -5e-3),
+        ("60 rpm", "Hz", 1.0),
+        ("3 mNm", "J", 3e-3),
+        ("3 mN.m", "J", 3e-3),
+        ("46 W/m·K", "W/(m K)", 46.0),
+        ("241 HB", "Pa", 241 * 9806650.0),
         ("0.3mm", "m", 3e-4),
         ("1.1 µm", "m", 1.1e-6),
         ("1.1 μm", "m", 1.1e-6),
@@ -76,7 +108,10 @@ def test_conversion_rounds_once(text, unit, exactly):
         ("5 m s", "m", "'5 m s' is a quantity in m s"),
         ("5 parsec", "m", "unknown unit 'parsec'"),
         ("46 W/m K", "W/(m K)", "put the divisor in parentheses"),
-        ("60 rpm", "Hz", "for rpm write '60 1/min', or Hz"),
+        ("2·103 N", "N", "a unit is missing"),
+        ("2.10^3 N", "N", "cannot read the unit '^3'"),
+        ("5 laps", "m", "is a number of laps [lap]; a length [m] is needed, as in '5 mm'"),
+        ("5 laps", "1", "a plain number is needed"),
         ("5 Hz", "m/s", "is a frequency [Hz]; a speed [m/s] is needed, as in '0.1 m/s'"),
         ("100 cSt", "Pa s", "is a kinematic viscosity [m^2/s]; a dynamic viscosity [Pa s] is "),
         ("62 HRC", "Pa", "Rockwell hardness has no fixed conversion; give GPa or HV"),

@@ -6,7 +6,7 @@ import math
 import operator
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from numbers import Real
 from typing import Any, get_args
@@ -16,7 +16,7 @@ from pydantic.fields import FieldInfo
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from tribo.core.dimensions import PREFIXES, Dimension, scale
+from tribo.core.dimensions import PREFIXES, Dimension, plain, scale
 from tribo.core.errors import CaseError
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.words import shown
@@ -32,6 +32,7 @@ _KINDS = {
     "kg": ("a mass", "2 g"),
     "s": ("a time", "1 h"),
     "K": ("a temperature", "90 degC"),
+    "lap": ("a number of laps", "500 laps"),
     "Hz": ("a frequency", "25 Hz"),
     "m/s": ("a speed", "0.1 m/s"),
     "N": ("a force", "100 N"),
@@ -66,8 +67,10 @@ _THOUSANDS = {1.0: ""} | {
 """Those of steps of a thousand, by their factor."""
 
 _LONGEST = 100
+_TIMES_TEN = re.compile(r"^10\^|(?<=[\d.])\s*[·*×x]\s*10\^")
 _NUMBER = re.compile(
-    r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3}(?!\d))?)(?![\d.])(.*)", re.S | re.A
+    r"([+-]?(?:\d+/0*[1-9]\d*|(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3}(?!\d))?))(?![\d.])(.*)",
+    re.S | re.A,
 )
 _AFTER_COMMA = re.compile(r",\d")
 
@@ -83,12 +86,13 @@ def number(text: str) -> float:
 
 
 def parse(text: str, unit: str) -> float:
-    """Return a text such as ``"5 mm"`` or ``"1e-6 mm^3/(N m)"`` in an SI unit, rounded once.
+    """Return a text such as ``"5 mm"`` or ``"2·10⁻⁷ mm³/Nm"`` in an SI unit, rounded once.
 
     `CaseError` if it cannot be read, or has another dimension than `unit`, which is ``"1"`` for
     none.
     """
-    match = _NUMBER.fullmatch(text.strip()) if len(text) <= _LONGEST else None
+    written = _TIMES_TEN.sub(lambda ten: "e" if ten.start() else "1e", plain(text.strip()))
+    match = _NUMBER.fullmatch(written) if len(text) <= _LONGEST else None
     if match is not None and _AFTER_COMMA.match(match[2]):
         raise CaseError(
             f"{text!r} has a comma; write a decimal point, as in '20.5', and nothing between "
@@ -138,6 +142,9 @@ class Quantity:
         `tribo check` and the message of a failed run ask about it.
     remedy : str, optional
         What to do instead of a value out of bounds, for its message.
+    also : tuple of str, optional
+        Units of other quantities of which a motion makes this one, as ``"lap"`` of a length. Text
+        in them is checked and left as text, laps in place of a number are that number.
     """
 
     unit: str
@@ -147,6 +154,7 @@ class Quantity:
     at_most: float | None = None
     usual: tuple[float, float] | None = None
     remedy: str | None = None
+    also: tuple[str, ...] = ()
 
     def hint(self, info: object = None) -> str:
         """Return what is needed, as "a length [m] is needed, as in '5 mm'"."""
@@ -195,7 +203,10 @@ class Quantity:
         """Return how pydantic validates the field."""
         scale(self.unit)
         return core_schema.no_info_plain_validator_function(
-            self._validate, serialization=core_schema.plain_serializer_function_ser_schema(float)
+            self._validate,
+            serialization=core_schema.plain_serializer_function_ser_schema(
+                lambda value: value if isinstance(value, str) else float(value)
+            ),
         )
 
     def __get_pydantic_json_schema__(
@@ -211,11 +222,24 @@ class Quantity:
         text = {"type": "string", "description": f"with a unit, as in '{_example(self.unit)}'"}
         return {"anyOf": [number, text], "x-unit": self.unit}
 
-    def _validate(self, value: object) -> float:
+    def _validate(self, value: object) -> float | str:
         try:
+            for unit in self.also:
+                if isinstance(value, str) and is_in(unit, value):
+                    number = replace(self, unit=unit, also=()).read(value)
+                    return number if self.unit == "1" else value.strip()
             return self.read(value)
         except CaseError as error:
             raise PydanticCustomError("quantity", "{message}", {"message": str(error)}) from None
+
+
+def is_in(unit: str, text: str) -> bool:
+    """Whether a text can be read in an SI unit."""
+    try:
+        parse(text, unit)
+    except CaseError:
+        return False
+    return True
 
 
 def quantities(annotation: Any) -> Iterator[Quantity]:
@@ -235,7 +259,7 @@ def _called(dimension: Dimension) -> str:
     for unit, (name, _) in _KINDS.items():
         if scale(unit)[1] == dimension:
             return name if unit == "1" else f"{name} [{unit}]"
-    powers = zip(("m", "kg", "s", "K", "mol"), dimension, strict=True)
+    powers = zip(("m", "kg", "s", "K", "mol", "lap"), dimension, strict=True)
     return "a quantity in " + " ".join(f"{u}^{n}" if n != 1 else u for u, n in powers if n)
 
 

@@ -140,10 +140,20 @@ class GuardedMotion(Guard[Kinematics]):
                 f"{beyond // 2} in the middle"
             )
 
-    def end_time(self, distance: float | None) -> float:
-        """Return when the motion ends, or has slid `distance` (m) if that is sooner, in s."""
+    def end_time(self, distance: float | str | None) -> float:
+        """Return when the motion ends, or has slid `distance` if that is sooner, in s."""
         end = self.number("end_time", self.ask(getattr, self.component, "end_time"))
-        return end if distance is None else min(end, self.time_at(distance))
+        if distance is None:
+            return end
+        return min(end, self.time_at(self.ask(self.component.metres, distance)))
+
+    def moment(self, given: float | str) -> float:
+        """Return a time in s, which may be given as text by the path slid then; inf if never."""
+        if not isinstance(given, str):
+            return given
+        path = self.ask(self.component.metres, given)
+        time = self.time_at(path)
+        return time if self.distance_at(time) >= path * (1 - SAME) else np.inf
 
     def edges(self) -> list[float]:
         """Return the times at which its speed jumps, in s."""

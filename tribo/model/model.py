@@ -87,9 +87,14 @@ class Model:
         return self.cycle.maps[name].see(self.surfaces[name].height, self.cycle.middle)
 
     @cached_property
+    def save_times(self) -> tuple[float, ...]:
+        """Times at which the case has all fields saved, in s."""
+        return tuple(map(self.motion.moment, self.case.output.save_times))
+
+    @cached_property
     def saves(self) -> frozenset[float]:
         """Times after t = 0 at which all fields are saved, in s."""
-        times = self.case.output.save_times
+        times = self.save_times
         return frozenset({*(t for t in times if 0 < t < self.end_time), self.end_time})
 
     @cached_property

@@ -11,7 +11,7 @@ from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, listed
 from tribo.core.table import Table
-from tribo.core.units import Quantity
+from tribo.core.units import Quantity, parse
 from tribo.motion.held import Held, held
 from tribo.motion.kinematics import Kinematics
 
@@ -41,17 +41,21 @@ class Steady(Kinematics):
     """Sliding round a closed path, at one speed or in stages; one body passes."""
 
     speed: Annotated[
-        Annotated[float, Quantity("m/s", above=0, usual=(1e-12, 200.0)), Tag(NUMBER)]
+        Annotated[
+            float | str,
+            Quantity("m/s", above=0, usual=(1e-12, 200.0), also=("Hz",)),
+            Tag(NUMBER),
+        ]
         | Annotated[tuple[SpeedStage, ...], Tag(STAGES)],
         ONE_OR_STAGES,
     ]
-    """Sliding speed: a number, or a list of stages, each a table with `until` and `speed`, 0 for a
-    rest."""
+    """Sliding speed, or how often it goes round, as ``"60 rpm"``: a number, or a list of stages,
+    each a table with `until` and `speed`, 0 for a rest."""
     duration: Annotated[float, Quantity("s", above=0)] | None = None
     """How long it runs."""
-    revolutions: Annotated[float, Quantity("1", above=0)] | None = None
+    revolutions: Annotated[float, Quantity("1", above=0, also=("lap",))] | None = None
     """How many times it goes round."""
-    distance: Annotated[float, Quantity("m", above=0)] | None = None
+    distance: Annotated[float | str, Quantity("m", above=0, also=("lap",))] | None = None
     """How far it slides."""
     swept: str | None = None
     """Name of the body whose points pass through the contact; the last body if left out."""
@@ -60,8 +64,11 @@ class Steady(Kinematics):
 
     @field_validator("speed")
     @classmethod
-    def _slides_on(cls, speed: float | tuple[SpeedStage, ...]) -> float | tuple[SpeedStage, ...]:
-        held("speed", speed)
+    def _slides_on(
+        cls, speed: float | str | tuple[SpeedStage, ...]
+    ) -> float | str | tuple[SpeedStage, ...]:
+        if not isinstance(speed, str):
+            held("speed", speed)
         return speed
 
     @model_validator(mode="after")
@@ -72,7 +79,8 @@ class Steady(Kinematics):
 
     @property
     def _held(self) -> Held:
-        return held("speed", self.speed)
+        given = self.speed
+        return held("speed", parse(given, "Hz") * self.lap if isinstance(given, str) else given)
 
     @property
     def edges(self) -> Sequence[float]:
@@ -82,7 +90,8 @@ class Steady(Kinematics):
     @property
     def end_time(self) -> float:
         """Time at which the motion ends, in s; `CaseError` if its stages end before."""
-        far = self.distance if self.revolutions is None else self.revolutions * self.track_extent
+        slid = self.metres(self.distance or 0.0)
+        far = slid if self.revolutions is None else self.revolutions * self.track_extent
         return self._held.end("speed", "m", self.duration, far)
 
     def distance_at(self, time: float) -> float:

@@ -8,7 +8,9 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
 from tribo.component import Component
+from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
+from tribo.core.units import is_in, parse
 from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure
 
@@ -38,6 +40,24 @@ class Kinematics(Component):
         Infinite, unless overridden: points that pass do not come back.
         """
         return math.inf
+
+    @property
+    def lap(self) -> float:
+        """Path of one lap, in m: once round or, to and fro, a full cycle; infinite if laps differ.
+
+        So it is for a motion to and fro, unless overridden.
+        """
+        return math.inf if self.turns_back else self.track_extent
+
+    def metres(self, path: float | str) -> float:
+        """Return a path in m that may be text in m or in laps; `CaseError` if it has no laps."""
+        if not isinstance(path, str):
+            return path
+        if is_in("m", path):
+            return parse(path, "m")
+        if math.isinf(self.lap):
+            raise CaseError(f"{path}: kinematics.type = {self.type!r} has no laps; give m")
+        return parse(path, "lap") * self.lap
 
     def time_at(self, distance: float) -> float:
         """Return the time at which the sliding distance reaches `distance` (m), in s.

@@ -50,7 +50,7 @@ class Measured(Kinematics):
     and m; a relative name starts at the current directory."""
     duration: Annotated[float, Quantity("s", above=0)] | None = None
     """How long it runs, the path repeated; once through the path if left out."""
-    cycles: Annotated[float, Quantity("1", above=0)] | None = None
+    cycles: Annotated[float, Quantity("1", above=0, also=("lap",))] | None = None
     """How many times it runs through the path."""
     positions: Annotated[int, Field(ge=3)] | Literal["cells"] = 33
     """In how many positions the contact is solved, an odd number, or ``"cells"`` for every cell
@@ -112,6 +112,11 @@ class Measured(Kinematics):
         """Range of the path, in m."""
         places = self._samples[1]
         return float(np.max(places) - np.min(places))
+
+    @property
+    def lap(self) -> float:
+        """Length of the path, in m."""
+        return float(self._samples[2][-1])
 
     @property
     def end_time(self) -> float:

@@ -72,9 +72,9 @@ class Reciprocating(Kinematics):
     list of stages, each a table with `until` and `frequency`, 0 for a rest."""
     duration: Annotated[float, Quantity("s", above=0)] | None = None
     """How long it runs."""
-    cycles: Annotated[float, Quantity("1", above=0)] | None = None
+    cycles: Annotated[float, Quantity("1", above=0, also=("lap",))] | None = None
     """How many full cycles it runs."""
-    distance: Annotated[float, Quantity("m", above=0)] | None = None
+    distance: Annotated[float | str, Quantity("m", above=0, also=("lap",))] | None = None
     """How far it slides."""
     waveform: Literal["constant_speed", "sinusoidal"] = "constant_speed"
     """How the speed varies along the stroke."""
@@ -127,9 +127,15 @@ class Reciprocating(Kinematics):
         return self.stroke
 
     @property
+    def lap(self) -> float:
+        """Path of a full cycle: two strokes, in m."""
+        return 2 * self.stroke
+
+    @property
     def end_time(self) -> float:
         """Time at which the motion ends, in s."""
-        cycles = self.cycles if self.distance is None else self._half_cycles(self.distance) / 2
+        slid = self.distance
+        cycles = self.cycles if slid is None else self._half_cycles(self.metres(slid)) / 2
         return self._held.end("frequency", "cycles", self.duration, cycles)
 
     def distance_at(self, time: float) -> float:

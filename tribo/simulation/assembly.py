@@ -103,7 +103,8 @@ def assemble(case: Case) -> Model:
         )
     effects = in_order(case, [GuardedEffect(effect, list(bodies)) for effect in given])
     friction = None if case.friction is None else case.friction.coefficient
-    end = motion.end_time(case.stop.distance)
+    with located("stop.distance"):
+        end = motion.end_time(case.stop.distance)
     motion.check_distance(end)
     model = Model(
         case=case,
@@ -258,14 +259,17 @@ def _check_ends(model: Model) -> None:
             "or shorten the motion",
             "load.normal",
         )
-    times = model.case.output.save_times
+    with located("output.save_times"):
+        times = model.save_times
     if any(later <= earlier for earlier, later in pairwise(times)):
         listed = ", ".join(f"{time:g}" for time in times)
         raise CaseError(f"must increase, but are {listed} s", "output.save_times")
     if times and times[-1] > end * (1 + 1e-12):
+        written = model.case.output.save_times[-1]
+        moment = written if isinstance(written, str) else f"{written:g} s"
         raise CaseError(
-            f"{times[-1]:g} s is beyond the end of the run at {end:g} s; lengthen the motion or "
-            "leave it out",
+            f"{moment} is beyond the end of the run at {end:g} s; lengthen the motion or leave it "
+            "out",
             "output.save_times",
         )
     stop = model.case.stop

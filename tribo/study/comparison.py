@@ -295,8 +295,9 @@ def _check_saved(label: str, case: Case, times: Sequence[float], registry: Regis
     """Check that a variant saves at times, in s; an end at some depth is no time known before."""
     if not times:
         return
-    end = Simulation(case, registry).model.end_time
-    saved = sorted({0.0, *case.output.save_times, end})
+    model = Simulation(case, registry).model
+    end = model.end_time
+    saved = sorted({0.0, *model.save_times, end})
     for time in times:
         if not any(abs(time - each) <= ROUND_OFF * end for each in saved):
             raise CaseError(

@@ -18,10 +18,10 @@ from tribo.testing.compare import NotApplicable, mapped
 
 T = TypeVar("T")
 
-_POWERS = (6, -11, 3, -5, 0)
-"""Powers of 2, which cost no digit, by which numbers in m, kg, s, K and mol grow. In these units
-the gas constant, Boltzmann's and Stefan's constants and the acceleration of free fall have the
-numbers that they have in SI, so that a model may know them."""
+_POWERS = (6, -11, 3, -5, 0, 0)
+"""Powers of 2, which cost no digit, by which numbers in m, kg, s, K, mol and laps grow. In these
+units the gas constant, Boltzmann's and Stefan's constants and the acceleration of free fall have
+the numbers that they have in SI, so that a model may know them."""
 
 
 def factor(unit: str) -> float:

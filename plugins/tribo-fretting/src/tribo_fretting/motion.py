@@ -30,7 +30,7 @@ class Fretting(Kinematics, Drive):
     """Full cycles, to and fro, per second."""
     duration: Annotated[float, Quantity("s", above=0)] | None = None
     """How long it runs."""
-    cycles: Annotated[float, Quantity("1", above=0)] | None = None
+    cycles: Annotated[float, Quantity("1", above=0, also=("lap",))] | None = None
     """How many full cycles it runs."""
 
     @model_validator(mode="after")
@@ -56,6 +56,11 @@ class Fretting(Kinematics, Drive):
     def track_extent(self) -> float:
         """Length of the longest stroke, in m."""
         return 2 * max(amplitude for _, amplitude in self.stages)
+
+    @property
+    def lap(self) -> float:
+        """Path of a cycle, in m; infinite where the amplitude changes."""
+        return np.inf if self.edges else 2 * self.track_extent
 
     @property
     def edges(self) -> Sequence[float]:
