@@ -2,43 +2,62 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import click
 
 from tribo.cli.options import PATH, RESULT
+from tribo.core.errors import CaseError
+
+OWN = {"csv": "tables", "xlsx": "the same tables in one file for Excel"}
 
 
 @click.command()
 @RESULT
 @click.option("-d", "--directory", type=PATH, help="Folder to write to; OUTPUT-FORMAT.")
 @click.option(
-    "--format", "name", default="csv", show_default=True, help="csv, or one that a plugin offers."
+    "--format", "name", default="csv", show_default=True, help="csv, xlsx, or one of a plugin."
 )
-def export(output: Path, directory: Path | None, name: str) -> None:
-    """Write the result OUTPUT in another format: CSV, or one that a plugin offers.
+@click.option("--columns", metavar="A,B,…", help="Write these columns of lab.csv alone.")
+def export(output: Path, directory: Path | None, name: str, columns: str | None) -> None:
+    """Write the result OUTPUT as CSV, for Excel, or in a format that a plugin offers.
 
-    CSV holds history, saves and profiles, and its column names carry the units:
-    history.csv (a row a step), saves.csv (a row a save, with the largest value of
-    each field of effects and laws and its mean in the contact), profiles_x.csv
-    and profiles_y.csv (through the centre, along and across the sliding
-    direction, a block a save).
+    lab.csv has what 'tribo show' prints of the saves, in a laboratory's units. The
+    other files are in SI: history.csv (a row a step), saves.csv (a row a save, with
+    the largest value of each field of effects and laws and its mean in the contact),
+    profiles_x.csv and profiles_y.csv (through the centre, along and across the
+    sliding direction, a block a save). For Excel they are sheets of tables.xlsx.
 
     \b
     Example:
       tribo export my.h5 -d csv
+      tribo export my.h5 --format xlsx --columns "time,p max,ball depth"
     """
     from tribo.core.writing import writing
+    from tribo.lab.tables import saves_table
     from tribo.registry.all_plugins import choose
-    from tribo.result.export import export_csv
+    from tribo.result.export import si_tables, write_tables
     from tribo.result.read import Result
 
-    write = export_csv
-    if name != "csv":
-        write = choose("tribo_export_formats", name, "format", {"csv": "tables"}).write
+    write = None if name in OWN else choose("tribo_export_formats", name, "format", OWN).write
     folder = directory or output.with_name(f"{output.stem}-{name}")
     with Result.open(output) as result:
+        lab = saves_table(result).to_dataframe()
+        tables = (
+            {"lab": lab[_chosen(columns, lab)]} if columns else si_tables(result) | {"lab": lab}
+        )
         with writing(folder):
-            paths = write(result, folder)
+            paths = write(result, folder) if write else write_tables(tables, folder, name)
         for path in paths:
             click.echo(f"Wrote {path}")
+
+
+def _chosen(columns: str, there: Iterable[str]) -> list[str]:
+    """Return the columns of a list of names without units."""
+    names = {column.partition(" (")[0]: column for column in there}
+    try:
+        return [names[each.strip()] for each in columns.split(",")]
+    except KeyError as error:
+        listed = ", ".join(names)
+        raise CaseError(f"no column is called {error}; there are: {listed}", "--columns") from None

@@ -1,14 +1,17 @@
-"""Write a result's history and profiles as CSV."""
+"""Write a result's history and profiles as CSV or for Excel."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from io import BytesIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.column import labelled
+from tribo.core.errors import CaseError
 from tribo.core.writing import make_folder, write_file
 from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
@@ -16,21 +19,40 @@ from tribo.result.read import Result
 
 def export_csv(result: Result, folder: Path) -> list[Path]:
     """Write history, saves and profiles as CSV files, with units in their column names."""
-    tables: dict[str, Mapping[str, Array]] = {
+    return write_tables(si_tables(result), folder)
+
+
+def si_tables(result: Result) -> dict[str, Mapping[str, Array]]:
+    """Return history, saves and profiles in SI, with units in their column names."""
+    return {
         "history": result.table("history"),
         "saves": {**result.table("saves"), **_measures(result)},
         "profiles_x": _profiles(result, 0),
         "profiles_y": _profiles(result, 1),
     }
-    paths = [folder / f"{name}.csv" for name in tables]
-    make_folder(folder)
-    for path, table in zip(paths, tables.values(), strict=True):
-        # Slow to import, and needed here only.
-        import pandas as pd
 
-        rows = pd.DataFrame(table, dtype=float)
-        write_file(path, rows.to_csv(index=False, na_rep="nan", lineterminator="\r\n"))
-    return paths
+
+def write_tables(tables: Mapping[str, Any], folder: Path, form: str = "csv") -> list[Path]:
+    """Write tables as CSV files or, where `form` is ``"xlsx"``, as the sheets of an Excel file."""
+    # Slow to import, and needed here only.
+    import pandas as pd
+
+    frames = {name: pd.DataFrame(table, dtype=float) for name, table in tables.items()}
+    make_folder(folder)
+    if form == "csv":
+        paths = [folder / f"{name}.csv" for name in frames]
+        for path, frame in zip(paths, frames.values(), strict=True):
+            write_file(path, frame.to_csv(index=False, na_rep="nan", lineterminator="\r\n"))
+        return paths
+    book = BytesIO()
+    try:
+        with pd.ExcelWriter(book, engine="openpyxl") as writer:
+            for name, frame in frames.items():
+                frame.to_excel(writer, sheet_name=name, index=False)
+    except ImportError:
+        raise CaseError("xlsx needs openpyxl: pip install openpyxl", "--format") from None
+    write_file(folder / "tables.xlsx", book.getvalue())
+    return [folder / "tables.xlsx"]
 
 
 def profile(field: Array, axis: int) -> Array:
