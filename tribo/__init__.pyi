@@ -53,6 +53,7 @@ from tribo.core.loads import Load as Load
 from tribo.core.loads import Place as Place
 from tribo.core.loads import Stage as Stage
 from tribo.core.material import Material as Material
+from tribo.core.material import materials as materials
 from tribo.core.measures import BodyMeasures as BodyMeasures
 from tribo.core.measures import Invariants as Invariants
 from tribo.core.measures import Measures as Measures

@@ -87,6 +87,16 @@ class Body(Table):
         return (*(layer.material(self.material) for layer in self.layers), self.material)
 
 
+def _of_own_material(body: Any, own: Mapping[str, Material]) -> Any:
+    """Return the table of a body whose material is named with the numbers of that name."""
+    given = body.get("material") if isinstance(body, Mapping) else None
+    table = {"name": given} if isinstance(given, str) else given
+    if not isinstance(table, Mapping) or table.get("name") not in own:
+        return body
+    numbers = own[table["name"]].model_dump(exclude_none=True)
+    return {**body, "material": {**numbers, **table}}
+
+
 class Friction(Table):
     """Friction, for the laws and effects that ask for it; it does not act on the contact."""
 
@@ -110,9 +120,7 @@ SaveTime = Annotated[float | str, Quantity("s", at_least=0, also=("m", "lap"))]
 class Output(Table):
     """The output times."""
 
-    save_times: tuple[
-        Annotated[float | str, Quantity("s", at_least=0, also=("m", "lap"))], ...
-    ] = ()
+    save_times: tuple[SaveTime, ...] = ()
     """When all fields are saved, by time or by the path slid until then, as ``"100 m"`` or
     ``"500 laps"``; t = 0 and the end always are."""
 
@@ -150,6 +158,7 @@ class Case(Table):
             load: Load | float | str | Sequence[Stage],
             bodies: Mapping[str, Body],
             kinematics: Kinematics,
+            materials: Mapping[str, Material] = ...,
             begin: Begin | str | None = None,
             contact: ContactSolver = ...,
             stepping: Implicit | Explicit = ...,
@@ -165,6 +174,8 @@ class Case(Table):
     """Distributions that must be installed, as ``"acme-tribo>=1.2"``."""
     grid: Grid
     load: Load
+    materials: dict[str, Material] = Field({})
+    """Materials of one's own, by the names that bodies may give."""
     bodies: dict[str, Body]
     """The two bodies, by name."""
     begin: Begin | None = None
@@ -220,7 +231,7 @@ class Case(Table):
 
     @field_validator("bodies", mode="before")
     @classmethod
-    def _two_bodies(cls, bodies: Any) -> Any:
+    def _two_bodies(cls, bodies: Any, info: ValidationInfo) -> Any:
         if not isinstance(bodies, Mapping):
             return bodies
         if len(bodies) != 2:
@@ -230,7 +241,8 @@ class Case(Table):
             )
         for name in bodies:
             checked_name(str(name))
-        return bodies
+        own = info.data.get("materials", {})
+        return {name: _of_own_material(body, own) for name, body in bodies.items()}
 
     @model_validator(mode="after")
     def _read_properties(self) -> Self:

@@ -26,6 +26,7 @@ def bind() -> None:
     shorthand.run = run
     shorthand.check = check
     shorthand.registry = registry
+    shorthand.materials = materials
     shorthand.case = case
     shorthand.changed = changed
     shorthand.show = show
@@ -82,6 +83,19 @@ def registry() -> "Registry":
     from tribo.registry.registry import default_registry
 
     return default_registry()
+
+
+def materials() -> "list[Path]":
+    """Return the files ``materials.toml`` of installed packages, none of which is imported."""
+    from importlib.util import find_spec
+    from pathlib import Path
+
+    usable = (p for p in registry().plugins if p.usable and p.origin == "installed")
+    specs = map(find_spec, sorted({plugin.entry_point.partition(".")[0] for plugin in usable}))
+    files = (
+        Path(spec.origin).with_name("materials.toml") for spec in specs if spec and spec.origin
+    )
+    return [file for file in files if file.is_file()]
 
 
 def report(result: "Result") -> "LabReport":

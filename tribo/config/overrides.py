@@ -23,18 +23,20 @@ def apply_settings(
     """Return `data`, tables as read from TOML, with values replaced; it is left unchanged.
 
     `settings` are values by path, as TOML would give them, or texts ``"effects.0.rate=2"``, whose
-    value is read as TOML or else as text. Setting ``type`` to another one drops the other keys of
-    the table, which belong to the former type; such changes are made first, in any order. Of
-    several values for one path the last counts. Missing tables are added; unknown keys are left to
-    the validation. `CaseError` if a path leads through a value that is not a table.
+    value is read as TOML or else as text. Setting ``type``, or the ``name`` of a material, to
+    another one drops the other keys of the table, which belong to the former; such changes are made
+    first, in any order. Of several values for one path the last counts. Missing tables are added;
+    unknown keys are left to the validation. `CaseError` if a path leads through a value that is not
+    a table.
     """
     if isinstance(settings, str):
         settings = [settings]
     pairs = settings.items() if isinstance(settings, Mapping) else map(_pair, settings)
     changes = [(path_keys(path), value) for path, value in pairs]
     changed = dict(data)
-    types = sorted((c for c in changes if c[0][-1] == "type"), key=lambda c: len(c[0]))
-    for keys, value in types + [c for c in changes if c[0][-1] != "type"]:
+    first = [change for change in changes if _decides(change[0])]
+    others = [change for change in changes if not _decides(change[0])]
+    for keys, value in sorted(first, key=lambda change: len(change[0])) + others:
         changed = _changed(changed, keys, value)
     return changed
 
@@ -99,6 +101,11 @@ def _pair(text: str) -> tuple[str, Any]:
     return path.strip(), parse_value(value.strip())
 
 
+def _decides(keys: Sequence[str]) -> bool:
+    """Whether the last of some keys decides on the other keys of its table."""
+    return keys[-1] == ("name" if keys[-2:-1] == ["material"] else "type")
+
+
 def _changed(inside: Any, keys: list[str], value: Any, above: tuple[str, ...] = ()) -> Any:
     """Return a copy of what is at `above`, with `value` at `keys` in it."""
     if not keys:
@@ -108,11 +115,11 @@ def _changed(inside: Any, keys: list[str], value: Any, above: tuple[str, ...] = 
     if short and not (isinstance(inside, Mapping) or key.isdigit()):
         inside = {short: inside}
     if isinstance(inside, str):
-        # The name of a component is short for a table with its type.
-        inside = {"type": inside}
+        # The name of a material or a component is short for a table with its name or type.
+        inside = {"name" if above[-1:] == ("material",) else "type": inside}
     if isinstance(inside, Mapping):
-        if keys == ["type"] and above:
-            return inside if inside.get("type") == value else {"type": value}
+        if not rest and above and _decides([*above, key]):
+            return inside if inside.get(key) == value else {key: value}
         return {**inside, key: _changed(inside.get(key, {}), rest, value, (*above, key))}
     if not isinstance(inside, list):
         raise CaseError("is not a table; nothing in it can be set", ".".join(above))

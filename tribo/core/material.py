@@ -1,21 +1,35 @@
-"""Materials, and the contact modulus of two of them."""
+"""Materials, those known by name, and the contact modulus of two materials."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
+from difflib import get_close_matches
+from functools import cache
+from pathlib import Path
 from typing import Annotated, Any
 
-from tribo.core.errors import CaseError
+from pydantic import model_validator
+
+from tribo.core import shorthand
+from tribo.core.errors import CaseError, WrongValues, warn
 from tribo.core.table import Table
-from tribo.core.units import Quantity
+from tribo.core.units import Quantity, quantities
+from tribo.core.words import said
 
 Poisson = Annotated[float, Quantity("1", above=-1, below=0.5, usual=(0, 0.5))]
 """Poisson's ratio; below 0 only foams and lattices made for it."""
 
 
 class Material(Table):
-    """An isotropic material; elastic, or elastic-perfectly-plastic with a hardness."""
+    """An isotropic material; elastic, or elastic-perfectly-plastic with a hardness.
 
+    A name alone stands for the numbers that are known by it, as ``"100Cr6"`` does; a table that
+    lacks `young` or `poisson` has them from its name, other keys replace what is known.
+    """
+
+    name: str | None = None
+    """What it is called; `tribo materials` lists names that are known."""
     young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12))]
     """Young's modulus E."""
     poisson: Poisson
@@ -30,6 +44,16 @@ class Material(Table):
     """Specific heat capacity."""
     properties: dict[str, Any] | None = None
     """Further properties by name, those that models of the case declare."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _by_name(cls, given: Any) -> Any:
+        table = {"name": given} if isinstance(given, str) else given
+        if not isinstance(table, Mapping) or {"young", "poisson"} <= table.keys():
+            return table
+        name = table.get("name")
+        known = materials[name].model_dump(exclude_none=True) if isinstance(name, str) else {}
+        return {**known, **table}
 
     def property(self, name: str) -> float:
         """Return a property in SI: one of `properties`, or the value of a key such as ``density``.
@@ -48,3 +72,73 @@ def contact_modulus(materials: Iterable[Material]) -> float:
     1/E* = Σ (1 − ν²)/E; Johnson, K. L. (1985), Contact Mechanics, eq. 4.22.
     """
     return 1 / sum((1 - m.poisson**2) / m.young for m in materials)
+
+
+_MARKS = {key: mark for key, f in Material.model_fields.items() for mark in quantities(f)}
+
+
+class Materials:
+    """The materials that are known by name: tribo's own, and those that packages offer.
+
+    Examples
+    --------
+    >>> import tribo
+    >>> tribo.materials["100Cr6"].poisson
+    0.3
+    """
+
+    def __getitem__(self, name: str) -> Material:
+        name, known = self.known(name)
+        numbers = {key: typical(key, known[key]) for key in known.keys() & _MARKS.keys()}
+        return Material(name=name, **numbers)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.tables())
+
+    def tables(self) -> dict[str, dict[str, Any]]:
+        """Return what is known of each material, as files such as ``materials.toml`` have it."""
+        files = *shorthand.materials(), Path(__file__).with_name("materials.toml")
+        return {name: table for file in files for name, table in _read(file).items()}
+
+    def known(self, name: str) -> tuple[str, dict[str, Any]]:
+        """Return name and table of a material by one of its names; `CaseError` if none has it."""
+        tables = self.tables()
+        called = {a.casefold(): n for n, t in tables.items() for a in (n, *t.get("also", ()))}
+        if found := called.get(name.casefold()):
+            return found, tables[found]
+        near = sorted({called[each] for each in get_close_matches(name.casefold(), called)})
+        raise WrongValues(
+            f"no material is called {name!r}; near: {', '.join(near) or 'none'}; 'tribo materials' "
+            "lists all, or give young and poisson"
+        )
+
+
+materials = Materials()
+"""The materials that a case may name."""
+
+
+def typical(key: str, number: Mapping[str, Any]) -> float:
+    """Return what a case takes of a number: its value or, without one, the middle of its range."""
+    given = [number["value"]] if "value" in number else number["range"]
+    return sum(map(_MARKS[key].read, given)) / len(given)
+
+
+def in_words(number: Mapping[str, Any]) -> str:
+    """Return a number as its sources give it."""
+    value, ends = number.get("value"), " to ".join(map(str, number.get("range", ())))
+    return str(value) if not ends else ends if value is None else f"{ends}, {value} taken"
+
+
+@cache
+def _read(file: Path) -> dict[str, dict[str, Any]]:
+    """Return the tables of a file, with sources in full; one of a package may be wrong."""
+    try:
+        tables = tomllib.loads(file.read_text(encoding="utf-8"))
+        sources = tables.pop("sources")
+        for number in (part for table in tables.values() for part in table.values()):
+            if isinstance(number, dict):
+                number["sources"] = [sources[each] for each in number["sources"].split()]
+    except (OSError, ValueError, LookupError, AttributeError) as error:
+        warn(f"{file} is left out: {said(error)}")
+        return {}
+    return tables

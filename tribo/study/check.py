@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import asdict, dataclass
 from html import escape
 from itertools import groupby
 from typing import Any
 
 from tribo.case import Case
+from tribo.core.errors import CaseError
 from tribo.core.findings import Finding
+from tribo.core.material import Material, in_words, materials, typical
 from tribo.core.words import readable
 from tribo.guards.trial_time import TRIAL_TIME
 from tribo.lab.against_hertz import (
@@ -132,7 +134,9 @@ def _widths(hertz: HertzContact) -> str:
 
 
 def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
-    """Yield the first contact, the end and the size of the run, each with its name."""
+    """Yield materials, the first contact, the end and the size of the run, each with its name."""
+    for name, body in model.case.bodies.items():
+        yield from _material(name, body.material)
     yield from _first_contact(model, prediction)
     if model.chosen is not None or prediction.positions > 1:
         resolved = f"the cycle is resolved at {prediction.positions}"
@@ -150,6 +154,18 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
         yield "run time here, about", f"{readable(soonest, '.2g')} to {readable(latest, '.2g')} s"
     yield "memory, at most", f"{readable(prediction.memory / 2**20, '.0f')} MiB"
     yield "result file, at most", f"{readable(prediction.file_size / 2**20, '.1f')} MiB"
+
+
+def _material(body: str, material: Material) -> Iterator[tuple[str, str]]:
+    """Yield the ranges of the numbers that a body has by the name of its material."""
+    with suppress(CaseError):
+        name, table = materials.known(material.name or "")
+        known = {k: table[k] for k in dict(material) if "range" in table.get(k, ())}
+        taken = (k for k, n in known.items() if typical(k, n) == getattr(material, k))
+        yield (
+            f"material of {body}",
+            "; ".join([name, *(f"{k} {in_words(known[k])}" for k in taken)]),
+        )
 
 
 def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
