@@ -4,6 +4,7 @@ from tribo.cli.console import Console as Console
 from tribo.cli.lab_report import report_blocks as report_blocks
 from tribo.cli.options import JSON as JSON
 from tribo.cli.options import PATH as PATH
+from tribo.cli.options import PLUGIN as PLUGIN
 from tribo.cli.options import SET as SET
 from tribo.cli.options import echo_json as echo_json
 from tribo.config.load import case_tables as case_tables
@@ -84,6 +85,7 @@ from tribo.lab.inferred import inferred as inferred
 from tribo.lab.inferred import track_section as track_section
 from tribo.lab.report import lab_report as lab_report
 from tribo.lab.report import lab_sentences as lab_sentences
+from tribo.lab.report import quantity_rows as quantity_rows
 from tribo.lab.report import run_sentences as run_sentences
 from tribo.lab.roughness import without_form as without_form
 from tribo.lab.scar import Scar as Scar
@@ -126,7 +128,10 @@ from tribo.plotting.units import shown_in as shown_in
 from tribo.plotting.units import size as size
 from tribo.plotting.units import time_labels as time_labels
 from tribo.plotting.units import time_unit as time_unit
+from tribo.registry.plugin_file import added_files as added_files
+from tribo.registry.probe import import_all as import_all
 from tribo.registry.registry import default_registry as default_registry
+from tribo.registry.registry import from_packages as from_packages
 from tribo.result.export import profile as profile
 from tribo.result.layout import TRACK as TRACK
 from tribo.result.layout import TRACK_PLASTIC as TRACK_PLASTIC

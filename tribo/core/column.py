@@ -27,7 +27,8 @@ class Column:
         What it means.
     read : callable
         Returns it as a float, NaN where there is none. What it is given is a `Snapshot` where a
-        model has the column among its `columns`.
+        model has the column among its `columns`, a `Result` where a package has it among its
+        quantities.
     of_bodies : bool, optional
         Whether each body has one: `read` is given the name of a body too.
     """

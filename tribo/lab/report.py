@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import product
 from math import isnan
 from typing import Any, NamedTuple
 
 from tribo.closed_forms.hertz import first_yield_pressure
+from tribo.core.column import Column
 from tribo.core.findings import Finding
 from tribo.core.measures import reaches_border
 from tribo.core.words import readable, signed
@@ -93,7 +95,7 @@ class LabReport:
 def lab_report(result: Result) -> LabReport:
     """Return what a laboratory would report of `result` at its last save."""
     first, words = _first_contact(result)
-    rows: list[LabRow] = from_plugins_of(result, "tribo_lab_rows")
+    rows: list[LabRow] = [*quantity_rows(result), *from_plugins_of(result, "tribo_lab_rows")]
     beyond = (row.finding for row in rows)
     return LabReport(
         bodies={name: _body(result, name) for name in result.body_names},
@@ -104,6 +106,23 @@ def lab_report(result: Result) -> LabReport:
         worn_through=tuple(result.worn_through),
         findings=(*result.findings, *(each for each in beyond if each)),
     )
+
+
+def quantity_rows(result: Result) -> list[LabRow]:
+    """Return a row for each quantity of a result, and of its bodies; none where it is NaN."""
+    known: dict[str, Column] = {}
+
+    def rows(column: Column) -> Iterator[LabRow]:
+        if known.setdefault(column.name, column) is not column:
+            raise ValueError(f"another package has a quantity {column.name!r}")
+        unit = "" if column.unit == "1" else column.unit
+        for of in product(result.body_names) if column.of_bodies else [()]:
+            value = float(column.read(result, *of))
+            if not isnan(value):
+                key = ".".join(("quantities", *of, column.label))
+                yield LabRow(" of ".join((column.description, *of)), value, unit, key=key)
+
+    return from_plugins_of(result, "tribo_quantities", then=rows)
 
 
 def lab_sentences(result: Result, lab: LabReport) -> Iterator[str]:

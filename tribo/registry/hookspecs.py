@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pluggy
 
+from tribo.core.column import Column
 from tribo.core.findings import Finding, beyond
 
 if TYPE_CHECKING:
@@ -34,13 +35,15 @@ hookimpl = pluggy.HookimplMarker(PROJECT)
 class LabRow(NamedTuple):
     """A row of the table after a run: its label, its value and the unit of the value.
 
-    A model that holds up to a `limit` is reported to be beyond it.
+    A model that holds up to a `limit` is reported to be beyond it. The value of a quantity has a
+    `key` in tables and JSON.
     """
 
     label: str
     value: float
     unit: str
     limit: float | None = None
+    key: str = ""
 
     def __str__(self) -> str:
         return f"{self.label}: {self.value:.4g} {self.unit}".rstrip()
@@ -90,6 +93,7 @@ class Command(NamedTuple):
 
 ITEMS: Mapping[str, type[Any]] = {
     "tribo_lab_rows": LabRow,
+    "tribo_quantities": Column,
     "tribo_export_formats": ExportFormat,
     "tribo_height_formats": HeightFormat,
     "tribo_templates": CaseTemplate,
@@ -108,6 +112,12 @@ def tribo_components() -> Iterable[type[Component]]:
 @hookspec
 def tribo_lab_rows(result: Result) -> Iterable[LabRow]:
     """Return rows for the lab table of a result that used this plugin."""
+    return ()
+
+
+@hookspec
+def tribo_quantities() -> Iterable[Column]:
+    """Return numbers read off a `Result`: for lab tables, sweeps, comparisons, calibrations."""
     return ()
 
 

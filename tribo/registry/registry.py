@@ -7,7 +7,7 @@ import re
 import sys
 import warnings
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Set
 from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
 from functools import cache, partial
 from traceback import walk_tb
@@ -53,6 +53,7 @@ class Registry:
         self._manager.add_hookspecs(hookspecs)
         self._owners: defaultdict[str, list[Plugin]] = defaultdict(list)
         self._own: dict[str, type[Component]] = {}
+        self._records: dict[object, Plugin] = {}
         for plugin in plugins:
             self.add(plugin)
 
@@ -192,22 +193,34 @@ class Registry:
             if fields & {field.name for field in getattr(self.components[name], "provides", ())}
         ]
 
-    def ask(self, hook: str, own: object = None, **arguments: object) -> list[Any]:
+    def ask(
+        self,
+        hook: str,
+        own: object = None,
+        types: Set[str] | None = None,
+        then: Callable[[Any], Iterable[Any]] = lambda item: (item,),
+        **arguments: object,
+    ) -> list[Any]:
         """Return the items that a module of the kernel and the imported plugins answer to a hook.
 
-        That module, `own`, comes first. A plugin that raises, or answers with something else, is
-        left out with a warning.
+        That module, `own`, comes first. With `types`, a plugin that has components is asked only
+        if it has one of these. The items are those that `then` makes of each answer. A plugin that
+        raises, or answers with something else, is left out with a warning.
         """
         if own is not None and not self._manager.is_registered(own):
             self._manager.register(own)
         packages = [each.entry_point for each in self.plugins if each.origin != "built-in"]
         items: list[Any] = []
         for each in getattr(self._manager.hook, hook).get_hookimpls():
+            names = self._records[each.plugin].names if each.plugin in self._records else ()
+            if names and types is not None and types.isdisjoint(names):
+                continue
             try:
                 with process_kept():
                     answer = each.function(*(arguments[name] for name in each.argnames))
                     answered = answer.items() if isinstance(answer, Mapping) else answer or ()
-                    items += map(partial(_item, hook), answered)
+                    for item in map(partial(_item, hook), answered):
+                        items += then(item)
             except (Exception, SystemExit) as error:
                 warn(
                     f"{hook} of {each.plugin_name} is left out: it raised {said(error)}"
@@ -259,6 +272,7 @@ class Registry:
             self._manager.unregister(module)
             raise
         plugin.names, plugin.classes = tuple(classes), classes
+        self._records[module] = plugin
 
 
 @cache
@@ -275,24 +289,25 @@ def _item(hook: str, item: object) -> object:
     return item
 
 
-def from_packages(hook: str, own: object = None, **arguments: object) -> list[Any]:
-    """Return the items that `own`, the imported plugins and those of hooks alone answer."""
+def from_packages(hook: str, own: object = None, **asked: Any) -> list[Any]:
+    """Return what `own`, the imported plugins and those of hooks alone answer; see `ask`."""
     registry = default_registry()
     for plugin in registry.plugins:
         if plugin.usable and not plugin.names:
             registry.load(plugin)
-    return registry.ask(hook, own, **arguments)
+    return registry.ask(hook, own, **asked)
 
 
-def from_plugins_of(result: Result, hook: str) -> list[Any]:
-    """Return the items answered to a hook about a result, as `from_packages` does.
+def from_plugins_of(result: Result, hook: str, **asked: Any) -> list[Any]:
+    """Return what the plugins of a result's models and those of hooks alone answer; see `ask`.
 
-    The plugins whose models the result names are asked too; those not installed are left out.
+    Those that are not installed are left out.
     """
-    for made in result.provenance["components"].values():
+    types = {str(made["type"]) for made in result.provenance["components"].values()}
+    for name in sorted(types):
         with suppress(CaseError):
-            default_registry().find(str(made["type"]))
-    return from_packages(hook, result=result)
+            default_registry().find(name)
+    return from_packages(hook, types=types, result=result, **asked)
 
 
 def place(error: BaseException, *entry_points: str) -> str:

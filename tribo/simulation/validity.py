@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from tribo.component import components
 from tribo.core import findings
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
@@ -56,8 +57,9 @@ def findings_of(model: Model, half_width_x: float) -> list[Finding]:
 
     It is given with half the length of its first contact, in m.
     """
-    own = sys.modules[__name__]
-    return from_packages("tribo_findings", own, model=model, half_width_x=half_width_x)
+    own, types = sys.modules[__name__], {each.type for _, each in components(model.case)}
+    given = {"model": model, "half_width_x": half_width_x}
+    return from_packages("tribo_findings", own, types=types, **given)
 
 
 def broken_period(model: Model) -> Finding | None:

@@ -18,6 +18,7 @@ from tribo.core import findings
 from tribo.core.errors import CaseError
 from tribo.core.findings import Finding
 from tribo.core.rounding import ROUND_OFF
+from tribo.lab.report import quantity_rows
 from tribo.observers.observer import Observer
 from tribo.registry.registry import Registry
 from tribo.result.read import Result
@@ -171,6 +172,7 @@ class Comparison:
                     "bodies": dict(self.own_names.get(label, {})),
                     "uncertainty": self.cell_error(label),
                     "totals": dict(result.totals()),
+                    "quantities": {row.key: row.value for row in quantity_rows(result)},
                 }
                 for label, result in self.results.items()
             ],

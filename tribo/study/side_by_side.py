@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections import ChainMap
 from collections.abc import Iterator, Mapping, Sequence
 from math import isnan, nan
 
 from tribo.core.column import labelled
 from tribo.core.data_table import DataTable, Heading, TableRow
 from tribo.core.words import readable, signed
+from tribo.lab.report import quantity_rows
 from tribo.result.layout import SAVED
 from tribo.study.comparison import Comparison
 from tribo.study.differences import differences
@@ -33,6 +35,10 @@ def comparison_table(comparison: Comparison, times: Sequence[float]) -> DataTabl
     """Return a column for each result, with what differs at `times`."""
     totals = [result.totals() for result in comparison.results.values()]
     rows = [TableRow((name, *(t[key] for t in totals)), form) for name, key, form in _TOTALS]
+    found = [{row.key: row for row in quantity_rows(each)} for each in comparison.results.values()]
+    for key, row in dict(ChainMap(*found)).items():
+        values = (of[key].value if key in of else None for of in found)
+        rows.append(TableRow((f"{row.label}, {row.unit}".removesuffix(", "), *values), ".4g"))
     for time in times:
         rows += [TableRow((f"at {time:g} s",)), *_at(comparison, time)]
     headings = Heading("", whole=True), *map(Heading, comparison.results)

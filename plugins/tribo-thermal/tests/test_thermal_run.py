@@ -12,9 +12,10 @@ import xarray as xr
 from click.testing import CliRunner
 from tribo import CaseError, ContactConditions, Simulation
 from tribo.cli.main import tribo
+from tribo.lab.report import lab_report
 
 from tribo_thermal.flash import Flash
-from tribo_thermal.plugin import EXAMPLE, tribo_figures, tribo_lab_rows
+from tribo_thermal.plugin import EXAMPLE, tribo_figures
 
 # The case is small, and its stroke is the paper's.
 pytestmark = [
@@ -152,7 +153,7 @@ def test_ten_to_one_says_what_the_readme_shows(ten_to_one, sharing, friction, en
 
 def test_the_lab_is_told_the_temperature_that_the_wear_followed():
     with Simulation(case(duration=20)).run() as result:
-        ball, disk = tribo_lab_rows(result)
+        ball, disk = lab_report(result).rows
         (draw,) = tribo_figures(result).values()
         axes = draw().axes[0]
         first, second = axes.lines

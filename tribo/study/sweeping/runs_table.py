@@ -81,4 +81,5 @@ def _measured(result: Result) -> dict[str, Any]:
     for name, body in lab["bodies"].items():
         row |= {f"bodies.{name}.{label}": value for label, value in body.items()}
     row |= {f"first_contact.{label}": value for label, value in lab["first_contact"].items()}
+    row |= {each["key"]: each["value"] for each in lab["plugins"] if each["key"]}
     return row | {"steps": totals["steps"], "wall_time_s": totals["wall_time_s"]}

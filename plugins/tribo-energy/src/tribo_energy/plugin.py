@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
-from tribo import Array, CaseTemplate, Component, LabRow, Result, hookimpl
+from tribo import Array, CaseTemplate, Column, Component, Result, hookimpl
 
 from tribo_energy.dissipation import Dissipation
 from tribo_energy.traction import FrictionTraction
@@ -28,22 +28,25 @@ def tribo_templates() -> list[CaseTemplate]:
     return [CaseTemplate("energy.ball_on_disk", summary, EXAMPLE.read_text(encoding="utf-8"))]
 
 
-def dissipated(result: Result) -> Array | None:
-    """Return the energy dissipated by each step of the run, in J; None without friction."""
+def dissipated(result: Result) -> Array:
+    """Return the energy dissipated by each step of the run, in J; NaN where there is none."""
     energy = result.table("history")["friction_energy_J"]
-    return None if np.isnan(energy).all() else energy
+    return np.where(energy[-1] > 0, energy, np.nan)
+
+
+def volume_per_energy(result: Result) -> float:
+    """Return the volume that both bodies lost for each J, in m³/J."""
+    volume = sum(body["wear_volume_m3"] for body in result.saves()[-1]["bodies"].values())
+    return float(volume / dissipated(result)[-1])
 
 
 @hookimpl
-def tribo_lab_rows(result: Result) -> list[LabRow]:
+def tribo_quantities() -> list[Column]:
     """Offer the energy dissipated in all, and the volume lost for it."""
-    energy = dissipated(result)
-    if energy is None or not energy[-1] > 0:
-        return []
-    volume = sum(body["wear_volume_m3"] for body in result.saves()[-1]["bodies"].values())
+    per = "worn volume per dissipated energy"
     return [
-        LabRow("dissipated energy", float(energy[-1]), "J"),
-        LabRow("worn volume per dissipated energy", 1e9 * volume / float(energy[-1]), "mm³/J"),
+        Column("dissipated_energy", "J", "dissipated energy", lambda each: dissipated(each)[-1]),
+        Column("worn_volume_per_energy", "m^3/J", per, volume_per_energy),
     ]
 
 
@@ -51,7 +54,7 @@ def tribo_lab_rows(result: Result) -> list[LabRow]:
 def tribo_figures(result: Result) -> dict[str, Callable[[], Figure]]:
     """Offer the worn volumes over the dissipated energy."""
     energy = dissipated(result)
-    if energy is None or not energy[-1] > 0:
+    if np.isnan(energy[-1]):
         return {}
 
     def draw() -> Figure:

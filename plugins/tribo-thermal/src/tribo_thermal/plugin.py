@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 from matplotlib.figure import Figure
-from tribo import Array, CaseTemplate, Component, LabRow, Reference, Result, hookimpl
+from tribo import Array, CaseTemplate, Column, Component, Reference, Result, hookimpl
 
 from tribo_thermal.arrhenius import Arrhenius
 from tribo_thermal.flash import TEMPERATURE, Flash
@@ -44,13 +45,16 @@ def temperatures(result: Result) -> dict[str, Array]:
     }
 
 
+def highest(result: Result, body: str) -> float:
+    """Return the highest temperature of a body at any save, in K; NaN without `Flash`."""
+    return float(np.max(temperatures(result).get(body, np.nan)))
+
+
 @hookimpl
-def tribo_lab_rows(result: Result) -> list[LabRow]:
+def tribo_quantities() -> list[Column]:
     """Offer the highest temperature of each body at any save."""
-    return [
-        LabRow(f"highest temperature of {name} in the contact", float(at.max()), "K")
-        for name, at in temperatures(result).items()
-    ]
+    meaning = "highest contact temperature"
+    return [Column("highest_temperature", "K", meaning, highest, of_bodies=True)]
 
 
 @hookimpl
