@@ -16,7 +16,9 @@ from tribo import CaseError
 from tribo.kernel_api import (
     JSON,
     PATH,
+    PLUGIN,
     SET,
+    added_files,
     apply_settings,
     check_new,
     echo_json,
@@ -45,6 +47,7 @@ Shown = TypeVar("Shown", Calibration, Choice, Plan)
     help="What was measured, and what to fit: a TOML file.",
 )
 @SET
+@PLUGIN
 @click.option(
     "--level", type=float, default=0.95, show_default=True, help="Probability of the intervals."
 )
@@ -108,6 +111,7 @@ def calibrate(
     else:
         files = None if output is None else _Files.beside(output, measurements, force)
         settings = [word for each in overrides for word in ("--set", each)]
+        settings += [word for file in added_files() for word in ("--plugin", file)]
         again = shlex.join(["tribo", "run", str(cases[0]), *settings])
         progress = _Progress(measurements)
         found = fit_numbers(tables, measurements, level=level, on_run=progress)

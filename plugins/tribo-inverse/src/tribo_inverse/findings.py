@@ -222,7 +222,7 @@ def named(entry: Any) -> str:
     """Return the name of what was measured, as ``"mass of 'ball' in heavy"``."""
     where = f" in {entry.test}" if entry.test else ""
     when = "" if math.isnan(entry.time_s) else f" at {entry.time_s:g} s"
-    return f"{entry.quantity} of {entry.body!r}{where}{when}"
+    return f"{entry.quantity}{f' of {entry.body!r}' if entry.body else ''}{where}{when}"
 
 
 def off_middle(

@@ -46,7 +46,7 @@ from tribo_inverse.calibration.setups import (
     make_run,
     unmeasured,
 )
-from tribo_inverse.findings import of_run
+from tribo_inverse.findings import named, of_run
 
 LINEAR_BELOW = 0.1
 """Part of the largest depth of a profile or map below which depths are taken as linear."""
@@ -213,12 +213,12 @@ class Experiment:
                 names = runs.setdefault(str(finding), (finding, []))[1]
                 names.append(self.setups[i].name or "the case as it is")
         positive = ~self.table["quantity"].isin(FIELDS).to_numpy()
-        for each in self.table[positive & (responses <= 0)[: len(self.table)]].itertuples():
-            raise CaseError(
-                f"the case gives a {each.quantity} of 0 for {each.body!r}; begin with more wear: "
-                "give start in fit",
-                each.place,
-            )
+        none = ~(responses > 0)[: len(self.table)]
+        for each in self.table[positive & none].itertuples():
+            value, remedy = responses[each.Index], "begin with more wear: give start in fit"
+            if np.isnan(value):
+                raise CaseError(f"the case gives no {named(each)}; leave it out", each.place)
+            raise CaseError(f"the case gives {value:g} as {named(each)}; {remedy}", each.place)
         findings = tuple(
             of_run(finding, () if len(names) == len(self.setups) else names)
             for finding, names in runs.values()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Self
 
 import numpy as np
 import pandas as pd
@@ -20,7 +20,7 @@ from tribo import Array, CaseError, Mask, Quantity, Table
 from tribo.kernel_api import by_path, case_error, read_toml
 
 from tribo_inverse.calibration.exactness import Share, data_error, part_of
-from tribo_inverse.calibration.quantities import DEPTH_MAP, PROFILES, QUANTITIES
+from tribo_inverse.calibration.quantities import DEPTH_MAP, PROFILES, quantity
 
 
 class Below(float):
@@ -41,23 +41,12 @@ UNSEEN = "what was too little to be seen is given as a limit, '< 0.1 mg' say"
 
 
 class MeasuredEntry(Table):
-    """One measured quantity of one body."""
+    """One measured quantity of one body, or of a run as a package reads it."""
 
-    body: str
-    """Name of the body in the case."""
-    quantity: Literal[
-        "mass",
-        "volume",
-        "scar_along",
-        "scar_across",
-        "depth",
-        "crown",
-        "section",
-        "profile_along",
-        "profile_across",
-        "depth_map",
-    ]
-    """Measured quantity."""
+    body: str = ""
+    """Name of the body in the case; none for what is of the run."""
+    quantity: str
+    """Measured quantity: one of `QUANTITIES`, or that of a package."""
     value: float | tuple[float, ...] | None = None
     """The value with its unit, or a limit of detection, ``"< 0.1 mg"``; none in a planned test.
 
@@ -80,6 +69,15 @@ class MeasuredEntry(Table):
     time: Annotated[float, Quantity("s", above=0)] | None = None
     """When it was measured; at the end if left out."""
 
+    @field_validator("quantity")
+    @classmethod
+    def _known(cls, name: str) -> str:
+        try:
+            quantity(name)
+        except CaseError as error:
+            raise ValueError(str(error)) from None
+        return name
+
     @field_validator("value", "uncertainty", "resolution", mode="plain")
     @classmethod
     def _in_si(cls, value: Any, info: ValidationInfo) -> Any:
@@ -90,7 +88,7 @@ class MeasuredEntry(Table):
             raise ValueError("depth_map has its numbers in the file depth; give no value")
         # The depths of a profile may be 0, or below it by noise.
         above = None if is_value and is_profile else 0
-        mark = Quantity(QUANTITIES[name].unit, above=above, remedy=UNSEEN if is_value else None)
+        mark = Quantity(quantity(name).unit, above=above, remedy=UNSEEN if is_value else None)
 
         def read(part: object) -> float:
             if is_value and isinstance(part, str) and part.lstrip().startswith(">"):
@@ -115,6 +113,17 @@ class MeasuredEntry(Table):
     def _without_gaps(cls, value: Any) -> Any:
         _check_gaps(value, "point")
         return value
+
+    @model_validator(mode="after")
+    def _has_its_body(self) -> Self:
+        of = quantity(self.quantity).of
+        if of.endswith("run") and self.time is not None:
+            raise ValueError(f"{self.quantity} is that of a whole run; leave time out")
+        if (of == "run") == bool(self.body):
+            raise ValueError(
+                f"{self.quantity} is of the run; leave body out" if self.body else "give body"
+            )
+        return self
 
     @model_validator(mode="after")
     def _has_its_file(self) -> Self:
@@ -200,7 +209,7 @@ class MeasuredEntry(Table):
             time_s=math.nan if self.time is None else self.time,
             position_m=self.position or math.nan,
             entry=[self] * len(values),
-            unit=QUANTITIES[self.quantity].unit,
+            unit=quantity(self.quantity).unit,
             sigma=self.sigma,
             step=self.resolution or 0.0,
             step_sigma=step_sigma,

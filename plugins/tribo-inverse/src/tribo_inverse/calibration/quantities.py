@@ -10,8 +10,22 @@ import numpy as np
 import pandas as pd
 from scipy.interpolate import Akima1DInterpolator
 from scipy.ndimage import binary_dilation, binary_erosion
-from tribo import Array, BodyResult, Result
-from tribo.kernel_api import TRACK, Model, between_cells, crown, diameter, profile, track_section
+from tribo import Array, BodyResult, CaseError, Column, Result
+from tribo.kernel_api import (
+    TRACK,
+    Model,
+    between_cells,
+    crown,
+    default_registry,
+    diameter,
+    did_you_mean,
+    from_packages,
+    import_all,
+    profile,
+    quantity_rows,
+    suggestion,
+    track_section,
+)
 
 DIAMETER_SIGMA = 0.2
 """Standard deviation of a computed diameter, in cells."""
@@ -27,7 +41,7 @@ ROUNDING = 1e-9
 
 
 class WornQuantity(NamedTuple):
-    """A quantity that is measured on a worn body."""
+    """A quantity that is measured: on a worn body, or of a run as a package reads it."""
 
     unit: str
     """SI unit."""
@@ -35,8 +49,9 @@ class WornQuantity(NamedTuple):
     """Unit in which it is printed."""
     per_unit: float
     """Printed units in one SI unit."""
-    of: Literal["both", "stationary", "swept"] = "both"
-    """The bodies that have it: those that stay in the contact, or are swept through it."""
+    of: Literal["both", "stationary", "swept", "run", "body of a run"] = "both"
+    """The bodies that have it: those that stay in the contact, or are swept through it. That of a
+    package is of a run, or of each body of one, at its end."""
 
 
 _DEPTH = WornQuantity("m", "µm", 1e6)
@@ -52,7 +67,7 @@ QUANTITIES = {
     "profile_across": _DEPTH,
     "depth_map": _DEPTH,
 }
-"""By the name in a file of measured values."""
+"""By the name in a file of measured values; see `quantity` for those of packages."""
 AXES = {"scar_along": 0, "scar_across": 1, "profile_along": 0, "profile_across": 1}
 """Axis of a diameter or a profile."""
 PROFILES = ("profile_along", "profile_across")
@@ -62,10 +77,30 @@ FIELDS = (*PROFILES, DEPTH_MAP)
 """Depths at many places, which may be 0; all other quantities are one positive number."""
 
 
+def of_packages() -> dict[str, Column]:
+    """Return the quantities of the packages that are imported, by name."""
+    return {column.name: column for column in from_packages("tribo_quantities")}
+
+
+def quantity(name: str) -> WornQuantity:
+    """Return a quantity by its name, one that a package reads too; `CaseError` if none has it."""
+    if name in QUANTITIES:
+        return QUANTITIES[name]
+    if name not in of_packages():
+        import_all(default_registry())
+    if (column := (known := of_packages()).get(name)) is None:
+        names = [*QUANTITIES, *known]
+        meant = suggestion(did_you_mean(name, names))
+        raise CaseError(f"no quantity is called {name!r}{meant} There are: {', '.join(names)}")
+    of: Literal["run", "body of a run"] = "body of a run" if column.of_bodies else "run"
+    return WornQuantity(column.unit, "" if column.unit == "1" else column.unit, 1.0, of)
+
+
 class Reading(NamedTuple):
     """One number to compute from a run; of a depth map the largest depth.
 
-    `time_s` is NaN for the end of the run, `position_m` for all but profiles.
+    `time_s` is NaN for the end of the run, `position_m` for all but profiles; `body` is empty for
+    what is of the run.
     """
 
     body: str
@@ -86,7 +121,8 @@ def plain(found: Any) -> dict[str, Any]:
 
 def in_words(name: str, value: float, digits: int = 3) -> str:
     """Return a value of a quantity in its printed unit, as ``"2.05 mg"``."""
-    return f"{QUANTITIES[name].per_unit * value:.{digits}g} {QUANTITIES[name].shown}"
+    found = quantity(name)
+    return f"{found.per_unit * value:.{digits}g} {found.shown}".rstrip()
 
 
 def row_name(row: Any) -> str:
@@ -95,7 +131,7 @@ def row_name(row: Any) -> str:
     time, place = (getattr(row, name, math.nan) for name in ("time_s", "position_m"))
     when = "" if pd.isna(time) else f" at {time:g} s"
     where = "" if pd.isna(place) else f" at {1e3 * place:g} mm"
-    return f"{test}{row.body}, {row.quantity}{when}{where}"
+    return f"{test}{', '.join(filter(None, (row.body, row.quantity)))}{when}{where}"
 
 
 def in_si(value: float, unit: str, digits: int = 3) -> str:
@@ -130,6 +166,11 @@ def read_all(result: Result, asked: Sequence[Reading]) -> tuple[Array, Array, di
 
 def read(result: Result, asked: Reading) -> tuple[float, float]:
     """Return a computed value, and its standard deviation due to the grid."""
+    if quantity(asked.quantity).of.endswith("run"):
+        label = of_packages()[asked.quantity].label
+        key = ".".join(filter(None, ("quantities", asked.body, label)))
+        values = {row.key: row.value for row in quantity_rows(result)}
+        return values.get(key, math.nan), 0.0
     save, body = _save(result, asked), result.body(asked.body)
     depth, spacing, name = body.wear_depth[save], result.grid.spacing, asked.quantity
     if name in ("scar_along", "scar_across"):
@@ -203,8 +244,10 @@ def _crown(result: Result, body: BodyResult, save: int) -> tuple[float, float]:
 
 
 def unavailable(model: Model, body: str, name: str) -> str:
-    """Return why a model does not give a quantity of a body; empty if it does."""
-    found, swept, of = model.case.bodies[body], body in model.cycle.swept, QUANTITIES[name].of
+    """Return why a model does not give a quantity of a body; empty if it does, or may."""
+    if (of := quantity(name).of).endswith("run"):
+        return ""
+    found, swept = model.case.bodies[body], body in model.cycle.swept
     if found.wear is None:
         return f"body {body!r} does not wear in this case; give it a wear law, bodies.{body}.wear"
     if name == "mass" and found.material.density is None:

@@ -151,7 +151,7 @@ def make_run(
 
 
 def _check_entry(model: Model, entry: MeasuredEntry, place: str) -> None:
-    if entry.body not in model.case.bodies:
+    if entry.body and entry.body not in model.case.bodies:
         raise unknown_body(entry.body, model.case.bodies, f"{place}.body")
     reason = unavailable(model, entry.body, entry.quantity)
     if reason:
