@@ -128,8 +128,8 @@ from tribo.plotting.units import shown_in as shown_in
 from tribo.plotting.units import size as size
 from tribo.plotting.units import time_labels as time_labels
 from tribo.plotting.units import time_unit as time_unit
+from tribo.registry.all_plugins import from_all_plugins as from_all_plugins
 from tribo.registry.plugin_file import added_files as added_files
-from tribo.registry.probe import import_all as import_all
 from tribo.registry.registry import default_registry as default_registry
 from tribo.registry.registry import from_packages as from_packages
 from tribo.result.export import profile as profile

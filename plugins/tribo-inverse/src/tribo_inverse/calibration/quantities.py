@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -16,11 +16,10 @@ from tribo.kernel_api import (
     Model,
     between_cells,
     crown,
-    default_registry,
     diameter,
     did_you_mean,
+    from_all_plugins,
     from_packages,
-    import_all,
     profile,
     quantity_rows,
     suggestion,
@@ -77,18 +76,18 @@ FIELDS = (*PROFILES, DEPTH_MAP)
 """Depths at many places, which may be 0; all other quantities are one positive number."""
 
 
-def of_packages() -> dict[str, Column]:
-    """Return the quantities of the packages that are imported, by name."""
-    return {column.name: column for column in from_packages("tribo_quantities")}
+def of_packages(ask: Callable[[str], list[Column]] = from_packages) -> dict[str, Column]:
+    """Return the quantities of packages by name: of those that are imported, or of all."""
+    return {column.name: column for column in ask("tribo_quantities")}
 
 
 def quantity(name: str) -> WornQuantity:
     """Return a quantity by its name, one that a package reads too; `CaseError` if none has it."""
     if name in QUANTITIES:
         return QUANTITIES[name]
-    if name not in of_packages():
-        import_all(default_registry())
-    if (column := (known := of_packages()).get(name)) is None:
+    if name not in (known := of_packages()):
+        known = of_packages(from_all_plugins)
+    if (column := known.get(name)) is None:
         names = [*QUANTITIES, *known]
         meant = suggestion(did_you_mean(name, names))
         raise CaseError(f"no quantity is called {name!r}{meant} There are: {', '.join(names)}")
