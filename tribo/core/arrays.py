@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass, replace
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,6 +24,19 @@ def readonly(array: Array) -> Array:
     view = array.view()
     view.flags.writeable = False
     return view
+
+
+def view(value: Any) -> Any:
+    """Return `value` with read-only arrays, and containers of its own, however deep."""
+    if isinstance(value, np.ndarray):
+        return readonly(value)
+    if isinstance(value, Mapping):
+        return {name: view(each) for name, each in value.items()}
+    if isinstance(value, tuple | list):
+        return type(value)(map(view, value))
+    if is_dataclass(value) and not isinstance(value, type):
+        return replace(value, **{f.name: view(getattr(value, f.name)) for f in fields(value)})
+    return value
 
 
 def bounds(cells: Mask) -> Region:

@@ -83,6 +83,8 @@ class State:
     speed : float
         Mean sliding speed of the last step, in m/s, 0 at rest; at first that of the motion soon
         after.
+    load_factor : float
+        What effects make of the normal load: by what the contacts carry more, and the next step.
     """
 
     time: float
@@ -104,6 +106,7 @@ class State:
     invariants: Invariants = field(default_factory=Invariants)
     previous: tuple[Array, ...] = ()
     speed: float = 0.0
+    load_factor: float = 1.0
 
     @property
     def contact(self) -> ContactSolution:

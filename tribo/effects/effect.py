@@ -9,6 +9,7 @@ from tribo.component import Component
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.fields import ContactConditions, Field
+from tribo.core.state import Snapshot
 
 
 class Effect(Component):
@@ -78,6 +79,32 @@ class Effect(Component):
             By field name and body name; arrays that broadcast to (nx, ny).
         """
         return {}
+
+    def load_factor(self, snapshot: Snapshot) -> float:
+        """Return what the normal load is multiplied by; 1 unless a spring, a lever or a control is.
+
+        The load of a step is that at its start, of first order in the step. Of several effects
+        each multiplies it.
+
+        Parameters
+        ----------
+        snapshot : Snapshot
+            The state that the step starts from, with its measures and fields.
+
+        Returns
+        -------
+        float
+            More than 0.
+
+        Examples
+        --------
+        A spring of 2 N/mm, pressed to 10 N, that relaxes as the ball wears:
+
+        >>> class Spring(Effect):
+        ...     def load_factor(self, snapshot):
+        ...         return 1 - 2e3 / 10 * snapshot.measures.bodies["ball"].max_wear_depth
+        """
+        return 1.0
 
     def state_rates(self, contact: ContactConditions) -> Mapping[str, Array]:
         """Return by how much each state field changes per second.

@@ -202,7 +202,7 @@ def with_loads(
     halfway, last = map(model.contact.loads.before, (interval.at(0.5).time, interval.end_time))
     cell, found = model.grid.cell_area, []
     for contact, half, whole in zip(contacts, halfway, last, strict=True):
-        load = whole + 2 * (1 - passed) * (half - whole)
+        load = interval.load_factor * (whole + 2 * (1 - passed) * (half - whole))
         share = load / (float(np.sum(contact.pressure)) * cell)
         found.append(replace(contact, pressure=readonly(share * contact.pressure)))
     return found

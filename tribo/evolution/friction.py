@@ -33,7 +33,7 @@ def friction_force(model: Model, state: State) -> float:
     if state.speed == 0:
         return 0.0
     moment = Moment(state.time, state.distance, state.speed)
-    load = model.contact.loads.over_cycle(model.contact.loads.before(state.time))
+    load = model.contact.loads.over_cycle(model.loads(state).before(state.time))
     return load * _mean(
         model, [each.pressure for each in state.contacts], remembered(model, state), moment
     )
@@ -98,8 +98,8 @@ def _varying_work(
     first, last = (
         model.contact.loads.over_cycle(loads)
         for loads in (
-            model.contact.loads.after(before.time),
-            model.contact.loads.before(after.time),
+            model.loads(before).after(before.time),
+            model.loads(before).before(after.time),
         )
     )
 

@@ -31,12 +31,15 @@ class Interval:
         When it ends, in s.
     slides : float
         How far it slides, in m; 0 at rest.
+    load_factor : float
+        What effects make of the load over it.
     """
 
     time: float
     distance: float
     end_time: float
     slides: float
+    load_factor: float = 1.0
 
     @property
     def rests(self) -> bool:
@@ -71,4 +74,4 @@ class Interval:
 
 def interval_from(state: State, slides: float, time: float) -> Interval:
     """Return what a step from `state` slides (m) until a time (s)."""
-    return Interval(state.time, state.distance, time, slides)
+    return Interval(state.time, state.distance, time, slides, state.load_factor)

@@ -72,6 +72,7 @@ ANSWERS: Mapping[str, Mapping[str, Answer]] = MappingProxyType(
             Answer("depth_rate", "1", "Depth per metre.", 0.0, shape=_CYCLE, spreads=True),
             Answer("depth_slope", "1/Pa", "Its slope, or None.", shape=_CYCLE, spreads=True),
         ),
+        "effect": _table(Answer("load_factor", "1", "Of the normal load.", above=0.0)),
         "contact_solver": _table(
             Answer("pressure", "Pa", "Contact pressure.", 0.0, shape=_WINDOW),
             Answer("overlap", "m", "Plastic displacement.", 0.0, shape=_WINDOW),

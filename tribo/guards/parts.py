@@ -31,7 +31,7 @@ from tribo.core.fields import (
 )
 from tribo.core.grid import Grid
 from tribo.core.material import Material
-from tribo.core.state import key_of
+from tribo.core.state import Snapshot, key_of
 from tribo.effects.effect import Effect
 from tribo.guards.answers import initial, rate_of
 from tribo.guards.guard import Guard
@@ -131,6 +131,7 @@ class GuardedEffect(Guard[Effect]):
         super().__init__(effect)
         self.requires = names_of(effect.requires)
         self.provides = effect.provides
+        self.changes_load = type(effect).load_factor is not Effect.load_factor
         self.state_fields = tuple(effect.state_fields)
         self.carrier = self.ask(effect.carrier)
         if self.carrier is not None and self.carrier not in bodies:
@@ -171,6 +172,10 @@ class GuardedEffect(Guard[Effect]):
                     "give both the same"
                 )
         return found
+
+    def load_factor(self, snapshot: Snapshot) -> float:
+        """Return what the normal load is multiplied by."""
+        return self.number("load_factor", self.ask(self.component.load_factor, snapshot))
 
     def state_rates(self, contact: ContactConditions) -> dict[str, Array]:
         """Return the change of each state field per second, (nx, ny), or (1, 1) if uniform."""

@@ -13,7 +13,9 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.findings import Finding
 from tribo.core.grid import Grid
+from tribo.core.loads import Loads
 from tribo.core.measures import reaches_border
+from tribo.core.state import State
 from tribo.guards.guard import Guard
 from tribo.guards.motion import GuardedMotion
 from tribo.guards.parts import GuardedLaw, GuardedSurface
@@ -54,6 +56,11 @@ class Model:
         yielding = (name for name, share in self.contact.plastic_share.items() if share > 0)
         alter = {*self.laws.wear, *yielding}
         return tuple(name for name in self.case.bodies if name in self.cycle.swept & alter)
+
+    def loads(self, state: State) -> Loads:
+        """Return the normal loads as they are at a state, and over the step from there."""
+        loads, by = self.contact.loads, state.load_factor
+        return loads if by == 1 else replace(loads, shares=tuple(by * s for s in loads.shares))
 
     @property
     def couples(self) -> bool:

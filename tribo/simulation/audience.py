@@ -6,15 +6,11 @@ the array behind a view, as its `base`, and a plugin runs in this very process.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack
 from copy import deepcopy
-from dataclasses import fields, is_dataclass, replace
-from typing import Any
 
-import numpy as np
-
-from tribo.core.arrays import readonly
+from tribo.core.arrays import view
 from tribo.core.errors import TriboError, warn
 from tribo.core.state import RunInfo, Snapshot
 from tribo.guards.guard import Guard
@@ -61,16 +57,3 @@ def _finish(observer: Observer, snapshot: Snapshot, reason: str) -> None:
         if reason == "done":
             raise
         warn(str(error))
-
-
-def view(value: Any) -> Any:
-    """Return `value` with read-only arrays, and containers of its own, however deep."""
-    if isinstance(value, np.ndarray):
-        return readonly(value)
-    if isinstance(value, Mapping):
-        return {name: view(each) for name, each in value.items()}
-    if isinstance(value, tuple | list):
-        return type(value)(map(view, value))
-    if is_dataclass(value) and not isinstance(value, type):
-        return replace(value, **{f.name: view(getattr(value, f.name)) for f in fields(value)})
-    return value

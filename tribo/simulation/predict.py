@@ -24,7 +24,6 @@ from tribo.simulation.beginning import first_state
 from tribo.simulation.coarse import MARGINS, coarsened
 from tribo.simulation.doubt import doubting, unusual
 from tribo.simulation.march import begin, march
-from tribo.simulation.measure import measure
 from tribo.simulation.memory import memory_needed, size_of_fields
 from tribo.simulation.validity import (
     check_stroke,
@@ -36,6 +35,7 @@ from tribo.simulation.validity import (
 )
 from tribo.simulation.watch import Watch
 from tribo.stepping.implicit import Implicit
+from tribo.stepping.measure import measure
 from tribo.stepping.step import start_sliding
 
 COARSE = 72

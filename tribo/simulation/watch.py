@@ -7,6 +7,7 @@ from dataclasses import replace
 from math import nan
 
 from tribo.component import Component, components
+from tribo.core.arrays import view
 from tribo.core.column import Column
 from tribo.core.errors import CaseError
 from tribo.core.findings import Finding
@@ -16,8 +17,7 @@ from tribo.guards.guard import Guard
 from tribo.model.model import Model
 from tribo.observers.observer import Observer
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
-from tribo.simulation.audience import view
-from tribo.simulation.measure import measure
+from tribo.stepping.measure import measure
 
 OWN = {column.name for column in (*COLUMNS, *BODY_COLUMNS, *ROUGHNESS_COLUMNS)}
 

@@ -110,7 +110,7 @@ class Explicit(Scheme):
         depths = worn_depths(model, slid.rates, increment)
         model.tell(Worn(state.contacts, interval, memory, slid.plan, ahead=True))
         after = worn_by(model, state, slid, depths, interval)
-        loads = model.contact.loads.before(time)
+        loads = model.loads(after).before(time)
         contacts = solve_cycle(
             model, undeformed(model, after), loads, _extrapolated(state), after.bodies
         )

@@ -165,7 +165,7 @@ class Implicit(Scheme):
                 if max(errors.depth, errors.pressure, errors.volume) <= 1:
                     ended = trial.ended(model, state)
                     break
-                changes = load_changes(model, state.time, time)
+                changes = load_changes(model, state, trial.state)
                 if changes and increment < AT_REST * target and errors.depth <= 1:
                     # The load goes on to change over a rest, however short the step.
                     return replace(
@@ -231,9 +231,9 @@ class Implicit(Scheme):
             slid = slide(contacts=state.contacts, asked=0.0)
         height = filling(model, before)
         guess = _guess(model, height, state.contacts, slid, increment)
-        loads = model.contact.loads.mean(state.time, time)
+        loads = model.loads(state).mean(state.time, time)
         # What is remembered is integrated under the loads of the step already.
-        heavier = 1.0 if before.values else loads[0] / model.contact.loads.after(state.time)[0]
+        heavier = 1.0 if before.values else loads[0] / model.loads(state).after(state.time)[0]
         forward = {name: heavier * depth for name, depth in guess.worn.items()}
         contacts = extrapolated(state)
         solved, passes = state, 0

@@ -4,25 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from math import prod
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, view
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import PluginError
 from tribo.core.findings import Finding, layer_worn_through
 from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants
 from tribo.core.rounding import ROUND_OFF
-from tribo.core.state import BodyState, State
+from tribo.core.state import BodyState, Snapshot, State
 from tribo.evolution.course import Course, course
 from tribo.evolution.interval import Interval, interval_from
+from tribo.evolution.local_fields import effect_fields
 from tribo.evolution.rates import CycleRates
 from tribo.evolution.states import own, remembered
 from tribo.model.events import Worn
 from tribo.stepping.contacts import solved_anew
 from tribo.stepping.invariants import ONE_LOAD, wear_balance
+from tribo.stepping.measure import measure
 from tribo.stepping.plastic_groove import settled, yielded, yields
 from tribo.stepping.yielding import caps
 
@@ -63,9 +66,10 @@ def time_at(model: Model, state: State, distance: float, until: float) -> float:
     return time
 
 
-def load_changes(model: Model, begin: float, end: float) -> bool:
-    """Whether the load changes between two times (s), so that the pressure does."""
-    pairs = zip(model.contact.loads.after(begin), model.contact.loads.before(end), strict=True)
+def load_changes(model: Model, before: State, after: State) -> bool:
+    """Whether the load changes between two states, so that the pressure does."""
+    loads = model.loads(before).after(before.time), model.loads(after).before(after.time)
+    pairs = zip(*loads, strict=True)
     return any(abs(last - first) > ONE_LOAD * first for first, last in pairs)
 
 
@@ -77,14 +81,15 @@ def rested(model: Model, state: State, time: float) -> State:
         after = course(model, memory, state.contacts, rest)
         model.tell(Worn(state.contacts, rest, memory, after.plan, ahead=True))
         state = replace(state, between=after.memory.between)
-    loads = model.contact.loads.before(time)
-    anew = loads != model.contact.loads.before(state.time) or any(
+    loads = model.loads(state).before(time)
+    anew = loads != model.loads(state).before(state.time) or any(
         body is None for body, _ in model.laws.filling
     )
     state = replace(state, speed=0.0)
     if anew:
         state = _under(model, state, loads)
-    return replace(state, time=time, steps=state.steps + 1, invariants=Invariants())
+    state = replace(state, time=time, steps=state.steps + 1, invariants=Invariants())
+    return reloaded(model, state)
 
 
 def start_sliding(model: Model, state: State) -> State:
@@ -94,8 +99,8 @@ def start_sliding(model: Model, state: State) -> State:
     the envelope along the track, and the contact in it is solved anew. So is one in which points
     have been worn down to a softer layer.
     """
-    loads = model.contact.loads.after(state.time)
-    if loads != model.contact.loads.before(state.time):
+    loads = model.loads(state).after(state.time)
+    if loads != model.loads(state).before(state.time):
         # How far a step may go under the load before says little.
         state = replace(_under(model, state, loads), increment=0.0)
     elif _too_soft(model, state):
@@ -149,7 +154,8 @@ def worn_by(
         if name in between:
             missed = between[name] if body.missed is None else body.missed + between[name]
             bodies[name] = replace(body, missed=missed)
-    mean = model.contact.loads.over_cycle(model.contact.loads.mean(before.time, interval.end_time))
+    loads = model.loads(before)
+    mean = loads.over_cycle(loads.mean(before.time, interval.end_time))
     end = interval.end
     return replace(
         before,
@@ -193,15 +199,27 @@ def accepted(
     *,
     exact: bool = True,
 ) -> State:
-    """Return `after`, the worn bodies, in contact, with what yields at rest.
+    """Return `after`, the worn bodies, in contact, with what yields at rest and effects load.
 
     The contacts carry `loads`, in N; they are solved anew where those at the end are others, or
     where they do not belong to the bodies `exact`ly.
     """
     after = replace(after, contacts=tuple(contacts))
-    at_end = model.contact.loads.before(after.time)
+    at_end = model.loads(after).before(after.time)
     kept = exact and loads == at_end
-    return _at_rest(model, after, loads) if kept else _under(model, after, at_end)
+    state = _at_rest(model, after, loads) if kept else _under(model, after, at_end)
+    return reloaded(model, state)
+
+
+def reloaded(model: Model, state: State) -> State:
+    """Return `state` under the load that effects make of it, which is held over the next step."""
+    effects = [effect for effect in model.laws.effects if effect.changes_load]
+    if not effects:
+        return state
+    snapshot = view(Snapshot(state, measure(model, state), effect_fields(model, state)))
+    factor = prod(effect.load_factor(snapshot) for effect in effects)
+    state = replace(state, load_factor=factor)
+    return _under(model, state, model.loads(state).before(state.time))
 
 
 def _under(model: Model, state: State, loads: ByPosition) -> State:

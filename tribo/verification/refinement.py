@@ -11,9 +11,9 @@ from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.model.model import Model
 from tribo.simulation.assembly import assemble, varied
-from tribo.simulation.measure import measure
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
+from tribo.stepping.measure import measure
 from tribo.verification.convergence import Convergence, convergence
 from tribo.verification.paper_bodies import run_to_end
 

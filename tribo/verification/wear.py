@@ -18,8 +18,8 @@ from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.measures import Measures, contact_area
-from tribo.simulation.measure import measure
 from tribo.simulation.run import Simulation
+from tribo.stepping.measure import measure
 from tribo.templates import template
 from tribo.verification import paper_bodies as paper
 from tribo.verification.paper_bodies import BALL, LOAD, MODULUS, POISSON, RADIUS, YOUNG

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from tribo.core.measures import (
@@ -14,9 +16,11 @@ from tribo.core.measures import (
 from tribo.core.state import State
 from tribo.evolution.friction import friction_force
 from tribo.lab.running_in import contact_roughness
-from tribo.model.model import Model
 from tribo.stepping.quadrature import cycle_error
 from tribo.stepping.yielding import caps
+
+if TYPE_CHECKING:
+    from tribo.model.model import Model
 
 
 def measure(model: Model, state: State) -> Measures:
@@ -26,7 +30,7 @@ def measure(model: Model, state: State) -> Measures:
     touched = pressure[extent]
     own = caps(model, state.bodies)[len(model.cycle) // 2]
     cap = model.contact.system.cap if own is None else own[extent]
-    load = model.contact.loads.over_cycle(model.contact.loads.before(state.time))
+    load = model.contact.loads.over_cycle(model.loads(state).before(state.time))
     friction = friction_force(model, state)
     width, breadth = half_widths(state.contact, model.grid)
     bodies = {

@@ -1,0 +1,149 @@
+"""A load that effects make of the state: a spring, a lever, a control."""
+
+import numpy as np
+import pytest
+from paper_models import (
+    K,
+    archard,
+    case,
+    foundation,
+    goes_on,
+    last,
+    motion,
+    pin,
+    small,
+    states,
+)
+
+from tribo import Effect, Explicit, Grid, Implicit, PluginError
+from tribo.core.errors import BadValues
+
+GRID = Grid((0.7e-3, 0.7e-3), (32, 32))
+FORCE, AREA = 40.0, 4e-6
+"""Of the pin, in N and m²."""
+
+
+class Spring(Effect):
+    """A spring that relaxes as the bodies wear: F = F₀ − S h."""
+
+    type = "test.spring"
+    relaxes: float
+    """Stiffness over the first load, S/F₀, in 1/m."""
+
+    def load_factor(self, snapshot):
+        return 1 - self.relaxes * sum(b.max_wear_depth for b in snapshot.measures.bodies.values())
+
+
+class Sags(Effect):
+    """A load that falls with the volume that both bodies have lost: F = F₀ (1 − V/V₀)."""
+
+    type = "test.sags"
+    volume: float
+
+    def load_factor(self, snapshot):
+        lost = sum(body.wear_volume for body in snapshot.measures.bodies.values())
+        return 1 - lost / self.volume
+
+
+class Control(Effect):
+    """Half the load from a wear depth on."""
+
+    type = "test.control"
+    depth: float
+
+    def load_factor(self, snapshot):
+        first, *_ = snapshot.measures.bodies.values()
+        return 0.5 if first.max_wear_depth >= self.depth else 1.0
+
+
+class Gives(Effect):
+    """A factor that is given."""
+
+    type = "test.gives"
+    factor: float
+
+    def load_factor(self, snapshot):
+        return self.factor
+
+
+def ball(*effects, **changes):
+    parts = {"grid": GRID, "contact": foundation(), "kinematics": motion(duration=20)}
+    return small(effects=effects, **{**parts, **changes})
+
+
+def test_a_ball_under_a_load_that_falls_with_its_wear_is_that_of_a_closed_form_to_first_order():
+    # On springs as on a half-space: dV/ds = 2 k F, so that F = F₀ exp(−2 k F₀ s/V₀).
+    slid, volume = 2.0, 1.5e-13
+    exact = volume * (1 - np.exp(-2 * K * 100 * slid / volume))
+    off = []
+    for time_step in (0.4, 0.2):
+        model = ball(Sags(volume=volume), stepping=Explicit(time_step=time_step))
+        worn = last(model).bodies
+        lost = sum(model.cycle.maps[name].volume(body.wear) for name, body in worn.items())
+        off.append(lost / exact - 1)
+    assert off[0] / off[1] == pytest.approx(2, abs=0.1)
+    assert 0 < off[1] < 0.01
+
+
+def test_the_volume_is_that_of_the_load_that_is_carried():
+    found = states(ball(Spring(relaxes=5e5)))
+    loads = [np.sum(each.contact.pressure) * GRID.cell_area for each in found]
+    slid = np.diff([each.distance for each in found])
+    # The load of a step is that at its start.
+    carried = float(np.sum(loads[:-1] * slid))
+    volume = float(np.sum(found[-1].bodies["ball"].wear)) * GRID.cell_area
+    assert loads[-1] < 60
+    assert found[-1].load_distance == pytest.approx(carried, rel=1e-8, abs=0)
+    assert volume == pytest.approx(K * found[-1].load_distance, rel=1e-10, abs=0)
+
+
+def test_steps_chosen_by_error_follow_the_load_of_a_rigid_pin():
+    # dh/ds = k (F₀ − S h)/A, so that h = F₀/S (1 − exp(−k S s/A)).
+    model = pin(archard(1e-12), effects=[Spring(relaxes=1e5)])
+    depth = float(np.max(last(model).bodies["pin"].wear))
+    rate = 1e-12 * FORCE / AREA
+    assert depth == pytest.approx(1e-5 * (1 - np.exp(-1e5 * rate)), rel=0.03, abs=0)
+
+
+def test_a_control_that_jumps_halves_the_load_and_the_run_goes_on():
+    rate = 1e-12 * FORCE / AREA
+    model = pin(archard(1e-12), effects=[Control(depth=0.3 * rate)])
+    depth = float(np.max(last(model).bodies["pin"].wear))
+    assert depth == pytest.approx((0.3 + 0.5 * 0.7) * rate, rel=0.02, abs=0)
+
+
+@pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step=0.4)], ids=lambda s: s.type)
+def test_several_multiply_and_the_first_contact_carries_what_they_make_of_the_load(stepping):
+    model = ball(
+        Gives(factor=0.5), Gives(factor=0.4), stepping=stepping, kinematics=motion(duration=1)
+    )
+    for state in states(model):
+        carried = np.sum(state.contact.pressure) * GRID.cell_area
+        assert carried == pytest.approx(20, rel=1e-8)
+    assert state.load_distance == pytest.approx(20 * 0.1 * 1, rel=1e-12)
+
+
+def test_a_resumed_run_has_the_same_bits(tmp_path):
+    of = {"grid": GRID, "contact": foundation(), "kinematics": motion(duration=5)}
+    goes_on(case(effects=[Spring(relaxes=5e5)], **of), tmp_path, 3).close()
+
+
+@pytest.mark.parametrize("factor", [-0.5, 0.0, float("nan"), float("inf")])
+@pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step=0.4)], ids=lambda s: s.type)
+def test_a_factor_that_cannot_be_is_refused_with_its_effect_and_value(factor, stepping):
+    with pytest.raises(BadValues, match=f"effect 'test.gives' gave 'load_factor' .* {factor}"):
+        last(ball(Gives(factor=factor), stepping=stepping))
+
+
+def test_a_spring_that_would_pull_ends_the_run_where_it_does():
+    with pytest.raises(PluginError, match=r"'test\.spring' gave 'load_factor' that is -.* s\)"):
+        last(pin(archard(1e-12), effects=[Control(depth=2e-6), Pulls(depth=2e-6)]))
+
+
+class Pulls(Control):
+    """As a spring that is let go."""
+
+    type = "test.spring"
+
+    def load_factor(self, snapshot):
+        return super().load_factor(snapshot) - 0.75
