@@ -75,7 +75,7 @@ def solve():
     ("made", "known"),
     [
         (solve, 69),
-        (lambda: step(model()), 421),
+        (lambda: step(model()), 448),
         (lambda: step(model(positions=33)), 4085),
     ],
     ids=["solve", "step", "resolved step"],

@@ -99,8 +99,9 @@ def start_sliding(model: Model, state: State) -> State:
     the envelope along the track, and the contact in it is solved anew. So is one in which points
     have been worn down to a softer layer.
     """
-    loads = model.loads(state).after(state.time)
-    if loads != model.loads(state).before(state.time):
+    known = model.loads(state)
+    loads = known.after(state.time)
+    if loads != known.before(state.time):
         # How far a step may go under the load before says little.
         state = replace(_under(model, state, loads), increment=0.0)
     elif _too_soft(model, state):
