@@ -13,8 +13,7 @@ from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, warn
 from tribo.core.grid import Grid
 from tribo.core.number_tables import table_of_numbers
-from tribo.registry.probe import import_all
-from tribo.registry.registry import default_registry
+from tribo.registry.all_plugins import from_all_plugins
 
 OWN = (".npy", ".csv", ".txt", ".h5", ".hdf5")
 """Files that are read without a plugin; they state no scale."""
@@ -133,9 +132,7 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
 
 
 def _by_plugin(path: Path) -> Heights:
-    registry = default_registry()
-    import_all(registry)
-    formats = registry.ask("tribo_height_formats")
+    formats = from_all_plugins("tribo_height_formats")
     if not formats:
         raise CaseError(
             f"{path} is no NumPy, CSV or HDF5 file ({', '.join(OWN)}); install tribo-topography, "
