@@ -32,6 +32,13 @@ class Silent(Brittle):
     material_properties = ()
 
 
+class Deaf(Brittle):
+    """It declares a property that it does not read."""
+
+    type = "test.deaf"
+    material_properties = (STRENGTH, Field("toughness", "Pa", "Of no use.", typical=1e6))
+
+
 class Dense(WearLaw):
     """It needs a property that has a key of its own."""
 
@@ -88,8 +95,16 @@ def test_what_is_wrong_with_it_is_told_at_its_place(law, properties, place, word
         validate_case(tables(law, **properties))
 
 
-def test_the_kit_gives_it_at_its_typical_value_if_it_is_declared():
-    for law, fails in ((Brittle, False), (Silent, True)):
-        (checks,) = suites(law, [{}], {})
-        outcomes = [outcome_of(checks, name) for name in names_of(type(checks))]
-        assert any(outcome.status == "failed" for outcome in outcomes) == fails
+@pytest.mark.parametrize(
+    ("law", "failed"),
+    [(Brittle, set()), (Deaf, {"required_fields_matter"})],
+)
+def test_the_kit_gives_what_is_declared_at_its_typical_value_and_holds_that_it_matters(law, failed):
+    (checks,) = suites(law, [{}], {})
+    outcomes = [outcome_of(checks, name) for name in names_of(type(checks))]
+    assert {each.check for each in outcomes if each.status == "failed"} == failed
+
+
+def test_the_kit_finds_a_property_that_is_not_declared():
+    (checks,) = suites(Silent, [{}], {})
+    assert outcome_of(checks, "answers_fit_a_run").status == "failed"

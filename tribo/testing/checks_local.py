@@ -13,6 +13,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.fields import Field, names_of
+from tribo.core.material import Material
 from tribo.core.units import quantities
 from tribo.guards.answers import initial, rate_of
 from tribo.guards.parts import GuardedEffect, GuardedLaw
@@ -213,14 +214,21 @@ class LocalChecks(Checks):
         require(not missed, f"it asked for {missed}; add that to requires")
 
     def required_fields_matter(self) -> None:
-        """Each field that it requires changes an answer, in one configuration at least."""
-        names = {*names_of(self._make().requires)}
+        """Each field, and property of materials, that it requires changes an answer.
+
+        That is: in one configuration at least.
+        """
+        model = self._make()
+        properties = {field.name for field in model.material_properties}
+        names = {*names_of(model.requires), *properties}
         apply_if(names, "it requires no field")
 
         def altered(component: Any, given: Any, name: str) -> Iterator[tuple[Any, Any]]:
             if name in given.fields:
                 more = mapped(given.fields[name], lambda _, values: 1.01 * values)
                 yield component, locked(replace(given, fields={**given.fields, name: more}))
+            if name in properties:
+                yield component, mapped(given, lambda _, value: _with_more(value, name))
 
         self._expect_all_to_matter(names, altered, "no answer changes by 1 % more of it")
 
@@ -229,6 +237,14 @@ def _at(given: Any, name: str, value: float) -> Any:
     """Return conditions in which one state field has one value."""
     state = {**given.state, name: np.full_like(given.state[name], value)}
     return locked(replace(given, state=state))
+
+
+def _with_more(value: Any, name: str) -> Any:
+    """Return a material with 1 % more of a property, and anything else as it is."""
+    if not isinstance(value, Material):
+        return value
+    more = {name: 1.01 * value.property(name)}
+    return value.model_copy(update={**more, "properties": {**(value.properties or {}), **more}})
 
 
 def _is_given(config: Any, name: str) -> bool:
