@@ -85,7 +85,6 @@ from tribo.lab.inferred import inferred as inferred
 from tribo.lab.inferred import track_section as track_section
 from tribo.lab.report import lab_report as lab_report
 from tribo.lab.report import lab_sentences as lab_sentences
-from tribo.lab.report import quantity_rows as quantity_rows
 from tribo.lab.report import run_sentences as run_sentences
 from tribo.lab.roughness import without_form as without_form
 from tribo.lab.scar import Scar as Scar
@@ -131,7 +130,6 @@ from tribo.plotting.units import time_unit as time_unit
 from tribo.registry.all_plugins import from_all_plugins as from_all_plugins
 from tribo.registry.plugin_file import added_files as added_files
 from tribo.registry.registry import default_registry as default_registry
-from tribo.registry.registry import from_packages as from_packages
 from tribo.result.export import profile as profile
 from tribo.result.layout import TRACK as TRACK
 from tribo.result.layout import TRACK_PLASTIC as TRACK_PLASTIC

@@ -13,6 +13,7 @@ from gradient_effects import (
     Grains,
     Grows,
     Heat,
+    Levers,
     Mirrors,
     Sinks,
     Slips,
@@ -312,7 +313,9 @@ def test_each_term_counts(monkeypatch, kind, owner, method, change):
 
 
 @pytest.mark.parametrize(
-    "effects", [[Mirrors()], [Far()], [Heat(), Creeps()]], ids=["undeclared", "far", "both"]
+    "effects",
+    [[Mirrors()], [Far()], [Heat(), Creeps()], [Levers()]],
+    ids=["undeclared", "far", "both", "load"],
 )
 def test_what_is_not_covered_is_refused(effects):
     bodies = pair(Softens(k=K), archard())

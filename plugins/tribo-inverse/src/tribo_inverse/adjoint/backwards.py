@@ -52,6 +52,12 @@ def covered(model: Model) -> Model:
     followed = model.laws.shares_load or model.laws.slips_locally
     followed = followed or any(set(law.requires) & given for law in laws)
     followed = followed or any(field.fills for f in model.laws.effects for field in f.state_fields)
+    if loading := [each for each in model.laws.effects if each.changes_load]:
+        raise CaseError(
+            f"{loading[0]} makes the load follow the state, and no gradient goes through that; "
+            "leave it out",
+            "effects",
+        )
     if model.contact.hardness:
         raise CaseError(
             "the largest pressure of a cell jumps in the step in which it is worn into a layer of "

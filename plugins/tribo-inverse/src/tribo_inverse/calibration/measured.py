@@ -116,10 +116,10 @@ class MeasuredEntry(Table):
 
     @model_validator(mode="after")
     def _has_its_body(self) -> Self:
-        of = quantity(self.quantity).of
-        if of.endswith("run") and self.time is not None:
+        found = quantity(self.quantity)
+        if found.label and self.time is not None:
             raise ValueError(f"{self.quantity} is that of a whole run; leave time out")
-        if (of == "run") == bool(self.body):
+        if (found.of == "run") == bool(self.body):
             raise ValueError(
                 f"{self.quantity} is of the run; leave body out" if self.body else "give body"
             )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -16,12 +16,12 @@ from tribo.kernel_api import (
     Model,
     between_cells,
     crown,
+    default_registry,
     diameter,
     did_you_mean,
     from_all_plugins,
-    from_packages,
+    lab_report,
     profile,
-    quantity_rows,
     suggestion,
     track_section,
 )
@@ -51,6 +51,8 @@ class WornQuantity(NamedTuple):
     of: Literal["both", "stationary", "swept", "run", "body of a run"] = "both"
     """The bodies that have it: those that stay in the contact, or are swept through it. That of a
     package is of a run, or of each body of one, at its end."""
+    label: str = ""
+    """Its name with the unit, of one that a package reads."""
 
 
 _DEPTH = WornQuantity("m", "µm", 1e6)
@@ -76,23 +78,21 @@ FIELDS = (*PROFILES, DEPTH_MAP)
 """Depths at many places, which may be 0; all other quantities are one positive number."""
 
 
-def of_packages(ask: Callable[[str], list[Column]] = from_packages) -> dict[str, Column]:
-    """Return the quantities of packages by name: of those that are imported, or of all."""
-    return {column.name: column for column in ask("tribo_quantities")}
-
-
 def quantity(name: str) -> WornQuantity:
     """Return a quantity by its name, one that a package reads too; `CaseError` if none has it."""
     if name in QUANTITIES:
         return QUANTITIES[name]
-    if name not in (known := of_packages()):
-        known = of_packages(from_all_plugins)
+    for ask in (default_registry().ask, from_all_plugins):
+        known: dict[str, Column] = {column.name: column for column in ask("tribo_quantities")}
+        if name in known:
+            break
     if (column := known.get(name)) is None:
         names = [*QUANTITIES, *known]
         meant = suggestion(did_you_mean(name, names))
         raise CaseError(f"no quantity is called {name!r}{meant} There are: {', '.join(names)}")
     of: Literal["run", "body of a run"] = "body of a run" if column.of_bodies else "run"
-    return WornQuantity(column.unit, "" if column.unit == "1" else column.unit, 1.0, of)
+    shown = "" if column.unit == "1" else column.unit
+    return WornQuantity(column.unit, shown, 1.0, of, column.label)
 
 
 class Reading(NamedTuple):
@@ -165,11 +165,9 @@ def read_all(result: Result, asked: Sequence[Reading]) -> tuple[Array, Array, di
 
 def read(result: Result, asked: Reading) -> tuple[float, float]:
     """Return a computed value, and its standard deviation due to the grid."""
-    if quantity(asked.quantity).of.endswith("run"):
-        label = of_packages()[asked.quantity].label
+    if label := quantity(asked.quantity).label:
         key = ".".join(filter(None, ("quantities", asked.body, label)))
-        values = {row.key: row.value for row in quantity_rows(result)}
-        return values.get(key, math.nan), 0.0
+        return {row.key: row.value for row in lab_report(result).rows}.get(key, math.nan), 0.0
     save, body = _save(result, asked), result.body(asked.body)
     depth, spacing, name = body.wear_depth[save], result.grid.spacing, asked.quantity
     if name in ("scar_along", "scar_across"):
@@ -244,9 +242,9 @@ def _crown(result: Result, body: BodyResult, save: int) -> tuple[float, float]:
 
 def unavailable(model: Model, body: str, name: str) -> str:
     """Return why a model does not give a quantity of a body; empty if it does, or may."""
-    if (of := quantity(name).of).endswith("run"):
+    if (asked := quantity(name)).label:
         return ""
-    found, swept = model.case.bodies[body], body in model.cycle.swept
+    found, swept, of = model.case.bodies[body], body in model.cycle.swept, asked.of
     if found.wear is None:
         return f"body {body!r} does not wear in this case; give it a wear law, bodies.{body}.wear"
     if name == "mass" and found.material.density is None:
