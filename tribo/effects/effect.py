@@ -81,28 +81,10 @@ class Effect(Component):
         return {}
 
     def load_factor(self, snapshot: Snapshot) -> float:
-        """Return what the normal load is multiplied by; 1 unless a spring, a lever or a control is.
+        """Return what multiplies the normal load of the step that starts from a state; 1 by itself.
 
-        The load of a step is that at its start, of first order in the step. Of several effects
-        each multiplies it.
-
-        Parameters
-        ----------
-        snapshot : Snapshot
-            The state that the step starts from, with its measures and fields.
-
-        Returns
-        -------
-        float
-            More than 0.
-
-        Examples
-        --------
-        A spring of 2 N/mm, pressed to 10 N, that relaxes as the ball wears:
-
-        >>> class Spring(Effect):
-        ...     def load_factor(self, snapshot):
-        ...         return 1 - 2e3 / 10 * snapshot.measures.bodies["ball"].max_wear_depth
+        It is more than 0, as of a spring, a lever or a control, and held over the step: of first
+        order in its length. Those of several effects multiply each other.
         """
         return 1.0
 

@@ -45,6 +45,7 @@ from tribo.surfaces.flat import Flat
 from tribo.surfaces.sphere import Sphere
 from tribo.testing.checks import BODIES, FieldValue, needed_by
 from tribo.testing.compare import first_difference, locked, require
+from tribo.testing.process import process_state
 from tribo.wear.archard import Archard
 from tribo.wear.law import WearLaw
 
@@ -276,11 +277,13 @@ def problem(
 def run(made: Callable[[], Case]) -> None:
     """Run a case of a few steps, and once more from the middle with new objects.
 
-    The run itself holds in each step that a body loses just what its law says.
+    The run itself holds in each step that a body loses just what its law says. It leaves the state
+    of the process as it is.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         model, resumed = (Simulation(made()).model for _ in range(2))
+        before = process_state()
         states = [begin(model)]
         for accepted in march(model, states[0]):
             states.append(accepted.state)
@@ -293,6 +296,8 @@ def run(made: Callable[[], Case]) -> None:
             where = first_difference(state, again.state)
             lost = f"{where} differs in a run that was resumed: what no state keeps is lost then"
             require(where is None, lost)
+        where = first_difference(before, process_state())
+        require(where is None, f"{where} was changed in a run")
 
 
 def small_case(
