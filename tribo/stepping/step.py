@@ -155,8 +155,7 @@ def worn_by(
         if name in between:
             missed = between[name] if body.missed is None else body.missed + between[name]
             bodies[name] = replace(body, missed=missed)
-    loads = model.loads(before)
-    mean = loads.over_cycle(loads.mean(before.time, interval.end_time))
+    mean = model.contact.loads.over_cycle(model.loads(before).mean(before.time, interval.end_time))
     end = interval.end
     return replace(
         before,
@@ -218,8 +217,7 @@ def reloaded(model: Model, state: State) -> State:
     if not effects:
         return state
     snapshot = view(Snapshot(state, measure(model, state), effect_fields(model, state)))
-    factor = prod(effect.load_factor(snapshot) for effect in effects)
-    state = replace(state, load_factor=factor)
+    state = replace(state, load_factor=prod(each.load_factor(snapshot) for each in effects))
     return _under(model, state, model.loads(state).before(state.time))
 
 

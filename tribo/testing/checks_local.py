@@ -214,10 +214,7 @@ class LocalChecks(Checks):
         require(not missed, f"it asked for {missed}; add that to requires")
 
     def required_fields_matter(self) -> None:
-        """Each field, and property of materials, that it requires changes an answer.
-
-        That is: in one configuration at least.
-        """
+        """Each field or property of materials that it requires changes an answer at least once."""
         model = self._make()
         properties = {field.name for field in model.material_properties}
         names = {*names_of(model.requires), *properties}
