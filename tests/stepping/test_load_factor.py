@@ -10,12 +10,22 @@ from paper_models import (
     goes_on,
     last,
     motion,
+    pair,
     pin,
     small,
     states,
 )
 
-from tribo import Effect, Explicit, Grid, Implicit, PluginError
+from tribo import (
+    FRICTION_COEFFICIENT,
+    Effect,
+    Explicit,
+    Grid,
+    Implicit,
+    PluginError,
+    RunningIn,
+    Stage,
+)
 from tribo.core.errors import BadValues
 
 GRID = Grid((0.7e-3, 0.7e-3), (32, 32))
@@ -64,6 +74,17 @@ class Gives(Effect):
 
     def load_factor(self, snapshot):
         return self.factor
+
+
+class Rubs(Effect):
+    """A coefficient of friction that follows the pressure."""
+
+    type = "test.rubs"
+    provides = (FRICTION_COEFFICIENT,)
+
+    def fields(self, contact):
+        friction = 0.1 * (1 + contact.pressure / 1e9)
+        return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
 
 
 def ball(*effects, **changes):
@@ -121,6 +142,19 @@ def test_several_multiply_and_the_first_contact_carries_what_they_make_of_the_lo
         carried = np.sum(state.contact.pressure) * GRID.cell_area
         assert carried == pytest.approx(20, rel=1e-8)
     assert state.load_distance == pytest.approx(20 * 0.1 * 1, rel=1e-12)
+
+
+def test_half_of_a_ramp_is_the_ramp_of_half_the_load_where_laws_remember_and_friction_varies():
+    def run(load, *effects):
+        ramp = Stage(at=0, normal=load), Stage(at=4, normal=2 * load)
+        law = RunningIn(law=archard(), factor=5.0, over="1 GPa m")
+        of = {"bodies": pair(law, law), "load": ramp, "stepping": Explicit(time_step=0.4)}
+        return last(ball(Rubs(), *effects, kinematics=motion(duration=4), **of))
+
+    factor, halved = run(80, Gives(factor=0.5)), run(40)
+    for name, body in halved.bodies.items():
+        np.testing.assert_allclose(factor.bodies[name].wear, body.wear, rtol=1e-7, atol=1e-16)
+    assert factor.friction_energy == pytest.approx(halved.friction_energy, rel=1e-9)
 
 
 def test_a_resumed_run_has_the_same_bits(tmp_path):
