@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
-from math import isnan
+from math import isnan, nan
 from typing import Any, NamedTuple
 
 from tribo.closed_forms.hertz import first_yield_pressure
-from tribo.core.column import Column
+from tribo.core.errors import warn
 from tribo.core.findings import Finding
 from tribo.core.measures import reaches_border
-from tribo.core.words import readable, signed
+from tribo.core.words import readable, said, signed
 from tribo.lab.against_hertz import computed_pressure, first_hertz, in_mpa, yield_words
 from tribo.lab.inferred import InferredVolume, inferred_volumes, track_section
 from tribo.lab.scar import scar
 from tribo.registry.hookspecs import LabRow
-from tribo.registry.registry import from_plugins_of
+from tribo.registry.registry import from_plugins_of, place, process_kept
 from tribo.result.read import Result
 
 HALF_SPACE = "dcfft"
@@ -110,19 +110,22 @@ def lab_report(result: Result) -> LabReport:
 
 def quantity_rows(result: Result) -> list[LabRow]:
     """Return a row for each quantity of a result, and of its bodies; none where it is NaN."""
-    known: dict[str, Column] = {}
-
-    def rows(column: Column) -> Iterator[LabRow]:
-        if known.setdefault(column.name, column) is not column:
-            raise ValueError(f"another package has a quantity {column.name!r}")
-        unit = "" if column.unit == "1" else column.unit
+    rows: dict[str, LabRow] = {}
+    for column in from_plugins_of(result, "tribo_quantities"):
         for of in product(result.body_names) if column.of_bodies else [()]:
-            value = float(column.read(result, *of))
+            key, value = ".".join(("quantities", *of, column.label)), nan
+            try:
+                if key in rows:
+                    raise ValueError("another package has a quantity of this name")
+                with process_kept():
+                    value = float(column.read(result, *of))
+            except Exception as error:
+                where = place(error, column.read.__module__)
+                warn(f"{key} is left out: it raised {said(error)}{where}")
             if not isnan(value):
-                key = ".".join(("quantities", *of, column.label))
-                yield LabRow(" of ".join((column.description, *of)), value, unit, key=key)
-
-    return from_plugins_of(result, "tribo_quantities", then=rows)
+                unit = "" if column.unit == "1" else column.unit
+                rows[key] = LabRow(" of ".join((column.description, *of)), value, unit, key=key)
+    return [*rows.values()]
 
 
 def lab_sentences(result: Result, lab: LabReport) -> Iterator[str]:

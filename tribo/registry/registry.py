@@ -7,7 +7,7 @@ import re
 import sys
 import warnings
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Set
+from collections.abc import Iterable, Iterator, Mapping, Set
 from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
 from functools import cache, partial
 from traceback import walk_tb
@@ -194,18 +194,13 @@ class Registry:
         ]
 
     def ask(
-        self,
-        hook: str,
-        own: object = None,
-        types: Set[str] | None = None,
-        then: Callable[[Any], Iterable[Any]] = lambda item: (item,),
-        **arguments: object,
+        self, hook: str, own: object = None, types: Set[str] | None = None, **arguments: object
     ) -> list[Any]:
         """Return the items that a module of the kernel and the imported plugins answer to a hook.
 
         That module, `own`, comes first. With `types`, a plugin that has components is asked only
-        if it has one of these. The items are those that `then` makes of each answer. A plugin that
-        raises, or answers with something else, is left out with a warning.
+        if it has one of these. A plugin that raises, or answers with something else, is left out
+        with a warning.
         """
         if own is not None and not self._manager.is_registered(own):
             self._manager.register(own)
@@ -219,8 +214,7 @@ class Registry:
                 with process_kept():
                     answer = each.function(*(arguments[name] for name in each.argnames))
                     answered = answer.items() if isinstance(answer, Mapping) else answer or ()
-                    for item in map(partial(_item, hook), answered):
-                        items += then(item)
+                    items += map(partial(_item, hook), answered)
             except (Exception, SystemExit) as error:
                 warn(
                     f"{hook} of {each.plugin_name} is left out: it raised {said(error)}"
@@ -298,7 +292,7 @@ def from_packages(hook: str, own: object = None, **asked: Any) -> list[Any]:
     return registry.ask(hook, own, **asked)
 
 
-def from_plugins_of(result: Result, hook: str, **asked: Any) -> list[Any]:
+def from_plugins_of(result: Result, hook: str) -> list[Any]:
     """Return what the plugins of a result's models and those of hooks alone answer; see `ask`.
 
     Those that are not installed are left out.
@@ -307,7 +301,7 @@ def from_plugins_of(result: Result, hook: str, **asked: Any) -> list[Any]:
     for name in sorted(types):
         with suppress(CaseError):
             default_registry().find(name)
-    return from_packages(hook, types=types, result=result, **asked)
+    return from_packages(hook, types=types, result=result)
 
 
 def place(error: BaseException, *entry_points: str) -> str:
