@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribo.plotting.units import fitting, height_unit, size, time_labels, time_unit
+from tribo.lab.units import fitting, height_unit, size, time_labels, time_unit
 
 
 @pytest.mark.parametrize(

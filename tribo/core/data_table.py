@@ -6,9 +6,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 from math import isnan
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from tribo.core.words import readable
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 NOTHING = "–"
 """What is printed for a missing value."""
@@ -19,7 +22,7 @@ class Heading(NamedTuple):
     """The heading of a column: label, "" for the rows' names, and unit and format of its numbers.
 
     A column that is `whole` is not broken into lines. A narrow terminal leaves out those that it
-    can `spare`, in this order from 1.
+    can `spare`, in this order from 1. `name` is the label where the title of the table is missing.
     """
 
     label: str
@@ -27,6 +30,7 @@ class Heading(NamedTuple):
     form: str = ""
     whole: bool = False
     spare: int = 0
+    name: str = ""
 
     def __str__(self) -> str:
         """Return the label above the unit."""
@@ -76,6 +80,14 @@ class DataTable:
             for row in self.rows
         )
         return [row for row in rows if set(row[1:]) != {NOTHING}]
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return the rows, all digits of their numbers, with names and units: ``"time (s)"``."""
+        import pandas as pd
+
+        names = [(each.name or each.label, each.unit) for each in self.headings]
+        columns = [f"{name} ({unit})" if unit else name for name, unit in names]
+        return pd.DataFrame([row.values for row in self.rows], columns=columns)
 
     def html(self) -> str:
         """Return the headings and the rows as an HTML table."""

@@ -17,8 +17,8 @@ COLUMNS = (
     (Heading("load", "N", ".4g", whole=True), "load_N", 1),
     (Heading("p max", "MPa", ".4g", whole=True), "max_pressure_Pa", 1e-6),
     (Heading("p centre", "MPa", ".4g", whole=True, spare=2), "centre_pressure_Pa", 1e-6),
-    (Heading("along", "µm", ".0f", whole=True, spare=4), "contact_half_width_x_m", 2e6),
-    (Heading("across", "µm", ".0f", whole=True, spare=5), "contact_half_width_y_m", 2e6),
+    (Heading("along", "µm", ".0f", True, 4, "width along"), "contact_half_width_x_m", 2e6),
+    (Heading("across", "µm", ".0f", True, 5, "width across"), "contact_half_width_y_m", 2e6),
     (Heading("area", "mm²", ".3f", whole=True, spare=1), "contact_area_m2", 1e6),
 )
 """Heading, key in a save, and factor to the unit of each column."""
@@ -61,7 +61,7 @@ def saves_table(result: Result) -> DataTable:
             headings.append(heading)
             columns.append(values)
     for body in result.body_names:
-        headings.append(Heading(body, "µm", ".4g"))
+        headings.append(Heading(body, "µm", ".4g", name=f"{body} depth"))
         columns.append([1e6 * save["bodies"][body]["max_wear_depth_m"] for save in saves])
     title = "Contact, full widths along and across sliding; wear depth of each body"
     rows = list(map(TableRow, zip(*columns, strict=True)))

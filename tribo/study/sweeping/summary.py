@@ -72,7 +72,7 @@ def is_text(runs: pd.DataFrame, name: str) -> bool:
 
 def labelled(name: str, runs: pd.DataFrame) -> tuple[str, str, float]:
     """Return what is said of a column, its unit, "" for none, and the unit's size."""
-    from tribo.plotting.curves import column_label
+    from tribo.lab.units import column_label
 
     if is_text(runs, name):
         return name.replace("_", " ").replace(".", " "), "", 1.0
