@@ -86,6 +86,7 @@ from tribo.lab.kept import kept_fields as kept_fields
 from tribo.lab.report import lab_report as lab_report
 from tribo.lab.report import lab_sentences as lab_sentences
 from tribo.lab.report import run_sentences as run_sentences
+from tribo.lab.rests import with_rests as with_rests
 from tribo.lab.roughness import without_form as without_form
 from tribo.lab.scar import Scar as Scar
 from tribo.lab.scar import crown as crown
@@ -108,12 +109,9 @@ from tribo.model.events import Worn as Worn
 from tribo.model.events import Yielded as Yielded
 from tribo.model.model import Model as Model
 from tribo.plotting import style as style
-from tribo.plotting.curves import curves_by as curves_by
-from tribo.plotting.curves import sweep_pictures as sweep_pictures
 from tribo.plotting.figures import picture_format as picture_format
 from tribo.plotting.figures import result_pictures as result_pictures
 from tribo.plotting.figures import write_figures as write_figures
-from tribo.plotting.history import with_rests as with_rests
 from tribo.plotting.maps import Layout as Layout
 from tribo.plotting.maps import Scale as Scale
 from tribo.plotting.maps import field_picture as field_picture
@@ -147,8 +145,10 @@ from tribo.study.side_by_side import comparison_table as comparison_table
 from tribo.study.sweeping.study_file import by_path as by_path
 from tribo.study.sweeping.summary import cell as cell
 from tribo.study.sweeping.summary import column_heading as column_heading
+from tribo.study.sweeping.summary import curves_by as curves_by
 from tribo.study.sweeping.summary import is_text as is_text
 from tribo.study.sweeping.summary import labelled as labelled
+from tribo.study.sweeping.summary import sweep_pictures as sweep_pictures
 from tribo.study.sweeping.summary import varied_paths as varied_paths
 from tribo.study.variation import unknown_body as unknown_body
 from tribo.study.variation import valid_case as valid_case

@@ -8,14 +8,13 @@ from made_results import made
 from tribo.core.errors import CaseError
 from tribo.lab.kept import KeptField, kept_fields
 from tribo.plotting.curves import (
-    curves_by,
     history_curves,
     sweep_curves,
-    sweep_pictures,
 )
 from tribo.plotting.history import history
 from tribo.plotting.profiles import field_map
 from tribo.result.read import Result
+from tribo.study.sweeping.summary import curves_by, sweep_pictures
 
 
 def test_columns_of_the_history_are_drawn_over_the_path():

@@ -7,8 +7,8 @@ from made_results import TIMES, made
 from matplotlib import pyplot
 from PIL import Image
 
+from tribo.cli.animation import save_animation
 from tribo.core.errors import CaseError
-from tribo.plotting.animation import save_animation
 
 
 @pytest.fixture(scope="module")

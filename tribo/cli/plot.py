@@ -50,7 +50,7 @@ def plot(
             drawn = {"history": partial(history_curves, result, columns, against)}
             paths = write_figures(drawn, folder, suffix)
         elif animate:
-            from tribo.plotting.animation import save_animation
+            from tribo.cli.animation import save_animation
 
             paths = [save_animation(result, folder / "animation.gif")]
         elif names:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
@@ -16,31 +16,20 @@ from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.lab.units import column_label
 from tribo.plotting.picture import Picture
-from tribo.plotting.style import SINGLE_COLUMN, WIDE, house_style, new_figure, save_looks
+from tribo.plotting.style import SINGLE_COLUMN, WIDE, save_looks
 from tribo.result.read import Result
 
-MOST_CURVES = 6
-"""In a picture of a sweep."""
 MARKS = "osD^vp"
 """Of its curves; the first is full, and seen inside another that coincides."""
 
 
 def history_curves(result: Result, columns: Sequence[str], against: str = "distance_m") -> Figure:
-    """Draw columns of the history against another, a panel for each.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-    columns : sequence of str
-        Names as in ``result.table("history")``: ``"max_pressure_Pa"``.
-    against : str, optional
-        The column along the horizontal axis: ``"distance_m"``, ``"time_s"`` or any other.
+    """Draw columns of ``result.table("history")`` against another, a panel for each.
 
     Raises
     ------
     CaseError
-        If there is no such column, or no save.
+        If there is no such column.
     """
     history = result.table("history")
     for name in (*columns, against):
@@ -48,46 +37,12 @@ def history_curves(result: Result, columns: Sequence[str], against: str = "dista
             known = ", ".join(history)
             meant = suggestion(did_you_mean(name, history))
             raise CaseError(f"the history has no column {name!r}{meant} It has {known}")
-    with house_style():
-        figure = new_figure(15.0 + 36.0 * len(columns))
-        panels = figure.subplots(len(columns), 1, sharex=True, squeeze=False)[:, 0]
-        for axes, name in zip(panels, columns, strict=True):
-            _draw(axes, history[against], history[name], against, name)
-            axes.label_outer()
-    return figure
 
+    def panel(name: str, axes: Axes) -> list[Line2D]:
+        _draw(axes, history[against], history[name], against, name)
+        return []
 
-def sweep_pictures(
-    runs: pd.DataFrame, varied: Sequence[str], measures: Sequence[str]
-) -> dict[str, Callable[[], Figure]]:
-    """Return how to draw each measure over the number that varies most; none if no number does.
-
-    Where the runs do not part into curves it is drawn over every number that varies.
-    """
-    done = runs[runs["status"] == "done"]
-    numbers = [name for name in varied if pd.api.types.is_numeric_dtype(done[name])]
-    numbers = [name for name in numbers if done[name].nunique() > 1]
-    if not numbers:
-        return {}
-    most = max(numbers, key=lambda name: done[name].nunique())
-    by, joined = curves_by(done, [name for name in varied if name != most])
-    x = [most] if joined else numbers
-    return {name: partial(sweep_curves, done, x, name, by, joined) for name in measures}
-
-
-def curves_by(done: pd.DataFrame, others: Sequence[str]) -> tuple[list[str], bool]:
-    """Return the columns that part runs into curves, and whether a line joins those of a curve.
-
-    Where other quantities vary along, as in a random sample, none does; only text tells the runs
-    apart then.
-    """
-    others = [name for name in others if done[name].nunique() > 1]
-    texts = [name for name in others if not pd.api.types.is_numeric_dtype(done[name])]
-    for names, joined in ((others, True), (texts, False)):
-        count = done.groupby(names).ngroups if names else 1
-        if count <= MOST_CURVES and len(done) >= (2 * count if joined else 1):
-            return names, joined
-    return [], False
+    return Picture([[partial(panel, name)] for name in columns], 50.0).figure()
 
 
 def sweep_curves(
@@ -97,18 +52,10 @@ def sweep_curves(
     by: Sequence[str] = (),
     joined: bool = True,
 ) -> Figure:
-    """Draw a measure of a sweep's runs over what varies, a panel for each quantity.
+    """Draw a measure `y` of a sweep's runs over what varies, a panel for each column in `x`.
 
-    Parameters
-    ----------
-    runs : DataFrame
-        A row for each run, as ``runs.csv`` has them.
-    x, y : str
-        Its columns along both axes; several along x.
-    by : sequence of str, optional
-        Columns that part the runs into curves, one for each combination of their values.
-    joined : bool, optional
-        Whether a line joins the runs of a curve.
+    `runs` has a row for each run, as ``runs.csv``; columns `by` part the runs into curves, one for
+    each combination of their values, and a line joins those of a curve if they are `joined`.
 
     Raises
     ------

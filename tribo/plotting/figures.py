@@ -148,17 +148,7 @@ def save_figures(
     They have the names of `KINDS`, and plugins add theirs. Those of worn surfaces are left out
     where nothing is worn, those over time where there is one moment only, and those of what is
     uniform: `tell` takes the sentence that stands for it, the log of ``tribo.plotting`` by default.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-    folder : Path
-        Where to; it is made if need be.
-    suffix : str, optional
-        The format: png, pdf, svg or another that matplotlib writes.
-    tell : callable, optional
-        As above.
+    `suffix` is a format that matplotlib writes.
 
     Raises
     ------

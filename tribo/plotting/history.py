@@ -14,6 +14,7 @@ from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 from tribo.core.arrays import Array
 from tribo.core.rounding import ROUND_OFF
 from tribo.lab.kept import kept_fields, steady
+from tribo.lab.rests import with_rests
 from tribo.lab.running_in import rough_bodies
 from tribo.lab.units import shown_in, size, time_unit
 from tribo.plotting.picture import Picture
@@ -125,26 +126,6 @@ def history(result: Result, name: str) -> Picture:
 def history_names(result: Result) -> list[str]:
     """Return the names of the histories that say something of a result."""
     return [name for name, panels in HISTORIES.items() if panels(result)]
-
-
-def with_rests(result: Result) -> dict[str, Array]:
-    """Return the history with a row more where each step of a rest begins, and where it ends.
-
-    A row has the load and the friction force of the step before it. A line from row to row would
-    creep all along a rest, a long step, to what the load is from its first moment on; only a load
-    that goes in straight lines does so.
-    """
-    history = result.table("history")
-    stages = (result.case_tables.get("load") or {}).get("normal")
-    straight = isinstance(stages, list | tuple) and any(stage.get("at") for stage in stages)
-    resting = np.diff(history["distance_m"]) == 0
-    starts = np.flatnonzero(resting | np.append(False, resting)[:-1])
-    rows = {"time_s": starts, "friction_force_N": starts + 1}
-    later = starts + (resting[starts] & (not straight))
-    return {
-        name: np.insert(column, starts + 1, column[rows.get(name, later)])
-        for name, column in history.items()
-    }
 
 
 def _wear(result: Result) -> list[TimePanel]:

@@ -86,17 +86,11 @@ def _surface(result: Result, time: float, name: str) -> tuple[Grid, Array, Mask]
 
 
 def difference_map(results: Results, label: str, time: float) -> Figure:
-    """Draw how far a result is from the first: pressure, and wear of bodies that stay.
+    """Draw how far a result is from the first: pressure, and depth of bodies that stay.
 
     `results` are by label; `label` is the one to draw, `time` that of a save of both, in s. What
-    varies along one axis only is left out: `comparison_picture` shows it.
-
-    Raises
-    ------
-    CaseError
-        If the two have different grids, or one has no save then.
-    NothingToDraw
-        If they differ along one axis at most.
+    varies along one axis only is left out: `comparison_picture` shows it. CaseError if the two have
+    different grids, or `NothingToDraw` if they differ along one axis at most.
     """
     return _difference(results, label, time).figure()
 
@@ -132,31 +126,10 @@ def _difference(results: Results, label: str, time: float) -> Picture:
 def save_overlays(
     results: Results, times: Sequence[float], folder: Path, suffix: str = "png"
 ) -> list[Path]:
-    """Write every overlay that makes sense for several results.
+    """Write the overlays of several results by label at `times` of all, in s; see `save_figures`.
 
-    Parameters
-    ----------
-    results : Mapping
-        The results by label; the first is what the others are compared with.
-    times : sequence of float
-        Of saves of all, in s.
-    folder : Path
-        Where to; it is made if need be.
-    suffix : str, optional
-        The format.
-
-    Returns
-    -------
-    list of Path
-        For each time T: ``comparison_Ts``, and ``difference_N_Ts`` of the Nth result where it is
-        on the first one's grid and differs from it along both axes.
-
-    Raises
-    ------
-    CaseError
-        If a result has no save at one of the times.
-    OutputError
-        If they cannot be written.
+    The files are for each time T ``comparison_Ts``, and ``difference_N_Ts`` of the Nth result where
+    it is on the first one's grid and differs from it along both axes.
     """
     pictures: dict[str, Callable[[], Figure]] = {}
     first = next(iter(results.values()))

@@ -15,33 +15,30 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
-from tribo.core.arrays import Array
 from tribo.lab.against_hertz import HertzContact, first_hertz
 from tribo.lab.units import fitting, size, time_labels
 from tribo.plotting import style
 from tribo.plotting.maps import Layout, Scale, field_picture
 from tribo.plotting.picture import NothingToDraw, Picture
-from tribo.plotting.sections import Curve, Limits, Section, bodies_end, through_centre, varying
+from tribo.plotting.sections import Section, bodies_end, through_centre, varying
 from tribo.result.read import Result
 
 HERTZ: style.Look = {"color": "#909090", "linewidth": 0.7, "zorder": 3}
+NOWHERE = (0.0, 0.0)
 _FADED = 2.0
 """Ratio of the first pressure to the later ones above which it has panels of its own."""
 
 
-def pressure_map(
-    result: Result, saves: Sequence[int] = (-1,), most: float | None = None
-) -> Picture:
+def pressure_map(result: Result, saves: Sequence[int] = (-1,)) -> Picture:
     """Draw the pressure at a save from above, or its profile where it varies along one axis.
 
     The solid line is the edge of the contact, the dashed one Hertz's first contact where the
-    surfaces state their curvature. A long contact is drawn wider than it is, and the axis says how
-    much. The colours end at `most`, in Pa.
+    surfaces state their curvature. A long contact is drawn wider, and the axis says how much.
     """
     save, hertz = saves[-1], _hertz(result)
     pressure = result.field("pressure", save)
     touching = pressure > 0
-    unit = fitting("Pa", most or float(np.max(pressure)))
+    unit = fitting("Pa", float(np.max(pressure)))
 
     def more(axes: Axes, shown: Layout) -> Sequence[Artist]:
         if touching.any() and not touching.all():
@@ -51,8 +48,10 @@ def pressure_map(
         return () if hertz is None else [_draw_first_contact(axes, shown, hertz)]
 
     title = f"t = {time_labels(result.times)[save]}"
-    scale = Scale("Pressure", unit, size(unit), most=most)
-    return field_picture(pressure, touching, result.grid, scale, title, _reach(hertz), more)
+    scale = Scale("Pressure", unit, size(unit))
+    return field_picture(
+        pressure, touching, result.grid, scale, title, hertz.reach if hertz else NOWHERE, more
+    )
 
 
 def pressure_sections(
@@ -83,7 +82,7 @@ def pressure_sections(
         shown = hertz if 0 in group else None
         marked = np.any([fields[save] > 0 for save in group], axis=0)
         kept = [(grid, fields[save], marked) for save in group]
-        sections = through_centre(kept, axes, _reach(shown), bodies_end(result))
+        sections = through_centre(kept, axes, shown.reach if shown else NOWHERE, bodies_end(result))
         highest = max(float(np.max(p)) for part in sections for _, p in part.curves)
         named = [(labels[save], looks[save]) for save in group]
         rows.append(
@@ -110,7 +109,9 @@ def _draw(
     labels, looks = zip(*named, strict=True)
     drawn: list[Artist] = [*section.draw(axes, size(unit), looks, labels, up)]
     if hertz is not None:
-        x, values = _hertz_curve(hertz, section.axis, section.window)
+        ends = (-hertz.reach[section.axis], hertz.reach[section.axis])
+        x = np.sort(np.append(np.linspace(*section.window, 801), ends))
+        values = hertz.pressure(section.axis, x)
         drawn += axes.plot(x / size(section.unit), values / size(unit), label="Hertz, 0 s", **HERTZ)
         axes.set_ylim(top=max(up[1], 1.05 * hertz.peak_pressure) / size(unit))
     if cap is not None and highest >= 0.9 * cap:
@@ -143,21 +144,3 @@ def _draw_first_contact(axes: Axes, shown: Layout, hertz: HertzContact) -> Line2
 def _hertz(result: Result) -> HertzContact | None:
     hertz = first_hertz(result)
     return None if isinstance(hertz, str) else hertz
-
-
-def _reach(hertz: HertzContact | None) -> list[float]:
-    """Return Hertz's half-widths along x and y in m; 0 where it has none."""
-    widths = (hertz.half_width_x, hertz.half_width_y) if hertz is not None else (0.0, 0.0)
-    return [width if np.isfinite(width) else 0.0 for width in widths]
-
-
-def _hertz_curve(hertz: HertzContact, axis: int, window: Limits) -> Curve:
-    """Return Hertz's pressure along an axis through the centre."""
-    width = _reach(hertz)[axis]
-    position: Array = np.linspace(*window, 801)
-    if width == 0:
-        return position, np.full_like(position, hertz.peak_pressure)
-    # The ends of the ellipse belong to the curve.
-    position = np.sort(np.append(position, (-width, width)))
-    inside = np.maximum(1 - (position / width) ** 2, 0.0)
-    return position, hertz.peak_pressure * np.sqrt(inside)

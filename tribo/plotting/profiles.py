@@ -34,18 +34,15 @@ LAYER: Look = {"color": "black", "linewidth": 0.6, "linestyle": (0.0, (6.0, 1.5,
 UPPER, LOWER = "#e4e4e4", "#b4b4b4"
 
 
-def scar_map(
-    result: Result, name: str, saves: Sequence[int] = (-1,), most: float | None = None
-) -> Picture:
+def scar_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
     """Draw from above how much of a body is gone at a save: worn off and displaced.
 
-    Of a body that passes through a resolved cycle it is the groove along the
-    whole track, else what lies in the window. What varies along one axis only is drawn as its
-    profile. The colours end at `most`, in m.
+    For a body that passes through a resolved cycle it is the groove along the whole track. What
+    varies along one axis only is drawn as its profile.
     """
     grid, gone = _gone(result, name, saves[-1:])
-    unit = height_unit(most or float(np.max(gone)))
-    scale = Scale("Depth", unit, size(unit), DEPTHS, most=most)
+    unit = height_unit(float(np.max(gone)))
+    scale = Scale("Depth", unit, size(unit), DEPTHS)
     title = f"{name}, t = {time_labels(result.times)[saves[-1]]}"
     return field_picture(gone[0], scar_mask(gone[0]), grid, scale, title)
 
@@ -56,13 +53,11 @@ def body_profiles(
     """Draw a body's surface through the window's centre at every save.
 
     It runs along axis 0, the sliding direction, or across it, along axis 1; without one, along
-    those along which the body wears unevenly, side by side and on one scale of heights. Of a body
-    that passes through a resolved cycle it is by how much the height has changed, and along the
-    whole track.
+    those along which the body wears unevenly. For a body that passes through a resolved cycle it is
+    the change of its height along the whole track.
 
-    The height points out of the body, so that material goes downwards: the
-    unworn profile lies on top. Plastic displacement is part of it; elastic
-    deformation is not. The picture states how much it enlarges heights.
+    Heights point out of the body, so that the unworn profile lies on top. They have plastic
+    displacement and no elastic deformation; the picture states how much it enlarges them.
     """
     if axis not in (None, 0, 1):
         raise CaseError(f"a profile runs along axis 0 or across, axis 1; not {axis!r}")
@@ -94,12 +89,9 @@ def _gone(result: Result, name: str, saves: Sequence[int]) -> tuple[Grid, list[A
 def worn_section(result: Result, saves: Sequence[int] = (-1,), axis: int | None = None) -> Picture:
     """Draw both bodies in section at a save, along the axes along which one wears unevenly.
 
-    They are set down on each other without load, so that they touch at their
-    closest point and the scars are seen to conform. A swept body lies below.
-    The unworn surface of each worn body is drawn where its points were: that
-    of the upper one, dotted, runs inside the lower body. A thin line marks where a layer ends
-    that has been worn through or by half at least. The picture states how much it enlarges heights
-    and how deep the scars are.
+    They touch at their closest point, without load; a moving body lies below. The unworn surface of
+    each worn body is drawn where its points were, and a thin line where a layer ends that is worn
+    by half at least. The picture states how much it enlarges heights and how deep the scars are.
     """
     save = saves[-1]
     upper, lower = sorted(map(result.body, result.body_names), key=lambda body: body.swept)

@@ -338,13 +338,7 @@ class Result:
         return pictures
 
     def picture(self, name: str) -> Figure:
-        """Draw the picture of a file that `plot` writes, such as ``"ball_scar"``.
-
-        Raises
-        ------
-        CaseError
-            If the result has no such picture; the message lists those that it has.
-        """
+        """Draw the picture of a file that `plot` writes, such as ``"ball_scar"``."""
         figure: Figure = shorthand.picture(self, name)
         return figure
 
