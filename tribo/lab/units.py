@@ -79,12 +79,10 @@ def shown_in(unit: str, values: Array) -> tuple[str, float]:
     if unit in _FIXED:
         shown, factor = _FIXED[unit], size(_FIXED[unit])
         power = math.floor(math.log10(largest / factor)) if largest else 0
+        if power >= -2:
+            return shown, factor
         # Matplotlib would put the power far from the unit.
-        return (
-            (f"10{str(power).translate(_RAISED)} {shown}", factor * 10.0**power)
-            if power < -3
-            else (shown, factor)
-        )
+        return f"10{str(power).translate(_RAISED)} {shown}", factor * 10.0**power
     return ("" if unit == "1" else unit.replace("^2", "²").replace("^3", "³")), 1.0
 
 
