@@ -44,5 +44,5 @@ def test_a_small_volume_and_a_wear_rate_have_their_power_of_ten_in_the_unit():
     for si, unit in (("m^3", "mm³"), ("1/Pa", "mm³/(N·m)")):
         words, factor = shown_in(si, np.array([1.8e-14, 3e-15]))
         assert words == f"10⁻⁵ {unit}"
-        assert factor == pytest.approx(1e-14)
+        assert factor == pytest.approx(1e-14, rel=1e-9, abs=0)
         assert shown_in(si, np.array([2e-11]))[0] == unit
