@@ -112,7 +112,7 @@ def quick_reports(monkeypatch):
     def refused(*given):
         raise CaseError("it takes seconds")
 
-    def two(result, every=figures.result_pictures):
+    def two(result, *tell, every=figures.result_pictures):
         return dict(list(every(result).items())[:2])
 
     monkeypatch.setattr("tribo_report.result.findings_of", refused)

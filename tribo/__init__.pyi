@@ -86,6 +86,7 @@ from tribo.motion.reciprocating import Reciprocating as Reciprocating
 from tribo.motion.rotating import Rotating as Rotating
 from tribo.motion.unidirectional import Unidirectional as Unidirectional
 from tribo.observers.observer import Observer as Observer
+from tribo.plotting.figures import Plot as Plot
 from tribo.registry.hookspecs import CaseTemplate as CaseTemplate
 from tribo.registry.hookspecs import Command as Command
 from tribo.registry.hookspecs import ExportFormat as ExportFormat

@@ -1,4 +1,4 @@
-"""What ``case.run()``, ``result.plot()`` and other shorthands of lower layers do.
+"""What ``case.run()``, ``result.report()`` and other shorthands of lower layers do.
 
 The package binds them as it is imported; the functions that they call are imported when first
 called.
@@ -12,10 +12,12 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import Any
 
+    import pandas as pd
     from matplotlib.figure import Figure
 
     from tribo.case import Case
     from tribo.lab.report import LabReport
+    from tribo.plotting.figures import Plot
     from tribo.registry.registry import Registry
     from tribo.result.read import Result
     from tribo.study.check import Check
@@ -34,6 +36,7 @@ def bind() -> None:
     shorthand.plot = plot
     shorthand.picture = picture
     shorthand.html = html
+    shorthand.dataframe = dataframe
 
 
 def run(
@@ -105,11 +108,11 @@ def report(result: "Result") -> "LabReport":
     return lab_report(result)
 
 
-def plot(result: "Result", folder: "Path", suffix: str) -> "list[Path]":
-    """Write every picture that makes sense for a result."""
-    from tribo.plotting.figures import save_figures
+def plot(result: "Result") -> "Plot":
+    """Return the pictures of a result."""
+    from tribo.plotting.figures import Plot
 
-    return save_figures(result, folder, suffix)
+    return Plot(result)
 
 
 def picture(result: "Result", name: str) -> "Figure":
@@ -124,3 +127,10 @@ def html(result: "Result") -> str:
     from tribo.cli.notebook import html
 
     return html(result)
+
+
+def dataframe(result: "Result") -> "pd.DataFrame":
+    """Return the saves of a result in the units of a laboratory."""
+    from tribo.lab.tables import saves_table
+
+    return saves_table(result).to_dataframe()

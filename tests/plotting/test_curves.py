@@ -6,15 +6,15 @@ import pytest
 from made_results import made
 
 from tribo.core.errors import CaseError
+from tribo.lab.kept import KeptField, kept_fields
 from tribo.plotting.curves import (
-    curves_by,
     history_curves,
     sweep_curves,
-    sweep_pictures,
 )
-from tribo.plotting.history import fields_history
-from tribo.plotting.kept import KeptField, field_map, kept_fields
+from tribo.plotting.history import history
+from tribo.plotting.profiles import field_map
 from tribo.result.read import Result
+from tribo.study.sweeping.summary import curves_by, sweep_pictures
 
 
 def test_columns_of_the_history_are_drawn_over_the_path():
@@ -27,7 +27,7 @@ def test_columns_of_the_history_are_drawn_over_the_path():
     worn = 1e9 * history["bodies.ball.wear_volume_m3"]
     np.testing.assert_allclose(volume.lines[0].get_ydata(), worn)
     assert pressure.get_ylabel() == "largest pressure\n(MPa)"
-    assert volume.get_ylabel() == "ball wear volume\n(mm³)"
+    assert volume.get_ylabel() == "worn volume of ball\n(mm³)"
     assert volume.get_xlabel() == "distance (m)"
     with pytest.raises(CaseError, match=r"no column 'max_presure_Pa'.* max_pressure_Pa"):
         history_curves(result, ["max_presure_Pa"])
@@ -54,7 +54,7 @@ def test_runs_of_a_sweep_are_curves_in_the_order_of_what_varies():
     assert first.get_marker() != second.get_marker()
     radii = runs.assign(**{"bodies.ball.surface.radius_m": [5e-3, 5e-3, 5e-3, 1e-2, 1e-2]})
     figure = sweep_curves(radii, "load_N", "max_pressure_Pa", ["bodies.ball.surface.radius_m"])
-    assert figure.legends[0].get_title().get_text() == "ball surface radius (mm)"
+    assert figure.legends[0].get_title().get_text() == "radius of ball (mm)"
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["5", "10"]
     with pytest.raises(CaseError, match="no column 'load'"):
         sweep_curves(runs, "load", "max_pressure_Pa")
@@ -67,18 +67,22 @@ def test_no_line_joins_the_runs_of_a_sample():
     assert curves_by(runs, ["k"]) == ([], False)
     assert curves_by(runs.assign(k=1.0), ["k"]) == ([], True)
     (draw,) = sweep_pictures(runs, ["load_N", "k"], ["load_N"]).values()
-    assert draw().axes[0].lines[0].get_linestyle() == "None"
+    # What varies has a panel each.
+    for axes, name in zip(draw().axes, ("load_N", "k"), strict=True):
+        (line,) = axes.lines
+        assert line.get_linestyle() == "None"
+        np.testing.assert_allclose(line.get_xdata(), runs[name])
 
 
 def test_a_field_of_the_models_is_drawn_from_above_and_over_time():
     result = made(film=1e-11)
     film, share = kept_fields(result)
     assert (film.name, film.key, share.name) == ("film", "film", "load share")
-    (axes,) = field_map(result, film).axes
-    shown = np.asarray(axes.images[0].get_array()).T
+    (axes,) = field_map(result, "film").figure().axes
+    shown = np.nan_to_num(np.ma.filled(axes.images[0].get_array(), 0.0)).T
     np.testing.assert_allclose(shown, 1e9 * result.field("film", -1))
-    assert axes.child_axes[0].get_ylabel() == "Film (nm)"
-    above, _ = fields_history(result).axes
+    assert axes.child_axes[0].get_ylabel().startswith("Film (nm)\n")
+    above, _ = history(result, "fields").figure().axes
     largest, mean = (line.get_ydata() for line in above.lines)
     assert above.get_title(loc="right") == "at the saves; not known between"
     for line, mark in zip(above.lines, "os", strict=True):
@@ -93,7 +97,7 @@ def test_rounding_of_a_field_that_stays_the_same_is_not_drawn(monkeypatch):
     rounding = 1e-13 * np.arange(len(result.times))
     kept = [KeptField("film", "film", "m", at * (1 + rounding)) for at in (39e-9, -39e-9)]
     monkeypatch.setattr("tribo.plotting.history.kept_fields", lambda _: kept)
-    figure = fields_history(result)
+    figure = history(result, "fields").figure()
     figure.draw_without_rendering()
     for axes, sign in zip(figure.axes, (1, -1), strict=True):
         assert axes.yaxis.get_major_formatter().get_offset() == ""

@@ -5,14 +5,9 @@ import pytest
 from made_results import GRID, TIMES, half_width, made
 
 from tribo.lab.against_hertz import hertz_contact
-from tribo.plotting import (
-    body_profiles,
-    contact_history,
-    pressure_map,
-    pressure_sections,
-    wear_history,
-    worn_section,
-)
+from tribo.plotting.history import history, history_names
+from tribo.plotting.pressure import pressure_map, pressure_sections
+from tribo.plotting.profiles import body_profiles, worn_section
 from tribo.result.export import profile
 
 
@@ -32,18 +27,18 @@ def names(legend):
 
 @pytest.mark.parametrize("axis", [0, 1])
 def test_profiles_are_those_of_the_result_at_every_save(axis, result):
-    (axes,) = body_profiles(result, "ball", axis).axes
+    (axes,) = body_profiles(result, "ball", axis=axis).figure().axes
     shown = curves(axes)
     assert list(shown) == ["0 s", "200 s", "500 s", "1500 s", "3600 s"]
     ball = result.body("ball")
-    for save, (x, y) in enumerate(shown.values()):
+    for save, (x, y) in enumerate(ends[:, 1:-1] for ends in shown.values()):
         np.testing.assert_allclose(x, 1e3 * (GRID.x, GRID.y)[axis])
         np.testing.assert_allclose(y, 1e6 * profile(ball.surface(save), axis), atol=1e-12)
     assert np.all(shown["0 s"][1] >= shown["3600 s"][1])
 
 
 def test_the_stated_enlargement_is_that_on_paper(result):
-    figure = body_profiles(result, "ball", 1)
+    figure = body_profiles(result, "ball", axis=1).figure()
     figure.draw_without_rendering()
     (axes,) = figure.axes
     box = axes.get_window_extent()
@@ -54,73 +49,70 @@ def test_the_stated_enlargement_is_that_on_paper(result):
 
 
 def test_a_groove_is_the_swept_bodys_section(result):
-    (axes,) = body_profiles(result, "disk").axes
+    (axes,) = body_profiles(result, "disk").figure().axes
     worn = result.body("disk").wear_depth
     for save, (_, y) in enumerate(curves(axes).values()):
         factor = 1e6 if worn.max() >= 1e-6 else 1e9
-        np.testing.assert_allclose(y, -factor * worn[save, 0], atol=1e-12)
+        np.testing.assert_allclose(y[1:-1], -factor * worn[save, 0], atol=1e-12)
 
 
-def test_sections_hold_every_save_and_hertz(result):
-    figure = pressure_sections(result)
-    assert len(figure.axes) == 3
+def test_sections_hold_every_save_and_hertz_beside_the_first(result):
+    figure = pressure_sections(result).figure()
+    first, later = figure.axes[:2], figure.axes[2:]
     hertz = hertz_contact(result.system)
-    for axis, axes in enumerate(figure.axes[1:]):
-        shown = curves(axes)
+    for axis in (0, 1):
+        assert set(curves(first[axis])) == {"0 s", "Hertz, 0 s"}
+        shown = curves(first[axis]) | curves(later[axis])
         assert len(shown) == len(TIMES) + 1
-        for save, label in enumerate(list(shown)[:-1]):
-            expected = 1e-6 * profile(result.field("pressure", save), axis)
-            np.testing.assert_allclose(shown[label][1], expected)
-        x, y = shown["Hertz, 0 s"]
+        x, y = shown.pop("Hertz, 0 s")
         assert y.max() == pytest.approx(1e-6 * hertz.peak_pressure, rel=1e-3)
-        assert x[y > 0].max() == pytest.approx(1e3 * hertz.half_width_x, rel=0.02)
-    assert names(figure.legends[0]) == set(curves(figure.axes[1]))
+        unit = {"mm": 1e3, "µm": 1e6}[first[axis].get_xlabel()[-3:-1]]
+        assert x[y > 0].max() == pytest.approx(unit * hertz.half_width_x, rel=0.02)
+        for save, (_, y) in enumerate(shown.values()):
+            expected = 1e-6 * profile(result.field("pressure", save), axis)
+            np.testing.assert_allclose(y[1:-1], expected)
+    assert names(figure.legends[0]) == set(curves(first[0])) | set(curves(later[0]))
 
 
-def test_a_first_pressure_that_dwarfs_the_later_ones_stands_whole_in_its_own_panel(result):
-    whole, along, across = pressure_sections(result).axes
-    shown = curves(whole)
-    assert set(shown) == {"0 s", "Hertz, 0 s"}
-    np.testing.assert_allclose(shown["0 s"][1], 1e-6 * profile(result.field("pressure", 0), 0))
+def test_a_first_pressure_that_dwarfs_the_later_ones_has_a_row_of_its_own(result):
     later = 1e-6 * profile(result.field("pressure", 1), 0).max()
-    for axes in (along, across):
+    for axes in pressure_sections(result).figure().axes[2:]:
         assert later < axes.get_ylim()[1] < 1.2 * later
-    others = pressure_sections(made((0.0, 1.0))).axes
-    highest = 1e-6 * result.field("pressure", 0).max()
-    assert all(axes.get_ylim()[1] >= highest for axes in (whole, *others))
-    assert len(others) == 2
+    assert len(pressure_sections(made((0.0, 1.0))).figure().axes) == 2
 
 
 @pytest.mark.parametrize("times", [(0.0, 1.0), TIMES])
 def test_sections_that_reach_the_hardness_mark_it(times):
-    figure = pressure_sections(made(times, cap=2e9))
+    figure = pressure_sections(made(times, cap=2e9)).figure()
     first = figure.axes[0]
     assert "hardness" in names(figure.legends[0])
     np.testing.assert_allclose(curves(first)["hardness"][1], 2e3)
     assert first.get_ylim()[1] > 2e3
 
 
-def test_the_map_is_the_pressure_from_zero_to_the_largest(result):
-    (axes,) = pressure_map(result, 1).axes
+def test_the_map_is_the_pressure_from_zero_to_a_percentile_that_it_states(result):
+    (axes,) = pressure_map(result, [1]).figure().axes
     (image,) = axes.images
     pressure = 1e-6 * result.field("pressure", 1).T
-    shown = np.asarray(image.get_array())
+    shown = np.ma.filled(image.get_array(), np.nan)
     np.testing.assert_allclose(shown, np.where(pressure > 0, pressure, np.nan))
     np.testing.assert_allclose(image.get_extent(), [-1.0, 1.0, -0.8, 0.8])
-    assert image.get_clim() == (0.0, pytest.approx(pressure.max()))
+    assert image.get_clim() == (0.0, pytest.approx(np.percentile(pressure[pressure > 0], 99)))
     assert axes.get_title(loc="left") == "t = 200 s"
-    assert axes.child_axes[0].get_ylabel() == "Pressure (MPa)"
+    label, largest = axes.child_axes[0].get_ylabel().split("; largest ")
+    assert label == "Pressure (MPa)\nto 99 % of cells"
+    assert float(largest) == pytest.approx(result.saves()[1]["max_pressure_Pa"] / 1e6, rel=1e-3)
 
 
 def test_the_edge_of_the_contact_runs_between_cells_with_and_without_pressure(result):
-    (axes,) = pressure_map(result).axes
+    (axes,) = pressure_map(result).figure().axes
     (edge,) = axes.collections[0].get_paths()
     r = np.hypot(edge.vertices[:, 0], edge.vertices[:, 1] / 1.1)
     assert np.max(np.abs(r - 1e3 * half_width(3600.0))) < 1.5e3 * max(GRID.spacing)
 
 
 def test_the_map_marks_the_ellipse_of_hertz(result):
-    figure = pressure_map(result)
+    figure = pressure_map(result).figure()
     ((x, y),) = curves(figure.axes[0]).values()
     assert names(figure.legends[0]) == {"Hertz, 0 s"}
     hertz = hertz_contact(result.system)
@@ -129,7 +121,8 @@ def test_the_map_marks_the_ellipse_of_hertz(result):
 
 def test_worn_bodies_touch_but_do_not_overlap(result):
     along, across = (
-        axes.lines[0].get_ydata() - axes.lines[1].get_ydata() for axes in worn_section(result).axes
+        axes.lines[0].get_ydata() - axes.lines[1].get_ydata()
+        for axes in worn_section(result).figure().axes
     )
     assert min(along.min(), across.min()) > -1e-9
     # They come together within the scar, to less than the ball's sag over a cell.
@@ -139,61 +132,57 @@ def test_worn_bodies_touch_but_do_not_overlap(result):
 
 def test_the_swept_body_lies_below_and_depths_of_scars_are_stated():
     result = made(swept=(True, False))
-    along, across = worn_section(result).axes
-    assert [text.get_text() for text in along.texts] == ["disk", "ball"]
-    for name, text in zip(("disk", "ball"), across.texts, strict=True):
+    along, _ = worn_section(result).figure().axes
+    for name, text in zip(("disk", "ball"), along.texts, strict=True):
         value, unit = text.get_text().removeprefix(f"{name}: ").removesuffix(" deep").split()
         expected = result.body(name).wear_depth[-1].max() * {"µm": 1e6, "nm": 1e9}[unit]
         assert float(value) == pytest.approx(expected, rel=1e-2)
 
 
-def test_volume_and_mass_are_the_histories(result):
-    figure = wear_history(result)
-    axes = figure.axes[0]
-    history = result.table("history")
-    shown = curves(axes)
-    assert set(shown) == {"ball", "disk"} == names(figure.legends[0])
-    np.testing.assert_allclose(shown["ball"][0], history["time_s"])
-    line = axes.lines[0]
+def test_volume_and_mass_are_the_histories_over_time_and_distance(result):
+    volume, mass = history(result, "wear").figure().axes
+    table = result.table("history")
+    shown = curves(volume)
+    np.testing.assert_allclose(shown["ball"][0], table["time_s"])
+    line = volume.lines[0]
     np.testing.assert_allclose(line.get_xdata()[line.get_markevery()], TIMES)
-    np.testing.assert_allclose(shown["ball"][1], 1e9 * history["bodies.ball.wear_volume_m3"])
+    assert volume.get_ylabel() == "Volume worn (mm³)"
+    for name in ("ball", "disk"):
+        worn = 1e9 * table[f"bodies.{name}.wear_volume_m3"]
+        np.testing.assert_allclose(shown[name][1], worn)
+        np.testing.assert_allclose(curves(mass)[name][1], 7.85 * worn)
+    # 0.1 m/s.
+    (above,) = (axes for axes in volume.child_axes if axes.get_xlabel() == "Distance (m)")
+    volume.figure.draw_without_rendering()
+    np.testing.assert_allclose(above.get_xlim(), 0.1 * np.array(volume.get_xlim()))
 
 
 def test_two_moments_are_not_joined():
     for times, style in (((0.0,), "None"), ((0.0, 200.0), "-")):
-        lines = wear_history(made(times)).axes[0].lines
-        assert lines[0].get_linestyle() == style
-        assert not any(line.get_clip_on() for line in lines)
+        if "wear" in history_names(result := made(times)):
+            lines = history(result, "wear").figure().axes[0].lines
+            assert lines[0].get_linestyle() == style
+            assert not any(line.get_clip_on() for line in lines)
 
 
-@pytest.mark.parametrize(
-    ("densities", "masses"),
-    [
-        ((7850.0, 7850.0), {"ball": 7.85, "disk": 7.85}),
-        ((7850.0, 3200.0), {"ball": 7.85, "disk": 3.2}),
-        ((7850.0, None), {"ball": 7.85}),
-        ((None, None), {}),
-    ],
-)
-def test_mass_has_a_panel_of_its_own(densities, masses):
-    volume, *mass = wear_history(made(densities=densities)).axes
-    assert len(mass) == bool(masses)
-    for axes in mass:
-        assert axes.get_ylabel() == "Mass worn (mg)"
-        assert set(curves(axes)) == set(masses)
-        for name, (_, y) in curves(axes).items():
-            np.testing.assert_allclose(y, masses[name] * curves(volume)[name][1])
+def test_only_a_body_with_a_density_has_a_mass():
+    assert len(history(made(densities=(None, None)), "wear").rows) == 1
+    _, mass = history(made(densities=(7850.0, None)), "wear").figure().axes
+    assert set(curves(mass)) == {"ball"}
 
 
-def test_contact_history_is_the_history(result):
-    upper, lower = contact_history(result).axes
-    history = result.table("history")
-    pressures, widths = curves(upper), curves(lower)
-    np.testing.assert_allclose(pressures["largest"][1], 1e-6 * history["max_pressure_Pa"])
-    np.testing.assert_allclose(pressures["centre"][1], 1e-6 * history["centre_pressure_Pa"])
-    for axis, label in zip("xy", ("along sliding", "across sliding"), strict=True):
-        np.testing.assert_allclose(
-            widths[label], (history["time_s"], 1e6 * history[f"contact_half_width_{axis}_m"])
-        )
-    assert lower.get_title(loc="right") == "± 1 cell, 40 µm"
-    assert all(axes.get_legend() for axes in (upper, lower))
+def test_the_history_of_the_contact_is_that_of_the_table_with_a_cell_on_either_side(result):
+    pressure, width, area = history(result, "contact").figure().axes
+    table = result.to_dataframe()
+    last = {name: y[-1] for axes in (pressure, width) for name, (_, y) in curves(axes).items()}
+    assert last["largest"] == pytest.approx(table["p max (MPa)"].iloc[-1])
+    assert last["centre"] == pytest.approx(table["p centre (MPa)"].iloc[-1])
+    assert width.get_ylabel() == "Contact width (mm)"
+    for way, band in zip(("along", "across"), width.collections, strict=True):
+        drawn, cell = last[f"{way} sliding"], 1e3 * GRID.spacing[way == "across"]
+        assert drawn == pytest.approx(1e-3 * table[f"width {way} (µm)"].iloc[-1])
+        (outline,) = band.get_paths()
+        end = outline.vertices[outline.vertices[:, 0] == TIMES[-1], 1]
+        assert (end.min(), end.max()) == pytest.approx((drawn - cell, drawn + cell))
+    (line,) = area.lines
+    assert line.get_ydata()[-1] == pytest.approx(table["area (mm²)"].iloc[-1])

@@ -5,7 +5,7 @@ import pytest
 from made_results import made
 
 from tribo.lab.running_in import reliefs
-from tribo.plotting.history import real_contact, roughness_history
+from tribo.plotting.history import history
 from tribo.plotting.relief import height_map, material_ratio_curves
 
 
@@ -15,7 +15,7 @@ def rough():
 
 
 def test_height_maps_are_of_the_scar_before_and_after_in_one_scale(rough):
-    maps = height_map(rough, "ball").axes
+    maps = height_map(rough, "ball").figure().axes
     scar, unworn, _ = reliefs(rough, rough.body("ball"), -1)
     assert [axes.get_title(loc="left") for axes in maps] == ["ball, unworn", "ball, t = 3600 s"]
     for axes, relief in zip(maps, (unworn, scar), strict=True):
@@ -27,7 +27,7 @@ def test_height_maps_are_of_the_scar_before_and_after_in_one_scale(rough):
 
 
 def test_material_ratio_curves_fall_through_all_heights(rough):
-    (axes,) = material_ratio_curves(rough, "ball").axes
+    (axes,) = material_ratio_curves(rough, "ball").figure().axes
     assert [line.get_label() for line in axes.lines] == ["scar, 3600 s", "unworn", "beside"]
     for line, relief in zip(axes.lines, reliefs(rough, rough.body("ball"), -1), strict=True):
         ratio, height = line.get_xydata().T
@@ -38,20 +38,18 @@ def test_material_ratio_curves_fall_through_all_heights(rough):
         assert 0 < ratio[0] < 1 < 99 < ratio[-1] < 100
 
 
-def test_the_real_contact_is_drawn_with_its_part_at_the_hardness():
+def test_the_contact_area_is_drawn_with_its_part_at_the_hardness():
     result = made(relief=2e-7, cap=4e8)
-    (axes,) = real_contact(result).axes
-    history = result.table("history")
+    *_, axes = history(result, "contact").figure().axes
+    table = result.table("history")
     for line, column in zip(axes.lines, ("contact_area_m2", "plastic_area_m2"), strict=True):
-        np.testing.assert_allclose(line.get_ydata(), 1e6 * history[column])
-    (line,) = real_contact(made()).axes[0].lines
-    assert line.get_label() == "all"
+        np.testing.assert_allclose(line.get_ydata(), 1e6 * table[column])
+    assert axes.get_ylabel() == "Contact area (mm²)"
 
 
 def test_the_roughness_in_the_contact_is_drawn_of_rough_bodies_alone(rough):
-    (axes,) = roughness_history(rough).axes
+    (axes,) = history(rough, "roughness").figure().axes
     (line,) = axes.lines
     assert line.get_label() == "ball"
-    history = rough.table("history")
-    np.testing.assert_allclose(line.get_ydata(), 1e9 * history["bodies.ball.Sq_m"])
-    assert "bodies.disk.Sq_m" not in history
+    table = rough.table("history")
+    np.testing.assert_allclose(line.get_ydata(), 1e9 * table["bodies.ball.Sq_m"])

@@ -2,24 +2,22 @@
 
 import numpy as np
 import pytest
-from made_results import SHAPES, made
+from made_results import SHAPES, half_width, made
 
-from tribo.plotting import (
-    body_profiles,
-    contact_history,
-    pressure_map,
-    pressure_sections,
-    scar_map,
-    worn_section,
-)
+from tribo.core.grid import Grid
+from tribo.plotting.history import history
+from tribo.plotting.picture import NothingToDraw
+from tribo.plotting.pressure import pressure_map, pressure_sections
+from tribo.plotting.profiles import body_profiles, scar_map, worn_section
+from tribo.result.export import profile
 
 
-@pytest.fixture(scope="module", params=["line contact", "rough", "long window", "1:1000"])
+@pytest.fixture(scope="module", params=["rough", "long window", "1:1000"])
 def case(request):
     return made(**SHAPES[request.param])
 
 
-def half_width(result, axis, save=-1):
+def edge_of_contact(result, axis, save=-1):
     """Largest distance of a cell's edge in contact from the centre, in mm."""
     pressure = result.field("pressure", save % len(result.times))
     index = np.flatnonzero((pressure > 0).any(axis=1 - axis))
@@ -35,7 +33,7 @@ def shown_mm(axis):
 
 @pytest.mark.parametrize("draw", [pressure_map, worn_section, pressure_sections])
 def test_a_picture_shows_the_contact_and_little_else(case, draw):
-    figure = draw(case)
+    figure = draw(case).figure()
     figure.draw_without_rendering()
     is_map = draw is pressure_map
     # A map has both axes, and of sections the last two panels go along and across.
@@ -44,14 +42,14 @@ def test_a_picture_shows_the_contact_and_little_else(case, draw):
         shown = [axes.xaxis for axes in figure.axes[-2:]]
     saves = [-1] if is_map else range(len(case.times))
     for number, axis in enumerate(shown):
-        reach = max(half_width(case, number, save) for save in saves)
+        reach = max(edge_of_contact(case, number, save) for save in saves)
         # The outermost cells' centres end a section.
         missing = 0.01 * reach if is_map else case.grid.spacing[number] * 1e3
         assert reach - missing <= shown_mm(axis) <= 1.5 * reach
 
 
 def test_the_scales_of_a_map_are_equal_or_the_axis_says_how_unequal(case):
-    (axes,) = pressure_map(case).axes
+    (axes,) = pressure_map(case).figure().axes
     axes.figure.draw_without_rendering()
     box = axes.get_window_extent()
     x, y = box.width / shown_mm(axes.xaxis), box.height / shown_mm(axes.yaxis)
@@ -65,21 +63,21 @@ def test_the_scales_of_a_map_are_equal_or_the_axis_says_how_unequal(case):
 
 @pytest.mark.parametrize("worn", [(True, True), (True, False), (False, True)])
 def test_the_unworn_profile_of_each_worn_body_is_drawn_in_sight(worn):
-    figure = worn_section(made(worn=worn))
+    figure = worn_section(made(worn=worn)).figure()
     named = {text.get_text() for text in figure.legends[0].get_texts()}
     bodies = zip(("ball", "disk"), worn, strict=True)
     assert named == {"worn"} | {f"{name} unworn" for name, wears in bodies if wears}
     for axes in figure.axes:
-        (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+        low, high = axes.get_ylim()
         for line in axes.lines:
             x, z = line.get_data()
-            z = z[(x >= left) & (x <= right)]
+            z = z[np.abs(x) < 1e3 * half_width(3600.0)]
             assert np.all((z > low) & (z < high))
 
 
 def test_a_layer_that_wear_comes_near_ends_at_its_depth_in_both_sections():
     result = made(layers=[{"thickness": 1e-5}, {"thickness": 1e-3}])
-    figure = worn_section(result)
+    figure = worn_section(result).figure()
     named = {text.get_text() for text in figure.legends[0].get_texts()}
     # The second ends far below the scar; the ball is the upper body.
     assert named == {"worn", "ball unworn", "ball: end of layer 1", "disk unworn"}
@@ -88,8 +86,46 @@ def test_a_layer_that_wear_comes_near_ends_at_its_depth_in_both_sections():
         np.testing.assert_allclose(end - unworn, 10.0, rtol=1e-9)
 
 
+def test_what_varies_along_one_axis_only_is_drawn_along_it():
+    result = made(**SHAPES["line contact"])
+    for drawn, factor, field in (
+        (pressure_map(result), 1e-6, result.field("pressure", -1)),
+        (scar_map(result, "ball"), 1e6, result.body("ball").wear_depth[-1]),
+    ):
+        (axes,) = drawn.figure().axes
+        (line,) = axes.lines
+        np.testing.assert_allclose(line.get_ydata()[1:-1], factor * profile(field, 0))
+        assert axes.get_xlabel() == "Along sliding, x (mm)"
+    for draw in (pressure_sections(result), body_profiles(result, "ball"), worn_section(result)):
+        assert {len(row) for row in draw.rows} == {1}
+
+
+@pytest.mark.parametrize("draw", [pressure_map, pressure_sections])
+def test_what_is_uniform_is_a_sentence_with_its_value(draw):
+    result = made(**SHAPES["flat pin"])
+    largest = 1e-6 * result.saves()[-1]["max_pressure_Pa"]
+    with pytest.raises(NothingToDraw, match=f"uniform, {largest:.4g} MPa"):
+        draw(result)
+
+
+def test_the_end_peaks_of_a_line_that_ends_at_the_window_are_seen_to_end_there():
+    grid = Grid((2e-3, 1.6e-3), (50, 40), ends_at_window=True)
+    result = made((0.0,), **SHAPES["line contact"], grid=grid)
+    peaks = np.array(result.field("pressure", 0))
+    peaks[:, [0, -1]] *= 1.5
+    result.field = lambda name, save, body=None: peaks
+    *_, across = pressure_sections(result).figure().axes
+    x, p = across.lines[0].get_data()
+    assert (x[0], x[-1]) == pytest.approx((-0.8, 0.8))
+    low, high = across.get_xlim()
+    assert low < x[0]
+    assert x[-1] < high
+    assert p.max() == pytest.approx(1e-6 * profile(peaks, 1).max())
+    assert across.get_ylim()[1] > p.max()
+
+
 def test_a_picometre_is_not_a_thousandth_of_a_nanometre():
-    (axes,) = body_profiles(made((0.0, 1e-2)), "disk").axes
+    (axes,) = body_profiles(made((0.0, 1e-2)), "disk").figure().axes
     axes.figure.draw_without_rendering()
     assert axes.get_ylabel() == "Height (pm)"
     assert not axes.yaxis.get_offset_text().get_text()
@@ -97,24 +133,24 @@ def test_a_picometre_is_not_a_thousandth_of_a_nanometre():
 
 def test_half_widths_of_a_long_contact_both_show():
     result = made(**SHAPES["1:1000"])
-    _, lower = contact_history(result).axes
+    _, lower, _ = history(result, "contact").figure().axes
     for line in lower.lines:
         y = lower.transAxes.inverted().transform(lower.transData.transform(line.get_xydata()))[:, 1]
         assert np.all((y > 0.02) & (y < 0.98))
 
 
 def test_a_scar_from_above_is_what_is_gone_whatever_its_shape(case):
-    figure = scar_map(case, "ball")
+    figure = scar_map(case, "ball").figure()
     figure.draw_without_rendering()
     (image,) = figure.axes[0].images
     deepest = 1e6 * np.max(case.body("ball").wear_depth[-1])
-    assert figure.axes[0].child_axes[0].get_ylabel() == "Depth (µm)"
+    assert figure.axes[0].child_axes[0].get_ylabel().startswith("Depth (µm)\n")
     assert np.max(image.get_array()) == pytest.approx(deepest, rel=1e-12)
     assert image.get_array().shape == case.grid.cells[::-1]
 
 
 def test_profiles_along_and_across_have_one_scale_of_heights(case):
-    along, across = body_profiles(case, "ball").axes
+    along, across = body_profiles(case, "ball").figure().axes
     assert along.get_ylim() == across.get_ylim()
     assert along.get_xlabel().startswith("Along sliding")
     assert across.get_xlabel().startswith("Across sliding")

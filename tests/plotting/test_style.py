@@ -1,13 +1,11 @@
 """Pictures must read in grey, and leave no trace in the user's session."""
 
 from itertools import pairwise
-from pathlib import Path
 
 import matplotlib
 import numpy as np
 import pytest
 
-from tribo import plotting
 from tribo.plotting.history import BODIES, LARGEST
 from tribo.plotting.profiles import UNWORN, WORN
 from tribo.plotting.style import OVER, PRESSURES, house_style, legend_below, new_figure, save_looks
@@ -75,9 +73,3 @@ def test_a_legend_reads_row_by_row_and_names_the_ends_of_many():
     assert few == ["0", "2", "1", "3"]
     assert len(many) == 12
     assert {"0", "39", "mark"} <= set(many)
-
-
-def test_drawing_needs_no_pyplot():
-    assert not any(
-        "pyplot" in path.read_text() for path in Path(plotting.__file__).parent.glob("*.py")
-    )

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribo.plotting.units import fitting, height_unit, size, time_labels, time_unit
+from tribo.lab.units import fitting, height_unit, shown_in, size, time_labels, time_unit
 
 
 @pytest.mark.parametrize(
@@ -38,3 +38,11 @@ def test_values_and_units_go_together():
     assert [fitting("m", v) for v in (2e-4, 9e-5, 9e-8, 0.0)] == ["mm", "µm", "nm", "mm"]
     assert [height_unit(v) for v in (1.4e-4, 8e-6, 8e-9, 0.0)] == ["µm", "µm", "nm", "µm"]
     assert [fitting("Pa", v) for v in (2e9, 2e5, 2e4, 2.0)] == ["MPa", "MPa", "kPa", "Pa"]
+
+
+def test_a_small_volume_and_a_wear_rate_have_their_power_of_ten_in_the_unit():
+    for si, unit in (("m^3", "mm³"), ("1/Pa", "mm³/(N·m)")):
+        words, factor = shown_in(si, np.array([1.8e-14, 3e-15]))
+        assert words == f"10⁻⁵ {unit}"
+        assert factor == pytest.approx(1e-14, rel=1e-9, abs=0)
+        assert shown_in(si, np.array([2e-11]))[0] == unit

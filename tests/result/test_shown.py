@@ -1,5 +1,7 @@
 """What a result shows of itself."""
 
+import re
+
 import made_results
 import pytest
 
@@ -20,7 +22,10 @@ def test_a_notebook_shows_the_lab_table_and_a_picture(monkeypatch):
     shown = made_results.made()._repr_html_()
     assert "\x1b" not in shown
     assert "specific wear rate" in shown
-    assert '<img src="data:image/png;base64,' in shown
+    assert 'src="data:image/png;base64,' in shown
+    heights = [int(px) for px in re.findall(r"height:(\d+)px", shown)]
+    assert len(heights) == 2
+    assert sum(heights) < 600
 
 
 def test_a_misspelt_variable_is_not_called_damage():

@@ -296,7 +296,7 @@ def test_worn_bodies_are_not_held_against_hertz(run_in):
     with Simulation(model).run() as result:
         assert "the bodies were worn already" in result.report().first_contact_words
         assert result.report().first_contact.hertz_peak_pressure_Pa is None
-        assert len(pressure_map(result).legends) == 0
+        assert len(pressure_map(result).figure().legends) == 0
         console = Console(file=StringIO(), width=80)
         print_report(result, console)
         assert "Wear after 0.1 m, what it began with included" in console.file.getvalue()

@@ -54,7 +54,6 @@ def demo(directory: Path, force: bool) -> None:
     from tribo.observers.progress import Progress
     from tribo.plotting.figures import save_figures, write_figures
     from tribo.plotting.overlays import save_overlays
-    from tribo.plotting.profiles import along_track
     from tribo.simulation.run import Simulation
     from tribo.study.comparison import Comparison
     from tribo.study.side_by_side import comparison_table
@@ -78,7 +77,7 @@ def demo(directory: Path, force: bool) -> None:
             comparison = Comparison({"average": average, "resolved": cycle})
             end = comparison.times[-1:]
             Console().table(comparison_table(comparison, end))
-            along = {"disk_along_track": partial(along_track, cycle, "disk")}
+            along = {"disk_resolved": partial(cycle.picture, "disk_profiles")}
             pictures += write_figures(along, directory)
             pictures += save_overlays(comparison.results, end, directory)
     click.echo(f"Case, results and {len(pictures)} pictures are in {directory}/:")

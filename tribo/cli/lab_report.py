@@ -11,9 +11,9 @@ from rich.text import Text
 
 from tribo.cli.console import Console
 from tribo.core.data_table import DataTable
+from tribo.lab.kept import fields_table
 from tribo.lab.report import LabReport, lab_report, lab_sentences, run_sentences
 from tribo.lab.tables import lab_tables
-from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
 
 
@@ -38,12 +38,8 @@ def print_report(result: Result, console: Console | None = None, *, but: str = "
 def report_blocks(result: Result, lab: LabReport) -> Iterator[DataTable | str]:
     """Yield the tables and then the sentences of a lab report, but for findings."""
     yield from lab_tables(result, lab)
-    if any(map(result.fields_of, (BETWEEN, EFFECT, STATE))):
-        # Slow to import, and needed for such results only.
-        from tribo.plotting.kept import fields_table
-
-        if (fields := fields_table(result)) is not None:
-            yield fields
+    if (fields := fields_table(result)) is not None:
+        yield fields
     yield from lab_sentences(result, lab)
     yield from run_sentences(result)
 

@@ -6,22 +6,34 @@ from base64 import b64encode
 from html import escape
 from io import BytesIO
 
-from tribo.cli.lab_report import report_blocks, status_words
-from tribo.core.data_table import DataTable
+from tribo.cli.lab_report import status_words
 from tribo.lab.report import lab_report
-from tribo.plotting.pressure import pressure_sections
+from tribo.lab.tables import saves_table, wear_table
+from tribo.plotting.figures import result_picture
+from tribo.plotting.picture import NothingToDraw
 from tribo.result.read import Result
+
+TALLEST = 260
+"""Height of the picture and most height of the tables, in px; both fit below 600."""
 
 
 def html(result: Result) -> str:
-    """Return the lab report of a result and a picture of its pressure, as HTML."""
+    """Return the saves, the wear and a picture of the pressure, as HTML.
+
+    The picture has a white ground, so that it reads on a dark page; the tables have the page's
+    colours.
+    """
     lab = lab_report(result)
-    notes = [status_words(result), *(f"Note: {finding}" for finding in lab.findings)]
-    shown = "".join(
-        block._repr_html_() if isinstance(block, DataTable) else f"<p>{escape(block)}</p>"
-        for block in [*report_blocks(result, lab), *filter(None, notes)]
-    )
-    picture = BytesIO()
-    pressure_sections(result).savefig(picture, format="png")
-    data = b64encode(picture.getvalue()).decode()
-    return f'{shown}<img src="data:image/png;base64,{data}">'
+    tables = saves_table(result), wear_table(result, lab.bodies)
+    shown = "".join(table._repr_html_() for table in tables)
+    notes = "".join(f"<p>{escape(note)}</p>" for note in filter(None, [status_words(result)]))
+    try:
+        picture = BytesIO()
+        result_picture(result, "pressure_sections").savefig(
+            picture, format="png", facecolor="white"
+        )
+        data = b64encode(picture.getvalue()).decode()
+        notes += f'<img style="height:{TALLEST}px" src="data:image/png;base64,{data}">'
+    except NothingToDraw as uniform:
+        notes += f"<p>{escape(str(uniform))}</p>"
+    return f'<div style="max-height:{TALLEST}px;overflow:auto">{shown}</div>{notes}'

@@ -18,21 +18,30 @@ from tribo.cli.options import PATH, RESULT
 @click.option(
     "--column", "columns", multiple=True, help="Draw this column of the history alone; repeatable."
 )
+@click.option("--only", "names", multiple=True, help="Write this picture alone; repeatable.")
+@click.option("--animate", is_flag=True, help="Write animation.gif: pressure, depths.")
 @click.option("--against", default="distance_m", show_default=True, help="Over this column.")
 def plot(
-    output: Path, directory: Path | None, suffix: str, columns: tuple[str, ...], against: str
+    output: Path,
+    directory: Path | None,
+    suffix: str,
+    columns: tuple[str, ...],
+    names: tuple[str, ...],
+    animate: bool,
+    against: str,
 ) -> None:
     """Draw the pictures of the result OUTPUT.
 
     \b
     Example:
       tribo plot my.h5 -d pictures --format pdf
+      tribo plot my.h5 --only pressure_map --only ball_scar
       tribo plot my.h5 --column max_pressure_Pa --column bodies.ball.wear_volume_m3
     """
     from functools import partial
 
     from tribo.plotting.curves import history_curves
-    from tribo.plotting.figures import save_figures, write_figures
+    from tribo.plotting.figures import result_picture, save_figures, write_figures
     from tribo.result.read import Result
 
     folder = directory or output.with_name(output.stem + "-plots")
@@ -40,7 +49,14 @@ def plot(
         if columns:
             drawn = {"history": partial(history_curves, result, columns, against)}
             paths = write_figures(drawn, folder, suffix)
+        elif animate:
+            from tribo.cli.animation import save_animation
+
+            paths = [save_animation(result, folder / "animation.gif")]
+        elif names:
+            chosen = {name: partial(result_picture, result, name) for name in names}
+            paths = write_figures(chosen, folder, suffix)
         else:
-            paths = save_figures(result, folder, suffix)
+            paths = save_figures(result, folder, suffix, click.echo)
     for path in paths:
         click.echo(f"Wrote {path}")

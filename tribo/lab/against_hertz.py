@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 
+import numpy as np
+
 from tribo.closed_forms import hertz
+from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.words import readable
@@ -42,6 +45,17 @@ class HertzContact:
     def is_line(self) -> bool:
         """Whether it is the contact of a cylinder."""
         return inf in (self.half_width_x, self.half_width_y)
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Its half-widths along x and y, in m; 0 along a cylinder."""
+        x, y = (0.0 if a == inf else a for a in (self.half_width_x, self.half_width_y))
+        return x, y
+
+    def pressure(self, axis: int, position: Array) -> Array:
+        """Return the pressure through the centre along an axis, in Pa, at positions in m."""
+        inside = 1 - (position / (self.half_width_x, self.half_width_y)[axis]) ** 2
+        return self.peak_pressure * np.sqrt(np.maximum(inside, 0.0))
 
 
 def hertz_contact(system: ContactSystem) -> HertzContact | None:

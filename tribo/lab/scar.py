@@ -8,9 +8,10 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.core.measures import vertex
+from tribo.result.read import Result
 
 VISIBLE = 1e-4
 """Depth, relative to the largest, from which on a cell is worn."""
@@ -81,6 +82,29 @@ def diameter(depth: Array, axis: int, spacing: float) -> float:
     """
     ends = _ends(np.max(depth, axis=1 - axis))
     return 0.0 if ends is None else (ends[1] - ends[0]) * spacing
+
+
+def removed(result: Result, name: str) -> Array:
+    """Return how far a body's surface lies below its first at each save, in m."""
+    body = result.body(name)
+    return np.asarray(body.wear_depth + body.plastic_depth)
+
+
+def layer_ends(result: Result, name: str, deepest: float) -> dict[str, float]:
+    """Return the depths at which layers of a body end, in m, down to twice the deepest."""
+    layers = result.case_tables["bodies"][name].get("layers") or ()
+    ends = np.cumsum([float(layer["thickness"]) for layer in layers])
+    return {
+        f"{name}: end of layer {number}": float(end)
+        for number, end in enumerate(ends, start=1)
+        if end <= 2 * deepest
+    }
+
+
+def scar_mask(depth: Array) -> Mask:
+    """Return where more than a thousandth of the largest depth is gone."""
+    deepest = float(np.max(depth, initial=0.0))
+    return np.asarray(depth > 1e-3 * deepest)
 
 
 def crown(height: Array, depth: Array) -> float:

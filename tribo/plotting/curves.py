@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
@@ -14,51 +14,22 @@ from matplotlib.lines import Line2D
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, suggestion
-from tribo.plotting.style import (
-    house_style,
-    legend_below,
-    new_figure,
-    save_looks,
-)
-from tribo.plotting.units import shown_in
+from tribo.lab.units import column_label
+from tribo.plotting.picture import Picture
+from tribo.plotting.style import SINGLE_COLUMN, WIDE, save_looks
 from tribo.result.read import Result
 
-UNITS = (
-    ("_1_Pa", "1/Pa"),
-    ("_m_s", "m/s"),
-    ("_J_m2", "J/m^2"),
-    ("_m3", "m^3"),
-    ("_m2", "m^2"),
-    ("_J", "J"),
-    ("_N_m", "N m"),
-    ("_N", "N"),
-    ("_s", "s"),
-    ("_Pa", "Pa"),
-    ("_m", "m"),
-)
-"""Ends of names of columns, and their unit; the longer first, as the inverse of a pressure."""
-MOST_CURVES = 6
-"""In a picture of a sweep."""
 MARKS = "osD^vp"
 """Of its curves; the first is full, and seen inside another that coincides."""
 
 
 def history_curves(result: Result, columns: Sequence[str], against: str = "distance_m") -> Figure:
-    """Draw columns of the history against another, a panel for each.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-    columns : sequence of str
-        Names as in ``result.table("history")``: ``"max_pressure_Pa"``.
-    against : str, optional
-        The column along the horizontal axis: ``"distance_m"``, ``"time_s"`` or any other.
+    """Draw columns of ``result.table("history")`` against another, a panel for each.
 
     Raises
     ------
     CaseError
-        If there is no such column, or no save.
+        If there is no such column.
     """
     history = result.table("history")
     for name in (*columns, against):
@@ -66,94 +37,65 @@ def history_curves(result: Result, columns: Sequence[str], against: str = "dista
             known = ", ".join(history)
             meant = suggestion(did_you_mean(name, history))
             raise CaseError(f"the history has no column {name!r}{meant} It has {known}")
-    with house_style():
-        figure = new_figure(15.0 + 36.0 * len(columns))
-        panels = figure.subplots(len(columns), 1, sharex=True, squeeze=False)[:, 0]
-        for axes, name in zip(panels, columns, strict=True):
-            _draw(axes, history[against], history[name], against, name)
-            axes.label_outer()
-    return figure
 
+    def panel(name: str, axes: Axes) -> list[Line2D]:
+        _draw(axes, history[against], history[name], against, name)
+        return []
 
-def sweep_pictures(
-    runs: pd.DataFrame, varied: Sequence[str], measures: Sequence[str]
-) -> dict[str, Callable[[], Figure]]:
-    """Return how to draw each measure over the number that varies most; none if no number does."""
-    done = runs[runs["status"] == "done"]
-    numbers = [name for name in varied if pd.api.types.is_numeric_dtype(done[name])]
-    x = max(numbers, key=lambda name: done[name].nunique(), default="")
-    if not x or done[x].nunique() < 2:
-        return {}
-    by, joined = curves_by(done, [name for name in varied if name != x])
-    return {name: partial(sweep_curves, done, x, name, by, joined) for name in measures}
-
-
-def curves_by(done: pd.DataFrame, others: Sequence[str]) -> tuple[list[str], bool]:
-    """Return the columns that part runs into curves, and whether a line joins those of a curve.
-
-    Where other quantities vary along, as in a random sample, none does; only text tells the runs
-    apart then.
-    """
-    others = [name for name in others if done[name].nunique() > 1]
-    texts = [name for name in others if not pd.api.types.is_numeric_dtype(done[name])]
-    for names, joined in ((others, True), (texts, False)):
-        count = done.groupby(names).ngroups if names else 1
-        if count <= MOST_CURVES and len(done) >= (2 * count if joined else 1):
-            return names, joined
-    return [], False
+    return Picture([[partial(panel, name)] for name in columns], 50.0).figure()
 
 
 def sweep_curves(
-    runs: pd.DataFrame, x: str, y: str, by: Sequence[str] = (), joined: bool = True
+    runs: pd.DataFrame,
+    x: str | Sequence[str],
+    y: str,
+    by: Sequence[str] = (),
+    joined: bool = True,
 ) -> Figure:
-    """Draw a measure of a sweep's runs over a quantity that varies.
+    """Draw a measure `y` of a sweep's runs over what varies, a panel for each column in `x`.
 
-    Parameters
-    ----------
-    runs : DataFrame
-        A row for each run, as ``runs.csv`` has them.
-    x, y : str
-        Its columns along both axes.
-    by : sequence of str, optional
-        Columns that part the runs into curves, one for each combination of their values.
-    joined : bool, optional
-        Whether a line joins the runs of a curve.
+    `runs` has a row for each run, as ``runs.csv``; columns `by` part the runs into curves, one for
+    each combination of their values, and a line joins those of a curve if they are `joined`.
 
     Raises
     ------
     CaseError
         If there is no such column, or no run is done.
     """
-    for name in (x, y, *by):
+    across = [x] if isinstance(x, str) else list(x)
+    for name in (*across, y, *by):
         if name not in runs:
             meant = suggestion(did_you_mean(name, list(runs)))
             raise CaseError(f"the runs have no column {name!r}{meant}")
-    done = runs[runs["status"] == "done"].sort_values(x)
+    done = runs[runs["status"] == "done"].sort_values(across[0])
     if done.empty:
         raise CaseError("no run is done; there is nothing to draw")
     groups = list(done.groupby(list(by))) if by else [((), done)]
     numbers = done[list(by)].apply(pd.to_numeric, errors="coerce").to_numpy(float)
     named = [column_label(name, column) for name, column in zip(by, numbers.T, strict=True)]
-    with house_style():
-        figure = new_figure(55.0)
-        axes = figure.subplots()
-        every = done[x].to_numpy(float), done[y].to_numpy(float)
+    looks = save_looks(len(groups))
+
+    def panel(name: str, axes: Axes) -> list[Line2D]:
+        every = done[name].to_numpy(float), done[y].to_numpy(float)
         curves: list[Line2D] = []
-        for i, (look, (values, rows)) in enumerate(
-            zip(save_looks(len(groups)), groups, strict=True)
-        ):
+        for i, (look, (values, rows)) in enumerate(zip(looks, groups, strict=True)):
             label = ", ".join(
                 f"{value / unit:.4g}" if isinstance(value, float) else str(value)
                 for value, (_, _, unit) in zip(values, named, strict=True)
             )
-            across, up = (rows[name].to_numpy(float) for name in (x, y))
+            points = rows[name].to_numpy(float), rows[y].to_numpy(float)
             look = {**look, "marker": MARKS[i % len(MARKS)], "label": label}
             look |= {"fillstyle": "none", "markersize": 6.0} if i else {"markersize": 3.0}
             look |= {} if joined else {"linestyle": "none"}
-            curves += _draw(axes, across, up, x, y, every, **look)
-        if by:
-            legend_below(figure, curves)
-            figure.legends[0].set_title(", ".join(_axis(words, unit) for words, unit, _ in named))
+            curves += _draw(axes, *points, name, y, every, **look)
+        if len(across) > 1:
+            axes.set_xlabel(axes.get_xlabel().replace(" (", "\n(", 1))
+        return curves if by else []
+
+    width = WIDE if len(across) > 1 else SINGLE_COLUMN
+    figure = Picture([[partial(panel, name) for name in across]], 55.0, width, "y").figure()
+    for legend in figure.legends:
+        legend.set_title(", ".join(_axis(words, unit) for words, unit, _ in named))
     return figure
 
 
@@ -178,10 +120,3 @@ def _draw(
 
 def _axis(words: str, unit: str, gap: str = " ") -> str:
     return f"{words}{gap}({unit})" if unit else words
-
-
-def column_label(name: str, values: Array) -> tuple[str, str, float]:
-    """Return what is said of a column, the unit for its values, "" for none, and its size."""
-    end, si = next((each for each in UNITS if name.endswith(each[0])), ("", "1"))
-    words = name.removesuffix(end).replace("_", " ").replace(".", " ").removeprefix("bodies ")
-    return words.replace("max ", "largest "), *shown_in(si, values)

@@ -1,9 +1,11 @@
-"""Write all pictures of a result."""
+"""All pictures of a result: which there are, on axes, and in files."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from functools import partial
+import logging
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial, wraps
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -15,57 +17,138 @@ from matplotlib.figure import Figure
 from tribo.core.errors import CaseError
 from tribo.core.words import did_you_mean, suggestion
 from tribo.core.writing import make_folder, write_file
+from tribo.lab.kept import kept_fields
 from tribo.lab.running_in import reliefs, rough_bodies
-from tribo.plotting.history import (
-    contact_history,
-    fields_history,
-    friction_history,
-    real_contact,
-    roughness_history,
-    wear_history,
-)
-from tribo.plotting.kept import field_map, kept_fields, steady
+from tribo.lab.scar import removed
+from tribo.plotting.history import history, history_names
+from tribo.plotting.picture import NothingToDraw, Picture
 from tribo.plotting.pressure import pressure_map, pressure_sections
-from tribo.plotting.profiles import along_track, body_profiles, worn_section
+from tribo.plotting.profiles import body_profiles, field_map, scar_map, worn_section
 from tribo.plotting.relief import height_map, material_ratio_curves
-from tribo.plotting.scar import scar_map
-from tribo.plotting.sections import removed
 from tribo.plotting.style import house_style
 from tribo.registry.registry import from_plugins_of
 from tribo.result.read import Result
 
 # No dates, so that the same result gives the same file.
 _METADATA: dict[str, dict[str, Any]] = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}
+_LOG = logging.getLogger("tribo.plotting")
 
 
-def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path]:
-    """Write every picture that makes sense for a result.
+def _worn(result: Result) -> list[str]:
+    return [name for name in result.body_names if np.any(removed(result, name) > 0)]
 
-    Those of worn surfaces are left out where nothing is worn, those over time
-    where there is one moment only.
 
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-    folder : Path
-        Where to; it is made if need be.
-    suffix : str, optional
-        The format: png, pdf, svg or another that matplotlib writes.
+def _with_relief(result: Result) -> list[str]:
+    """Return the rough bodies with a scar of more than a few cells."""
+    rough = rough_bodies(result) if len(result.times) > 1 else []
+    return [n for n in rough if np.isfinite(reliefs(result, result.body(n), -1).scar).any()]
 
-    Returns
-    -------
-    list of Path
-        The files: ``pressure_map`` of the last save, ``pressure_map_early`` of
-        the first after the beginning, ``pressure_sections``, ``NAME_scar`` and
-        ``NAME_profiles`` of each worn body NAME, or ``NAME_groove`` of a
-        swept one and ``NAME_along_track`` where the cycle is resolved,
-        ``NAME_height_map`` and ``NAME_material_ratio`` of each rough one,
-        ``worn_section``, ``wear_history``, ``contact_history``,
-        ``friction_history`` where the friction force changes and, of rough
-        bodies, ``real_contact`` and ``roughness_history``; ``FIELD_map`` of each field that
-        effects and laws keep or provide, and ``fields_history``; besides those of the plugins
-        of the result's models.
+
+def _fields(result: Result) -> list[str]:
+    return [field.key for field in kept_fields(result) if field.varies]
+
+
+@dataclass(frozen=True)
+class PictureKind:
+    """A kind of picture: how it is drawn, its file, and what there is one of, if not the result."""
+
+    draw: Callable[..., Picture]
+    file: str
+    of: Callable[[Result], Sequence[str]] | None = None
+    what: str = "body"
+    there: Callable[[Result], object] = lambda result: True
+
+    def each(self, result: Result) -> list[tuple[str, ...]]:
+        """Return what a result has this picture of, () for the result; none if it has none."""
+        if self.of is not None:
+            return [(name,) for name in self.of(result)]
+        return [()] if self.there(result) else []
+
+
+KINDS: Mapping[str, PictureKind] = {
+    "pressure": PictureKind(pressure_map, "pressure_map"),
+    "sections": PictureKind(pressure_sections, "pressure_sections"),
+    "scar": PictureKind(scar_map, "{}_scar", _worn),
+    "profiles": PictureKind(body_profiles, "{}_profiles", _worn),
+    "height_map": PictureKind(height_map, "{}_height_map", _with_relief),
+    "material_ratio": PictureKind(material_ratio_curves, "{}_material_ratio", _with_relief),
+    "worn_section": PictureKind(worn_section, "worn_section", there=_worn),
+    "history": PictureKind(history, "{}_history", history_names, "history"),
+    "field": PictureKind(field_map, "{}_map", _fields, "field"),
+}
+"""The kinds of pictures by the names of the methods of `Plot`."""
+
+
+class Plot:
+    """The pictures of a result, on axes.
+
+    ``plot("folder")`` writes all that say something to files. ``plot.scar("ball", time=200)``
+    draws one in the style that is set in matplotlib, and returns its axes, or an array of them;
+    a notebook shows it. ``ax`` are axes to draw on, one for each panel; ``time`` is that of a
+    saved time, in s. `dir` lists the pictures of this result.
+    """
+
+    def __init__(self, result: Result) -> None:
+        self._result = result
+
+    def __call__(self, folder: str | Path, suffix: str = "png") -> list[Path]:
+        """Write every picture that says something, as ``tribo plot`` does."""
+        return save_figures(self._result, Path(folder), suffix)
+
+    def __repr__(self) -> str:
+        return f"<Plot of {self._result.name}: {', '.join(dir(self))}>"
+
+    def __dir__(self) -> list[str]:
+        return [name for name, kind in KINDS.items() if kind.each(self._result)]
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        if name not in KINDS or name not in dir(self):
+            raise AttributeError(unknown("picture", name, dir(self)))
+        return wraps(KINDS[name].draw)(partial(self._on_axes, name))
+
+    def _on_axes(
+        self, name: str, *of: str, time: float | None = None, ax: Any = None, **options: Any
+    ) -> Any:
+        """Draw a picture on axes that are given, or on a figure of pyplot."""
+        kind = KINDS[name]
+        there = [each for (each,) in kind.each(self._result)] if kind.of else []
+        if kind.of and not of and len(there) == 1:
+            of = (there[0],)
+        if kind.of and (len(of) != 1 or of[0] not in there):
+            given = ", ".join(of) or "none"
+            raise CaseError(unknown(kind.what, given, there), f"plot.{name}")
+        if time is not None:
+            if kind.draw is history:
+                raise CaseError("a history has all times; leave time out", f"plot.{name}")
+            options["saves"] = [self._result.save_at(time)]
+        picture = kind.draw(self._result, *of, **options)
+        if ax is not None:
+            return picture.draw(ax)
+        from matplotlib import pyplot
+
+        figure = pyplot.figure(layout="constrained")
+        figure.set_figheight(figure.get_figheight() * len(picture.rows))
+        return picture.fill(figure)
+
+
+def unknown(what: str, name: str, there: Sequence[str]) -> str:
+    """Return that there is none of a name, and which there are."""
+    meant = suggestion(did_you_mean(name, there))
+    return f"there is no {what} {name!r}{meant} There are {', '.join(there) or 'none'}"
+
+
+def save_figures(
+    result: Result,
+    folder: Path,
+    suffix: str = "png",
+    tell: Callable[[str], object] = _LOG.info,
+) -> list[Path]:
+    """Write every picture that says something of a result, and return the files.
+
+    They have the names of `KINDS`, and plugins add theirs. Those of worn surfaces are left out
+    where nothing is worn, those over time where there is one moment only, and those of what is
+    uniform: `tell` takes the sentence that stands for it, the log of ``tribo.plotting`` by default.
+    `suffix` is a format that matplotlib writes.
 
     Raises
     ------
@@ -74,7 +157,7 @@ def save_figures(result: Result, folder: Path, suffix: str = "png") -> list[Path
     OutputError
         If they cannot be written.
     """
-    return write_figures(result_pictures(result), folder, suffix)
+    return write_figures(result_pictures(result, tell), folder, suffix)
 
 
 def write_figures(
@@ -101,55 +184,34 @@ def picture_format(suffix: str) -> str:
 
 
 def result_picture(result: Result, name: str) -> Figure:
-    """Draw one of the pictures of `result_pictures`; `CaseError` lists them if it has none such."""
-    pictures = result_pictures(result)
-    if name not in pictures:
-        meant = suggestion(did_you_mean(name, pictures))
-        raise CaseError(f"there is no picture {name!r}{meant} There are {', '.join(pictures)}")
+    """Draw one of the pictures of `save_figures`; `CaseError` lists them if it has none such."""
+    own, others = dict(_made(result)), dict(from_plugins_of(result, "tribo_figures"))
+    if name in own:
+        return own[name]().figure()
+    if name not in others:
+        raise CaseError(unknown("picture", name, [*own, *others]))
     with house_style():
-        return pictures[name]()
+        figure: Figure = others[name]()
+    return figure
 
 
-def result_pictures(result: Result) -> dict[str, Callable[[], Figure]]:
+def result_pictures(
+    result: Result, tell: Callable[[str], object] = _LOG.info
+) -> dict[str, Callable[[], Figure]]:
     """Return how to draw each picture of a result, by file name; see `save_figures`."""
-    count = len(result.times)
-    pictures: dict[str, Callable[[], Figure]] = {"pressure_map": partial(pressure_map, result)}
-    if count > 2:
-        pictures["pressure_map_early"] = partial(pressure_map, result, 1)
-    pictures["pressure_sections"] = partial(pressure_sections, result)
-    worn = [name for name in result.body_names if np.any(removed(result, name) > 0)]
-    for name in worn:
-        pictures[f"{name}_scar"] = partial(scar_map, result, name)
-        if result.body(name).swept:
-            pictures[f"{name}_groove"] = partial(body_profiles, result, name)
-            if result.has("track_depth"):
-                pictures[f"{name}_along_track"] = partial(along_track, result, name)
-        else:
-            pictures[f"{name}_profiles"] = partial(body_profiles, result, name)
-    rough = rough_bodies(result)
-    for name in rough if count > 1 else ():
-        # A scar of a few cells has no relief.
-        if np.isfinite(reliefs(result, result.body(name), -1).scar).any():
-            pictures[f"{name}_height_map"] = partial(height_map, result, name)
-            pictures[f"{name}_material_ratio"] = partial(material_ratio_curves, result, name)
-    if worn:
-        pictures["worn_section"] = partial(worn_section, result)
-    history = result.table("history")
-    if any(np.any(history[f"bodies.{name}.wear_volume_m3"] > 0) for name in result.body_names):
-        pictures["wear_history"] = partial(wear_history, result)
-    if len(history["time_s"]) > 1:
-        pictures["contact_history"] = partial(contact_history, result)
-        force = history["friction_force_N"]
-        if np.isfinite(force).all() and not steady(force):
-            pictures["friction_history"] = partial(friction_history, result)
-        if rough:
-            pictures["real_contact"] = partial(real_contact, result)
-        if any(label.endswith(".Sq_m") for label in history):
-            pictures["roughness_history"] = partial(roughness_history, result)
-    kept = kept_fields(result)
-    for field in kept:
-        if field.varies:
-            pictures[f"{field.key}_map"] = partial(field_map, result, field)
-    if kept and count > 1:
-        pictures["fields_history"] = partial(fields_history, result)
+    pictures: dict[str, Callable[[], Figure]] = {}
+    for name, make in _made(result):
+        try:
+            pictures[name] = make().figure
+        except NothingToDraw as uniform:
+            tell(f"No {name}: {uniform}")
     return pictures | dict(from_plugins_of(result, "tribo_figures"))
+
+
+def _made(result: Result) -> Iterator[tuple[str, Callable[[], Picture]]]:
+    """Yield how each picture is made, by file name."""
+    for kind in KINDS.values():
+        for of in kind.each(result):
+            yield kind.file.format(*of), partial(kind.draw, result, *of)
+        if kind.draw is pressure_map and len(result.times) > 2:
+            yield f"{kind.file}_early", partial(kind.draw, result, [1])

@@ -1,20 +1,24 @@
-"""Pictures of what changes with time: wear, pressure, the size of the contact, fields of models."""
+"""Pictures of what changes with time: wear, the contact, friction, roughness, fields of models."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 
 from tribo.core.arrays import Array
-from tribo.plotting.kept import kept_fields, steady
-from tribo.plotting.style import OVER, UNDER, Look, house_style, legend_below, new_figure, ticks
-from tribo.plotting.units import height_unit, shown_in, size, time_unit
+from tribo.core.rounding import ROUND_OFF
+from tribo.lab.kept import kept_fields, steady
+from tribo.lab.rests import with_rests
+from tribo.lab.running_in import rough_bodies
+from tribo.lab.units import shown_in, size, time_unit
+from tribo.plotting.picture import Picture
+from tribo.plotting.style import OVER, UNDER, Look, ticks
 from tribo.result.read import Result
 
 BODIES: tuple[Look, Look] = (
@@ -24,6 +28,7 @@ BODIES: tuple[Look, Look] = (
 LARGEST: Look = {**UNDER, "color": "#e69f00"}
 AT_SAVES: Look = {"linestyle": ":", "linewidth": 0.8, "clip_on": False}
 """Joins values that are known at the saves only."""
+WAYS = {"along": "x", "across": "y"}
 _DECADE = 10.0
 """Values that span more than this factor are drawn on a logarithmic scale."""
 
@@ -31,181 +36,10 @@ Curves = Mapping[str, tuple[Array, Array]]
 """Times and values, in SI units, by label."""
 
 
-def wear_history(result: Result) -> Figure:
-    """Draw the volume and the mass that each body has lost against time.
-
-    Markers are the saves; a line joins them where there are steps between, or
-    more than two. Mass has a panel of its own; it is left out without densities.
-    """
-    history, unit = result.table("history"), time_unit(result.times)
-    time = history["time_s"]
-    looks = dict(zip(result.body_names, BODIES, strict=True))
-    volumes = {name: history[f"bodies.{name}.wear_volume_m3"] for name in looks}
-    worn = [name for name in looks if np.any(volumes[name] > 0)] or list(looks)
-    densities = {name: result.body(name).density for name in worn}
-    masses = {name: volumes[name] * d for name, d in densities.items() if d is not None}
-    drawn = [("Volume worn", "mm³", {name: volumes[name] for name in worn})]
-    if masses:
-        drawn.append(("Mass worn", "mg", masses))
-    marked: dict[str, object] = {
-        "markevery": list(np.flatnonzero(np.isin(time, result.times))),
-        "markerfacecolor": "white",
-        "clip_on": False,
-    }
-    if len(time) <= 2:
-        # A line between two points would claim that nothing else happened.
-        marked["linestyle"] = "none"
-    curves: list[Line2D] = []
-    with house_style():
-        figure = new_figure(50.0 * len(drawn) + 5.0)
-        panels = figure.subplots(len(drawn), 1, sharex=True, squeeze=False)[:, 0]
-        for axes, (what, lost, values) in zip(panels, drawn, strict=True):
-            for name, value in values.items():
-                look = {**looks[name], **marked, "label": name.lstrip("_")}
-                curves += axes.plot(time / size(unit), value / size(lost), **look)
-            axes.set_ylabel(f"{what} ({lost})")
-            _from_zero(axes)
-        panels[-1].set_xlabel(f"Time ({unit})")
-        legend_below(figure, curves[: len(worn)])
-    return figure
-
-
-def contact_history(result: Result) -> Figure:
-    """Draw the largest and central pressure and both half-widths, to a cell, against time."""
-    history, spacing = with_rests(result), result.grid.spacing
-    time = history["time_s"]
-    pressures = {
-        label: (time, history[f"{name}_pressure_Pa"])
-        for label, name in (("largest", "max"), ("centre", "centre"))
-    }
-    widths = {
-        f"{label} sliding": (time, history[f"contact_half_width_{axis}_m"])
-        for axis, label in zip("xy", ("along", "across"), strict=True)
-    }
-    figure = _over_time(
-        result,
-        ("Pressure", "Pa", pressures, (LARGEST, OVER)),
-        ("Contact half-width", "m", widths),
-    )
-    unit = height_unit(max(spacing))
-    cells = dict.fromkeys(f"{cell / size(unit):.3g}" for cell in spacing)
-    figure.axes[1].set_title(f"± 1 cell, {' × '.join(cells)} {unit}", loc="right", fontsize=7.0)
-    return figure
-
-
-def with_rests(result: Result) -> dict[str, Array]:
-    """Return the history with a row more where each step of a rest begins, and where it ends.
-
-    A row has the load and the friction force of the step before it. A line from row to row would
-    creep all along a rest, a long step, to what the load is from its first moment on; only a load
-    that goes in straight lines does so.
-    """
-    history = result.table("history")
-    stages = (result.case_tables.get("load") or {}).get("normal")
-    straight = isinstance(stages, list | tuple) and any(stage.get("at") for stage in stages)
-    resting = np.diff(history["distance_m"]) == 0
-    starts = np.flatnonzero(resting | np.append(False, resting)[:-1])
-    rows = {"time_s": starts, "friction_force_N": starts + 1}
-    later = starts + (resting[starts] & (not straight))
-    return {
-        name: np.insert(column, starts + 1, column[rows.get(name, later)])
-        for name, column in history.items()
-    }
-
-
-def friction_history(result: Result) -> Figure:
-    """Draw the friction force and its work against time."""
-    history, looks = with_rests(result), [{"color": OVER["color"]}]
-    force, work = (
-        {"": (history["time_s"], history[name])}
-        for name in ("friction_force_N", "friction_energy_J")
-    )
-    return _over_time(
-        result,
-        ("Friction force", "N", force, looks, _from_zero),
-        ("Work of friction", "J", work, looks, _from_zero),
-    )
-
-
-def real_contact(result: Result) -> Figure:
-    """Draw the real contact area against time, and the part of it at the hardness."""
-    history = result.table("history")
-    areas = {"all": history["contact_area_m2"], "at the hardness": history["plastic_area_m2"]}
-    curves = {label: (history["time_s"], area) for label, area in areas.items() if np.any(area > 0)}
-    return _over_time(result, ("Real contact area", "m^2", curves, (UNDER, OVER), _from_zero))
-
-
-def roughness_history(result: Result) -> Figure:
-    """Draw the root mean square height Sq of rough bodies within the contact against time."""
-    history = result.table("history")
-    labels = {name: f"bodies.{name}.Sq_m" for name in result.body_names}
-    curves = {
-        name: (history["time_s"], history[label])
-        for name, label in labels.items()
-        if label in history
-    }
-    return _over_time(result, ("Sq in the contact", "m", curves))
-
-
-def fields_history(result: Result) -> Figure:
-    """Draw what the effects provide and what models keep against time, a panel for each.
-
-    Of a field it is the largest value and the mean in the contact, with a mark at each save.
-    """
-    looks = [
-        {**look, **AT_SAVES, "marker": mark, "markersize": size}
-        for look, mark, size in ((LARGEST, "o", 6.0), (OVER, "s", 3.0))
-    ]
-    panels = []
-    for field in kept_fields(result):
-        values = field.over_time(result).items()
-        curves = {label: (result.times, each) for label, each in values}
-        panels.append((field.name.capitalize(), field.unit, curves, looks, _around))
-    figure = _over_time(result, *panels)
-    figure.axes[0].set_title("at the saves; not known between", loc="right", fontsize=7.0)
-    return figure
-
-
-def _over_time(result: Result, *panels: tuple[Any, ...]) -> Figure:
-    """Draw panels below each other, each of what `_draw` takes of it."""
-    with house_style():
-        figure = new_figure(12.0 + 40.0 * len(panels))
-        rows = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-        for axes, panel in zip(rows, panels, strict=True):
-            _draw(axes, result, *panel)
-            axes.label_outer()
-    return figure
-
-
-def _draw(
-    axes: Axes,
-    result: Result,
-    what: str,
-    unit: str,
-    curves: Curves,
-    looks: Sequence[Look] = (UNDER, OVER),
-    scale: Callable[[Axes, Array], None] | None = None,
-) -> None:
-    """Draw curves over time, in a fitting unit where `unit` is of SI."""
-    every = np.concatenate([values for _, values in curves.values()])
-    shown, factor = shown_in(unit, every)
-    time = time_unit(result.times)
-    for (label, (x, values)), look in zip(curves.items(), looks, strict=False):
-        style = {"marker": "o" if len(x) == 1 else "none", **look}
-        axes.plot(x / size(time), values / factor, label=label, **style)
-    axes.set_ylabel(f"{what} ({shown})" if shown else what)
-    axes.set_xlabel(f"Time ({time})")
-    axes.set_xlim(left=0.0)
-    if len(curves) > 1 or next(iter(curves)):
-        axes.legend(loc="best")
-    (scale or _fit_scale)(axes, every)
-
-
-def _from_zero(axes: Axes, _: Array | None = None) -> None:
+def _from_zero(axes: Axes, _: Array) -> None:
     axes.set_ylim(bottom=0.0)
     axes.yaxis.set_major_locator(ticks(6))
     axes.ticklabel_format(axis="y", useMathText=True)
-    axes.set_xlim(left=0.0)
 
 
 def _around(axes: Axes, values: Array) -> None:
@@ -216,7 +50,7 @@ def _around(axes: Axes, values: Array) -> None:
         axes.update_datalim([(0.0, 0.0)])
         axes.autoscale_view()
     if low >= 0 and (steady(values) or low < 0.5 * np.max(values)):
-        _from_zero(axes)
+        _from_zero(axes, values)
 
 
 def _fit_scale(axes: Axes, values: Array) -> None:
@@ -224,7 +58,7 @@ def _fit_scale(axes: Axes, values: Array) -> None:
     values = values[values > 0]
     span = float(np.max(values) / np.min(values)) if values.size else 1.0
     if span <= _DECADE:
-        _from_zero(axes)
+        _from_zero(axes, values)
         return
     axes.set_yscale("log")
     axes.yaxis.set_major_locator(
@@ -232,3 +66,172 @@ def _fit_scale(axes: Axes, values: Array) -> None:
     )
     axes.yaxis.set_major_formatter(ScalarFormatter())
     axes.yaxis.set_minor_formatter(NullFormatter())
+
+
+@dataclass(frozen=True)
+class TimePanel:
+    """Curves over time; `off` by label is the half-width of a band around each, in SI units."""
+
+    what: str
+    unit: str
+    curves: Curves
+    looks: Sequence[Look] = (UNDER, OVER)
+    scale: Callable[[Axes, Array], None] = _fit_scale
+    off: Mapping[str, float] | None = None
+    title: str = ""
+
+    def draw(self, result: Result, axes: Axes, top: bool = False) -> Sequence[Artist]:
+        """Draw the curves in a fitting unit; the panel at the `top` has the distance slid."""
+        every = np.concatenate([values for _, values in self.curves.values()])
+        shown, factor = shown_in(self.unit, every)
+        time, off = time_unit(result.times), self.off or {}
+        for (label, (x, values)), look in zip(self.curves.items(), self.looks, strict=False):
+            style = {"marker": "o" if len(x) == 1 else "none", **look}
+            axes.plot(x / size(time), values / factor, label=label.lstrip("_"), **style)
+            if label in off:
+                band = (values - off[label]) / factor, (values + off[label]) / factor
+                axes.fill_between(x / size(time), *band, color=look["color"], alpha=0.2, lw=0.0)
+        axes.set_ylabel(f"{self.what} ({shown})" if shown else self.what)
+        axes.set_xlabel(f"Time ({time})")
+        axes.set_xlim(left=0.0)
+        if len(self.curves) > 1 or next(iter(self.curves)):
+            axes.legend(loc="best")
+        self.scale(axes, every)
+        if top:
+            _distance_axis(axes, result, size(time))
+        axes.set_title(self.title, loc="right", fontsize="small")
+        return ()
+
+
+def _distance_axis(axes: Axes, result: Result, unit: float) -> None:
+    """Put the distance slid above the time where the speed is constant."""
+    history = result.table("history")
+    time, distance = history["time_s"], history["distance_m"]
+    speed = distance[-1] / time[-1] if time[-1] > 0 else 0.0
+    if speed > 0 and np.allclose(distance, speed * time, rtol=0.0, atol=ROUND_OFF * distance[-1]):
+        per = speed * unit
+        above = axes.secondary_xaxis(
+            "top", functions=(partial(np.multiply, per), partial(np.multiply, 1.0 / per))
+        )
+        above.set_xlabel("Distance (m)")
+
+
+def history(result: Result, name: str) -> Picture:
+    """Draw what changes with time, a panel below another: one of `HISTORIES`."""
+    panels = HISTORIES[name](result)
+    rows = [[partial(panel.draw, result, top=panel is panels[0])] for panel in panels]
+    return Picture(rows, 40.0 + 16.0 / len(rows))
+
+
+def history_names(result: Result) -> list[str]:
+    """Return the names of the histories that say something of a result."""
+    return [name for name, panels in HISTORIES.items() if panels(result)]
+
+
+def _wear(result: Result) -> list[TimePanel]:
+    """Return the volume and the mass that each body has lost; without densities no mass.
+
+    Markers are the saves; a line joins them where there are steps between, or
+    more than two.
+    """
+    table = result.table("history")
+    time = table["time_s"]
+    looks = dict(zip(result.body_names, BODIES, strict=True))
+    lost = {name: (time, table[f"bodies.{name}.wear_volume_m3"]) for name in looks}
+    worn = {name: curve for name, curve in lost.items() if np.any(curve[1] > 0)}
+    if not worn:
+        return []
+    marks: dict[str, object] = {
+        "markevery": list(np.flatnonzero(np.isin(time, result.times))),
+        "markerfacecolor": "white",
+        "clip_on": False,
+    }
+    if len(time) <= 2:
+        # A line between two points would claim that nothing else happened.
+        marks["linestyle"] = "none"
+    densities = {name: result.body(name).density for name in worn}
+    masses = {name: (time, 1e6 * d * worn[name][1]) for name, d in densities.items() if d}
+    panels = [("Volume worn", "m^3", worn), *([("Mass worn", "mg", masses)] if masses else [])]
+    return [
+        TimePanel(*panel, [{**looks[name], **marks} for name in panel[2]], _from_zero)
+        for panel in panels
+    ]
+
+
+def _contact(result: Result) -> list[TimePanel]:
+    """Return the largest and central pressure, both widths to a cell, and the area."""
+    table = with_rests(result)
+    if len(table["time_s"]) < 2:
+        return []
+    pressures = {"largest": "max_pressure_Pa", "centre": "centre_pressure_Pa"}
+    widths = {f"{way} sliding": f"contact_half_width_{a}_m" for way, a in WAYS.items()}
+    areas = {"all": "contact_area_m2", "at the hardness": "plastic_area_m2"}
+    if not np.any(table["plastic_area_m2"] > 0):
+        areas = {"": "contact_area_m2"}
+    both = _columns(table, "Contact width", "m", widths, factor=2.0)
+    cells = dict(zip(widths, result.grid.spacing, strict=True))
+    return [
+        _columns(table, "Pressure", "Pa", pressures, (LARGEST, OVER)),
+        replace(both, off=cells, title="band: ± 1 cell"),
+        _columns(table, "Contact area", "m^2", areas, (UNDER, OVER)),
+    ]
+
+
+def _friction(result: Result) -> list[TimePanel]:
+    table, looks = with_rests(result), [{"color": OVER["color"]}]
+    force = table["friction_force_N"]
+    if len(force) < 2 or not np.isfinite(force).all() or steady(force):
+        return []
+    return [
+        _columns(table, "Friction force", "N", {"": "friction_force_N"}, looks, _from_zero),
+        _columns(table, "Work of friction", "J", {"": "friction_energy_J"}, looks, _from_zero),
+    ]
+
+
+def _roughness(result: Result) -> list[TimePanel]:
+    """Return the root mean square height Sq of rough bodies within the contact."""
+    table = result.table("history")
+    columns = {name: f"bodies.{name}.Sq_m" for name in rough_bodies(result)}
+    if len(table["time_s"]) < 2 or not columns:
+        return []
+    return [_columns(table, "Sq in the contact", "m", columns)]
+
+
+def _fields(result: Result) -> list[TimePanel]:
+    """Return the largest value of each field of the models and its mean in the contact."""
+    looks = [
+        {**look, **AT_SAVES, "marker": mark, "markersize": size}
+        for look, mark, size in ((LARGEST, "o", 6.0), (OVER, "s", 3.0))
+    ]
+    panels: list[TimePanel] = []
+    for field in kept_fields(result) if len(result.times) > 1 else ():
+        values = field.over_time(result).items()
+        curves = {label: (result.times, each) for label, each in values}
+        title = "" if panels else "at the saves; not known between"
+        name = field.name.capitalize()
+        panels.append(TimePanel(name, field.unit, curves, looks, _around, title=title))
+    return panels
+
+
+def _columns(
+    table: Mapping[str, Array],
+    what: str,
+    unit: str,
+    names: Mapping[str, str],
+    looks: Sequence[Look] = (UNDER, OVER),
+    scale: Callable[[Axes, Array], None] = _fit_scale,
+    factor: float = 1.0,
+) -> TimePanel:
+    """Return columns of the history by label."""
+    curves = {label: (table["time_s"], factor * table[name]) for label, name in names.items()}
+    return TimePanel(what, unit, curves, looks, scale)
+
+
+HISTORIES: Mapping[str, Callable[[Result], list[TimePanel]]] = {
+    "wear": _wear,
+    "contact": _contact,
+    "friction": _friction,
+    "roughness": _roughness,
+    "fields": _fields,
+}
+"""The panels of each history by its name; none where it says nothing."""

@@ -1,21 +1,21 @@
-"""What maps of the window share: size on paper, scale, labels and colour scale."""
+"""A field seen from above: its map, or its profile where it varies along one axis only."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
+import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.image import AxesImage
 from matplotlib.ticker import MaxNLocator
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
-from tribo.plotting.sections import limits
-from tribo.plotting.style import AXIS_LABELS, new_figure, ticks, times
-from tribo.plotting.units import axis_units, size
+from tribo.lab.units import axis_units, size
+from tribo.plotting.picture import NothingToDraw, Picture
+from tribo.plotting.sections import MOST_CELLS, Limits, limits, through_centre, varying
+from tribo.plotting.style import AXIS_LABELS, PRESSURES, ticks, times
 
 _AROUND = 19.0
 """Height of the title and of the labels, in mm."""
@@ -23,7 +23,7 @@ _LINE = 3.6
 """Height of a line of text, in mm."""
 _LABEL = 32.0
 """Longest label, in mm; a lower map breaks it."""
-_WIDEST, _TALLEST = 45.0, 64.0
+_WIDEST, _TALLEST = 41.0, 60.0
 """Most width and height of a map, in mm."""
 _THINNEST = 2.5
 """Length over width up to which a map is true to scale."""
@@ -31,68 +31,155 @@ _STRETCHED = 1.4
 """Length over width on paper where it is not."""
 
 
-@dataclass(frozen=True)
-class Map:
-    """Axes that show a part of the window from above."""
+class Layout(NamedTuple):
+    """What maps of a window show, and how large they are on paper."""
 
-    axes: Axes
     grid: Grid
+    windows: Sequence[Limits]
     units: Sequence[str]
-    """Along x and y."""
     size: tuple[float, float]
-    """On paper, in mm."""
+    """Of a map, in mm."""
+    labels: Sequence[str]
+
+    @classmethod
+    def of(cls, marked: Mask, grid: Grid, reach: Sequence[float] = (0.0, 0.0)) -> Layout:
+        """Return the layout of maps that is true to scale unless they would be thin.
+
+        They show all marked cells, and a distance `reach` from the centre along x
+        and y, in m.
+        """
+        windows = [limits(marked, grid, axis, reach[axis]) for axis in (0, 1)]
+        x, y = (high - low for low, high in windows)
+        units = axis_units([max(map(abs, window)) for window in windows])
+        shape = y / x
+        if not 1 / _THINNEST <= shape <= _THINNEST:
+            shape = _STRETCHED if shape > 1 else 1 / _STRETCHED
+        width = min(_WIDEST, _TALLEST / shape)
+        per_metre = width / x, width * shape / y
+        factors = [scale / min(per_metre) for scale in per_metre]
+        labels = [
+            f"{label} ({unit})" + (f"\nenlarged {times(factor)} times" if factor > 1.005 else "")
+            for label, unit, factor in zip(AXIS_LABELS, units, factors, strict=True)
+        ]
+        return cls(grid, windows, units, (width, width * shape), labels)
+
+    @property
+    def height(self) -> float:
+        """Of a map with its labels, in mm."""
+        return self.size[1] + _AROUND + _LINE * self.labels[0].count("\n")
 
     def positions(self) -> tuple[Array, Array]:
         """Return the cells' centres along x and y in the units shown."""
         return self.grid.x / size(self.units[0]), self.grid.y / size(self.units[1])
 
-    def image(self, field: Array, label: str, **look: Any) -> AxesImage:
-        """Draw a field with its colour scale; `look` goes to `Axes.imshow`."""
-        axes = self.axes
-        x, y = (0.5 * s / size(unit) for unit, s in zip(self.units, self.grid.size, strict=True))
-        shown = {"xlim": axes.get_xlim(), "ylim": axes.get_ylim()}
-        image = axes.imshow(field.T, origin="lower", extent=(-x, x, -y, y), aspect="auto", **look)
-        axes.set(**shown)
+    def prepare(self, axes: Axes) -> None:
+        """Let axes show the window."""
         width, height = self.size
-        scale = axes.inset_axes((1.0 + 2.0 / width, 0.0, 3.0 / width, 1.0))
-        axes.figure.colorbar(image, cax=scale, label=label, ticks=ticks(max(3, int(height / 8))))
-        return image
-
-
-def new_maps(
-    marked: Mask, grid: Grid, reach: Sequence[float] = (0.0, 0.0), count: int = 1
-) -> tuple[Figure, list[Map]]:
-    """Return a figure of maps without fields, true to scale unless that would be thin.
-
-    They show all marked cells, and a distance `reach` from the centre along x
-    and y, in m.
-    """
-    windows = [limits(marked, grid, axis, reach[axis]) for axis in (0, 1)]
-    x, y = (high - low for low, high in windows)
-    units = axis_units([max(map(abs, window)) for window in windows])
-    shape = y / x
-    if not 1 / _THINNEST <= shape <= _THINNEST:
-        shape = _STRETCHED if shape > 1 else 1 / _STRETCHED
-    width = min(_WIDEST, _TALLEST / shape)
-    height = width * shape
-    per_metre = width / x, height / y
-    factors = [scale / min(per_metre) for scale in per_metre]
-    labels = [
-        f"{label} ({unit})" + (f"\nenlarged {times(factor)} times" if factor > 1.005 else "")
-        for label, unit, factor in zip(AXIS_LABELS, units, factors, strict=True)
-    ]
-    row = height + _AROUND + _LINE * labels[0].count("\n")
-    figure = new_figure(count * row)
-    maps = []
-    for axes in figure.subplots(count, 1, squeeze=False)[:, 0]:
-        axes.set_box_aspect(shape)
+        axes.set_box_aspect(height / width)
         axes.spines[:].set_visible(True)
-        axes.set_xlim(*(end / size(units[0]) for end in windows[0]))
-        axes.set_ylim(*(end / size(units[1]) for end in windows[1]))
+        axes.set_xlim(*(end / size(self.units[0]) for end in self.windows[0]))
+        axes.set_ylim(*(end / size(self.units[1]) for end in self.windows[1]))
         # More steps to choose from, for there may be room for three long labels only.
         axes.xaxis.set_major_locator(MaxNLocator(max(1, int(width / 11.0))))
         axes.yaxis.set_major_locator(ticks(max(2, int(height / 7.0))))
-        axes.set_xlabel(labels[0])
-        axes.set_ylabel(labels[1] if height >= _LABEL else labels[1].replace(", ", ",\n"))
-        maps.append(Map(axes, grid, units, (width, height)))
-    return figure, maps
+        along, across = self.labels
+        axes.set_xlabel(along)
+        axes.set_ylabel(across if height >= _LABEL else across.replace(", ", ",\n"))
+
+
+class Scale(NamedTuple):
+    """How values of a field are shown: what they are, unit and its size, and the colours."""
+
+    what: str
+    unit: str
+    factor: float
+    colours: str = PRESSURES
+    least: float | None = 0.0
+    """Where the colours begin; at a percentile of the cells if None."""
+    most: float | None = None
+    """Where the colours end; at a percentile of the cells if None."""
+
+    @property
+    def label(self) -> str:
+        """What is shown, and its unit."""
+        return f"{self.what} ({self.unit})" if self.unit else self.what
+
+    def draw(self, axes: Axes, shown: Layout, field: Array, marked: Mask) -> None:
+        """Draw a field with its colour scale, white where it is not marked."""
+        shown.prepare(axes)
+        cells = field[marked] / self.factor if marked.any() else np.zeros(1)
+        ends = np.percentile(cells, (100.0 - MOST_CELLS, MOST_CELLS))
+        given = zip((self.least, self.most), ends, strict=True)
+        low, high = (end if at is None else at / self.factor for at, end in given)
+        lengths, (width, height) = shown.grid.size, shown.size
+        x, y = (0.5 * s / size(unit) for unit, s in zip(shown.units, lengths, strict=True))
+        window = {"xlim": axes.get_xlim(), "ylim": axes.get_ylim()}
+        image = axes.imshow(
+            np.where(marked, field / self.factor, np.nan).T,
+            self.colours,
+            origin="lower",
+            extent=(-x, x, -y, y),
+            aspect="auto",
+            interpolation="nearest",
+            vmin=low,
+            vmax=high if high > low else low + 1.0,
+        )
+        axes.set(**window)
+        end = "" if self.most else f"to {MOST_CELLS:g} % of cells; "
+        label = f"{self.label}\n{end}largest {np.max(cells):.4g}"
+        bar = axes.inset_axes((1.0 + 2.0 / width, 0.0, 3.0 / width, 1.0))
+        axes.figure.colorbar(image, cax=bar, label=label, ticks=ticks(max(3, int(height / 8))))
+
+
+def field_picture(
+    field: Array,
+    marked: Mask,
+    grid: Grid,
+    scale: Scale,
+    title: str,
+    reach: Sequence[float] = (0.0, 0.0),
+    more: Callable[[Axes, Layout], Sequence[Artist]] = lambda axes, shown: (),
+    vary: Sequence[int] | None = None,
+) -> Picture:
+    """Return a field from above; what varies along one axis only as its profile along it.
+
+    `more` draws on the map; `vary` are the axes, 0 and 1, along which the field varies, if known.
+
+    Raises
+    ------
+    NothingToDraw
+        If it is uniform.
+    """
+    vary = varying([field], marked) if vary is None else vary
+    if not vary:
+        value = f"{np.mean(field[marked]) / scale.factor:.4g} {scale.unit}"
+        raise NothingToDraw(f"{title}: {scale.what.lower()} is uniform, {value}")
+    if len(vary) == 1:
+        return _profile(field, marked, grid, scale, title, vary[0])
+    shown = Layout.of(marked, grid, reach)
+
+    def panel(axes: Axes) -> Sequence[Artist]:
+        scale.draw(axes, shown, field, marked)
+        axes.set_title(title, loc="left")
+        return more(axes, shown)
+
+    return Picture([[panel]], shown.height, share="")
+
+
+def _profile(
+    field: Array, marked: Mask, grid: Grid, scale: Scale, title: str, axis: int
+) -> Picture:
+    """Return a field through the centre along an axis, with its range across as a band."""
+    (section,) = through_centre([(grid, field, marked)], (axis,))
+    low, high = (end(field, axis=1 - axis) / scale.factor for end in (np.min, np.max))
+    up = min(0.0, float(np.min(field))), 1.05 * (scale.most or float(np.max(field)))
+
+    def panel(axes: Axes) -> Sequence[Artist]:
+        section.draw(axes, scale.factor, [{"color": "black"}], [""], up)
+        x = (grid.x, grid.y)[axis] / size(section.unit)
+        axes.fill_between(x, low, high, color="black", alpha=0.2, linewidth=0.0)
+        axes.set_ylabel(scale.label)
+        axes.set_title(title, loc="left")
+        return ()
+
+    return Picture([[panel]], 55.0, share="")

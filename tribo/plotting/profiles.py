@@ -1,24 +1,27 @@
-"""Pictures of worn surfaces in section: of one body at every save, and of both together.
+"""Pictures of worn surfaces: from above, in section at every save, and both bodies together.
 
 Each raises CaseError if the result holds no such body.
 """
 
 from __future__ import annotations
 
-import numpy as np
-from matplotlib.figure import Figure
+from collections.abc import Sequence
+from functools import partial
 
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+
+from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.plotting.sections import (
-    draw_profiles,
-    layer_ends,
-    removed,
-    scar_mask,
-    through_centre,
-)
-from tribo.plotting.style import Look, house_style, save_looks
-from tribo.plotting.units import height_unit, size, time_labels
+from tribo.lab.kept import kept_fields
+from tribo.lab.scar import layer_ends, removed, scar_mask
+from tribo.lab.units import height_unit, shown_in, size, time_labels
+from tribo.plotting.maps import Scale, field_picture
+from tribo.plotting.picture import NothingToDraw, Picture
+from tribo.plotting.sections import bodies_end, profiles_picture, through_centre, varying
+from tribo.plotting.style import DEPTHS, Look, save_looks
 from tribo.result.read import Result
 
 WORN: Look = {"color": "black", "linewidth": 1.0}
@@ -31,66 +34,80 @@ LAYER: Look = {"color": "black", "linewidth": 0.6, "linestyle": (0.0, (6.0, 1.5,
 UPPER, LOWER = "#e4e4e4", "#b4b4b4"
 
 
-def body_profiles(result: Result, name: str, axis: int | None = None) -> Figure:
+def scar_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
+    """Draw from above how much of a body is gone at a save: worn off and displaced.
+
+    For a body that passes through a resolved cycle it is the groove along the whole track. What
+    varies along one axis only is drawn as its profile.
+    """
+    grid, gone = _gone(result, name, saves[-1:])
+    unit = height_unit(float(np.max(gone)))
+    scale = Scale("Depth", unit, size(unit), DEPTHS)
+    title = f"{name}, t = {time_labels(result.times)[saves[-1]]}"
+    return field_picture(gone[0], scar_mask(gone[0]), grid, scale, title)
+
+
+def body_profiles(
+    result: Result, name: str, saves: Sequence[int] | None = None, axis: int | None = None
+) -> Picture:
     """Draw a body's surface through the window's centre at every save.
 
-    It runs along axis 0, the sliding direction, or across it, along axis 1; without one, both are
-    drawn side by side, on one scale of heights, and of a swept body the section of its groove.
+    It runs along axis 0, the sliding direction, or across it, along axis 1; without one, along
+    those along which the body wears unevenly. For a body that passes through a resolved cycle it is
+    the change of its height along the whole track.
 
-    The height points out of the body, so that material goes downwards: the
-    unworn profile lies on top. Plastic displacement is part of it; elastic
-    deformation is not. The picture states how much it enlarges heights.
+    Heights point out of the body, so that the unworn profile lies on top. They have plastic
+    displacement and no elastic deformation; the picture states how much it enlarges them.
     """
     if axis not in (None, 0, 1):
         raise CaseError(f"a profile runs along axis 0 or across, axis 1; not {axis!r}")
-    count = len(result.times)
-    body = result.body(name)
-    scar = scar_mask(removed(result, name)[-1])
-    fields = [(result.grid, body.surface(i), scar) for i in range(count)]
-    axes = ((1,) if body.swept else (0, 1)) if axis is None else (axis,)
-    sections = through_centre(fields, axes)
-    return draw_profiles(sections, save_looks(count), time_labels(result.times), name)
-
-
-def along_track(result: Result, name: str) -> Figure:
-    """Draw the groove along the whole track of a body that passes through a resolved cycle.
-
-    It is by how much its height has changed: what it was at first is left out.
-    """
-    if not result.has("track_depth"):
-        raise CaseError(f"the cycle is not resolved in {result.name}; draw its profiles instead")
-    count = len(result.times)
-    depths = [np.nan_to_num(result.field("track_depth", save, name)) for save in range(count)]
-    rows, columns = depths[0].shape
-    (dx, _), (_, breadth) = result.grid.spacing, result.grid.size
-    grid = Grid((rows * dx, breadth), (rows, columns))
-    scar = scar_mask(depths[-1])
-    sections = through_centre([(grid, -depth, scar) for depth in depths], (0,))
+    every = range(len(result.times)) if saves is None else saves
+    grid, gone = _gone(result, name, every)
+    scar = scar_mask(gone[-1])
+    axes = varying(gone, scar) if axis is None else (axis,)
+    if not axes:
+        raise NothingToDraw(f"{name} is worn evenly, {_deep(gone[-1])}")
+    body, what = result.body(name), "Height"
+    heights = [body.surface(save) for save in every]
+    if result.has("track_depth") and body.swept:
+        heights, what = [-depth for depth in gone], "Change of height"
+    sections = through_centre([(grid, z, scar) for z in heights], axes, ends=bodies_end(result))
     labels = time_labels(result.times)
-    return draw_profiles(sections, save_looks(count), labels, name, what="Change of height")
+    named = [labels[save] for save in every]
+    return profiles_picture(sections, save_looks(len(every)), named, name, what=what)
 
 
-def worn_section(result: Result) -> Figure:
-    """Draw both bodies in section at the last save, along and across sliding.
+def _gone(result: Result, name: str, saves: Sequence[int]) -> tuple[Grid, list[Array]]:
+    """Return how much of a body is gone at saves, along the whole track where it is known."""
+    grid = result.grid
+    if not (result.body(name).swept and result.has("track_depth")):
+        return grid, list(removed(result, name)[list(saves)])
+    gone = [np.nan_to_num(result.field("track_depth", save, name)) for save in saves]
+    return Grid((len(gone[0]) * grid.spacing[0], grid.size[1]), gone[0].shape), gone
 
-    They are set down on each other without load, so that they touch at their
-    closest point and the scars are seen to conform. A swept body lies below.
-    The unworn surface of each worn body is drawn where its points were: that
-    of the upper one, dotted, runs inside the lower body. A thin line marks where a layer ends
-    that has been worn through or by half at least. The picture states how much it enlarges heights
-    and how deep the scars are.
+
+def worn_section(result: Result, saves: Sequence[int] = (-1,), axis: int | None = None) -> Picture:
+    """Draw both bodies in section at a save, along the axes along which one wears unevenly.
+
+    They touch at their closest point, without load; a moving body lies below. The unworn surface of
+    each worn body is drawn where its points were, and a thin line where a layer ends that is worn
+    by half at least. The picture states how much it enlarges heights and how deep the scars are.
     """
-    last = len(result.times) - 1
+    save = saves[-1]
     upper, lower = sorted(map(result.body, result.body_names), key=lambda body: body.swept)
-    gone = [removed(result, body.name)[last] for body in (upper, lower)]
+    gone = [removed(result, body.name)[save] for body in (upper, lower)]
     depths = [float(np.max(depth)) for depth in gone]
     marked = np.zeros(result.grid.cells, dtype=bool)
     for body, depth in zip((upper, lower), gone, strict=True):
         if not body.swept:
             marked |= scar_mask(depth)
     if not marked.any():
-        marked = result.field("pressure", last) > 0
-    top, bottom = upper.surface(last), lower.surface(last)
+        marked = result.field("pressure", save) > 0
+    words = [_scar(body.name, depth) for body, depth in zip((upper, lower), gone, strict=True)]
+    shown = varying(gone, marked) if axis is None else (axis,)
+    if not shown:
+        raise NothingToDraw(f"the bodies are worn evenly: {', '.join(words)}")
+    top, bottom = upper.surface(save), lower.surface(save)
     lift = float(np.max(top + bottom))
     surfaces, looks, labels = [lift - top, bottom], [WORN, WORN], ["worn", ""]
     unworn = lift - upper.height, lower.height
@@ -106,32 +123,43 @@ def worn_section(result: Result) -> Figure:
             looks.append(LAYER)
             labels.append(label)
     fields = [(result.grid, surface, marked) for surface in surfaces]
-    figure = draw_profiles(
-        through_centre(fields),
+    return profiles_picture(
+        through_centre(fields, shown, ends=bodies_end(result)),
         looks,
         labels,
-        f"t = {time_labels(result.times)[last]}, unloaded",
+        f"t = {time_labels(result.times)[save]}, unloaded",
         shape=0.8,
         room=(0.27, 0.18),
+        more=[partial(_fill, words)],
     )
-    along, across = figure.axes
-    with house_style():
-        for axes in (along, across):
-            low, high = axes.get_ylim()
-            for line, end, colour in zip(axes.lines, (high, low), (UPPER, LOWER), strict=False):
-                x, z = line.get_data()
-                axes.fill_between(x, z, end, color=colour, linewidth=0.0)
-        places = (0.97, "top"), (0.04, "bottom")
-        for body, depth, (at, side) in zip((upper, lower), depths, places, strict=True):
-            look = {"ha": "center", "va": side}
-            along.text(0.5, at, body.name, transform=along.transAxes, **look)
-            across.text(0.5, at, _scar(body.name, depth), transform=across.transAxes, **look)
-    return figure
 
 
-def _scar(name: str, depth: float) -> str:
+def _fill(words: Sequence[str], axes: Axes) -> Sequence[Artist]:
+    """Fill both bodies, and write their names and depths into them."""
+    low, high = axes.get_ylim()
+    places = (high, UPPER, 0.97, "top"), (low, LOWER, 0.04, "bottom")
+    for line, (end, colour, at, side), text in zip(axes.lines, places, words, strict=False):
+        x, z = line.get_data()
+        axes.fill_between(x, z, end, color=colour, linewidth=0.0)
+        axes.text(0.5, at, text, transform=axes.transAxes, ha="center", va=side)
+    return ()
+
+
+def _scar(name: str, gone: Array) -> str:
     """Return a body's name and how deep its scar is."""
-    if depth <= 0:
-        return name
-    unit = height_unit(depth)
-    return f"{name}: {depth / size(unit):.3g} {unit} deep"
+    return f"{name}: {_deep(gone)} deep" if np.any(gone > 0) else name
+
+
+def _deep(gone: Array) -> str:
+    deepest = float(np.max(gone))
+    unit = height_unit(deepest)
+    return f"{deepest / size(unit):.3g} {unit}"
+
+
+def field_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
+    """Draw a field of the models from above at a save, or along the axis that it varies along."""
+    kept = next(each for each in kept_fields(result) if each.key == name)
+    values = kept.values[saves[-1]]
+    scale = Scale(kept.name.capitalize(), *shown_in(kept.unit, values), least=None)
+    title = f"t = {time_labels(result.times)[saves[-1]]}"
+    return field_picture(values, result.field("pressure", saves[-1]) > 0, result.grid, scale, title)

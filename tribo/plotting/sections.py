@@ -1,24 +1,29 @@
-"""Sections through the window's centre: their limits, their curves and their panels."""
+"""What is to be seen of fields: the axes along which they vary, limits, and sections."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
+from tribo.lab.units import axis_units, height_unit, size
 from tribo.plotting import style
-from tribo.plotting.units import axis_units, height_unit, size
+from tribo.plotting.picture import Panel, Picture
 from tribo.result.export import profile
 from tribo.result.read import Result
 
 MARGIN = 0.2
 """Shown beyond the contact or the scar on each side, in parts of its half-width."""
+SHADE = 0.05
+"""Part of its size by which a field that does not vary may differ: a shade of twenty."""
+MOST_CELLS = 99.0
+"""Cells that colours tell apart and by which a field is measured, in percent."""
 
 Limits = tuple[float, float]
 Curve = tuple[Array, Array]
@@ -31,64 +36,108 @@ class Section:
 
     axis: int
     window: Limits
+    core: Limits
+    """The part that is marked, without its margin."""
     curves: Sequence[Curve]
     unit: str
     """In which positions are shown."""
 
     def draw(
-        self, axes: Axes, unit: str, looks: Sequence[style.Look], labels: Sequence[str], up: Limits
+        self,
+        axes: Axes,
+        factor: float,
+        looks: Sequence[style.Look],
+        labels: Sequence[str],
+        up: Limits,
     ) -> list[Line2D]:
-        """Draw the curves with values in `unit` between the limits `up`, which are in SI units."""
+        """Draw the curves between the limits `up`, in SI units as they are, over a unit's size."""
         axes.set_xlim(*(end / size(self.unit) for end in self.window))
         axes.set_xlabel(f"{style.AXIS_LABELS[self.axis]} ({self.unit})")
         axes.xaxis.set_major_locator(style.ticks(5))
-        axes.set_ylim(*(end / size(unit) for end in up))
+        axes.set_ylim(*(end / factor for end in up))
         axes.yaxis.set_major_locator(style.ticks(7))
         lines: list[Line2D] = []
         for (position, values), look, label in zip(self.curves, looks, labels, strict=True):
             # Matplotlib leaves labels that begin with an underscore out of the legend.
-            shown = position / size(self.unit), values / size(unit)
+            shown = position / size(self.unit), values / factor
             lines += axes.plot(*shown, label=label.lstrip("_"), **look)
         return lines
 
     def in_sight(self) -> list[Array]:
-        """Return the part of each curve that lies inside the limits."""
-        low, high = self.window
+        """Return the part of each curve that is marked."""
+        low, high = self.core
         return [values[(low <= x) & (x <= high)] for x, values in self.curves]
+
+
+def varying(fields: Sequence[Array], marked: Mask) -> tuple[int, ...]:
+    """Return the axes, 0 and 1, along which one of the fields varies around what is marked."""
+    return tuple(axis for axis in (0, 1) if any(_varies(f, marked, axis) for f in fields))
+
+
+def _varies(field: Array, marked: Mask, axis: int) -> bool:
+    box = tuple(slice(*_cells(marked, along)) for along in (0, 1))
+    part = np.broadcast_to(field, marked.shape)[box]
+    spread = np.abs(part - np.mean(part, axis=axis, keepdims=True))
+    largest, most = (float(np.percentile(np.abs(each), MOST_CELLS)) for each in (part, spread))
+    return most > SHADE * largest
+
+
+def _cells(marked: Mask, axis: int) -> tuple[int, int]:
+    """Return the cells along an axis that show all that is marked, and those beside."""
+    index = np.flatnonzero(marked.any(axis=1 - axis))
+    if index.size == 0:
+        return 0, marked.shape[axis]
+    return max(int(index[0]) - 1, 0), int(index[-1]) + 2
 
 
 def through_centre(
     fields: Sequence[tuple[Grid, Array, Mask]],
     axes: Sequence[int] = (0, 1),
     reach: Sequence[float] = (0.0, 0.0),
+    ends: bool = False,
 ) -> list[Section]:
     """Return sections of fields, each on its grid, and limits around what is marked of each.
 
     They run along `axes`: 0 is the sliding direction, and 1 across it. `reach` along both is a
-    distance from the centre to be shown as well, in m.
+    distance from the centre to be shown as well, in m. Where the bodies end at the window, `ends`,
+    and what is marked reaches its edge, the axis goes on beyond it and the curves do not.
     """
-    windows = []
-    for axis in axes:
-        lows, highs = [], []
-        for grid, _, marked in fields:
-            x = (grid.x, grid.y)[axis]
-            low, high = limits(marked, grid, axis, reach[axis])
-            # The outermost cells' centres end a section.
-            lows.append(max(low, float(x[0])))
-            highs.append(min(high, float(x[-1])))
-        windows.append((min(lows), max(highs)))
+    windows, cores = (
+        [
+            _hull([limits(m, g, axis, reach[axis], margin, ends) for g, _, m in fields])
+            for axis in axes
+        ]
+        for margin in (MARGIN, 0.0)
+    )
     units = axis_units([max(map(abs, window)) for window in windows])
     return [
-        Section(axis, window, [((g.x, g.y)[axis], profile(f, axis)) for g, f, _ in fields], unit)
-        for axis, window, unit in zip(axes, windows, units, strict=True)
+        Section(axis, window, core, [_curve(g, f, axis) for g, f, _ in fields], unit)
+        for axis, window, core, unit in zip(axes, windows, cores, units, strict=True)
     ]
 
 
-def limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:
+def _curve(grid: Grid, field: Array, axis: int) -> Curve:
+    """Return a field through the centre along an axis, up to the edges of the outermost cells."""
+    edge, x = 0.5 * grid.size[axis], (grid.x, grid.y)[axis]
+    return np.concatenate([[-edge], x, [edge]]), np.pad(profile(field, axis), 1, mode="edge")
+
+
+def _hull(windows: Sequence[Limits]) -> Limits:
+    return min(low for low, _ in windows), max(high for _, high in windows)
+
+
+def limits(
+    marked: Mask,
+    grid: Grid,
+    axis: int,
+    reach: float = 0.0,
+    margin: float = MARGIN,
+    ends: bool = False,
+) -> Limits:
     """Return limits in m that show all marked cells, a margin, and no more.
 
     They are those of the window if nothing is marked. `marked` has shape
-    (nx, ny) or (1, ny); `reach` is as in `through_centre`.
+    (nx, ny) or (1, ny); `reach` and `ends` are as in `through_centre`.
     """
     edge = 0.5 * grid.size[axis]
     index = np.flatnonzero(np.broadcast_to(marked, grid.cells).any(axis=1 - axis))
@@ -97,66 +146,52 @@ def limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:
     step = grid.spacing[axis]
     low = min(float(index[0]) * step - edge, -reach)
     high = max(float(index[-1] + 1) * step - edge, reach)
-    margin = MARGIN * max(0.5 * (high - low), 2.0 * step)
-    return max(low - margin, -edge), min(high + margin, edge)
+    beside = margin * max(0.5 * (high - low), 2.0 * step)
+    beyond = np.inf if ends and (index[0] == 0 or index[-1] == grid.cells[axis] - 1) else edge
+    return max(low - beside, -beyond), min(high + beside, beyond)
 
 
-def removed(result: Result, name: str) -> Array:
-    """Return how far a body's surface lies below its first at each save, in m."""
-    body = result.body(name)
-    return np.asarray(body.wear_depth + body.plastic_depth)
+def bodies_end(result: Result) -> bool:
+    """Return whether the bodies of a result end at its window."""
+    return bool(result.case_tables["grid"].get("ends_at_window"))
 
 
-def layer_ends(result: Result, name: str, deepest: float) -> dict[str, float]:
-    """Return the depths at which layers of a body end, in m, down to twice the deepest."""
-    layers = result.case_tables["bodies"][name].get("layers") or ()
-    ends = np.cumsum([float(layer["thickness"]) for layer in layers])
-    return {
-        f"{name}: end of layer {number}": float(end)
-        for number, end in enumerate(ends, start=1)
-        if end <= 2 * deepest
-    }
-
-
-def scar_mask(depth: Array) -> Mask:
-    """Return where more than a thousandth of the largest depth is gone."""
-    deepest = float(np.max(depth, initial=0.0))
-    return np.asarray(depth > 1e-3 * deepest)
-
-
-def draw_profiles(
+def profiles_picture(
     sections: Sequence[Section],
     looks: Sequence[style.Look],
     labels: Sequence[str],
     title: str,
     shape: float = 0.62,
-    room: Limits = (0.05, 0.05),
+    room: Limits = (0.1, 0.05),
     what: str = "Height",
-) -> Figure:
-    """Draw surfaces in one panel for each section, all with one scale of heights.
+    more: Sequence[Panel] = (),
+) -> Picture:
+    """Return surfaces in one panel for each section, all with one scale of heights.
 
     A curve without a label is left out of the legend. `shape` is the height of
     the axes over their width, on paper; `room` is left free below and above
-    the curves, in parts of their range; `what` names the heights.
+    the heights of what is marked, in parts of their range; `what` names the heights; `more` draws
+    on each panel besides.
     """
     parts = [line for section in sections for line in section.in_sight()]
     low, high = min(map(np.min, parts)), max(map(np.max, parts))
     span = float(high - low) or 2e-8
     up = float(low) - room[0] * span, float(high) + room[1] * span
     unit = height_unit(max(map(abs, up)))
+
+    def panel(section: Section, axes: Axes) -> list[Line2D]:
+        lines = section.draw(axes, size(unit), looks, labels, up)
+        axes.set_box_aspect(shape)
+        enlarged = shape * (section.window[1] - section.window[0]) / (up[1] - up[0])
+        axes.set_title(f"height × {style.times(enlarged)}", loc="right", fontsize="small")
+        axes.set_ylabel(f"{what} ({unit})")
+        if section is sections[0]:
+            axes.set_title(title, loc="left")
+        for draw in more:
+            draw(axes)
+        return [line for line, label in zip(lines, labels, strict=True) if label]
+
+    row = [partial(panel, section) for section in sections]
     two = len(sections) > 1
-    with style.house_style():
-        figure = style.new_figure(
-            20.0 + shape * (52.0 if two else 68.0), style.WIDE if two else style.SINGLE_COLUMN
-        )
-        panels = figure.subplots(1, len(sections), sharey=True, squeeze=False)[0]
-        for axes, section in zip(panels, sections, strict=True):
-            lines = section.draw(axes, unit, looks, labels, up)
-            axes.set_box_aspect(shape)
-            enlarged = shape * (section.window[1] - section.window[0]) / (up[1] - up[0])
-            axes.set_title(f"height × {style.times(enlarged)}", loc="right", fontsize=7.0)
-        panels[0].set_ylabel(f"{what} ({unit})")
-        panels[0].set_title(title, loc="left")
-        named = [line for line, label in zip(lines, labels, strict=True) if label]
-        style.legend_below(figure, named)
-    return figure
+    height = 20.0 + shape * (52.0 if two else 68.0)
+    return Picture([row], height, style.WIDE if two else style.SINGLE_COLUMN, "y")

@@ -30,11 +30,13 @@ from tribo.result.opening import source_of
 from tribo.result.sealed import write_sealed
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
     from matplotlib.figure import Figure
 
     from tribo.case import Case
     from tribo.lab.report import LabReport
+    from tribo.plotting.figures import Plot
 
 
 class Result:
@@ -329,29 +331,24 @@ class Result:
         """Print the saves and what a lab would report, as ``tribo show`` does."""
         shorthand.show(self)
 
-    def plot(self, folder: str | Path, suffix: str = "png") -> list[Path]:
-        """Write every picture that makes sense for the result, as ``tribo plot`` does."""
-        paths: list[Path] = shorthand.plot(self, Path(folder), suffix)
-        return paths
+    @property
+    def plot(self) -> Plot:
+        """Pictures: ``plot("folder")`` writes all, ``plot.scar("ball")`` draws one on axes."""
+        pictures: Plot = shorthand.plot(self)
+        return pictures
 
     def picture(self, name: str) -> Figure:
-        """Draw one of the pictures of `plot`, as ``"pressure_map"`` or ``"ball_scar"``.
-
-        Returns
-        -------
-        matplotlib.figure.Figure
-            Not yet written; a notebook shows it.
-
-        Raises
-        ------
-        CaseError
-            If the result has no such picture; the message lists those that it has.
-        """
+        """Draw the picture of a file that `plot` writes, such as ``"ball_scar"``."""
         figure: Figure = shorthand.picture(self, name)
         return figure
 
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a row for each saved time, as `show` prints them: ``"p max (MPa)"``."""
+        table: pd.DataFrame = shorthand.dataframe(self)
+        return table
+
     def _repr_html_(self) -> str:
-        """Show the lab table and the pressure in a notebook."""
+        """Show the saves and the pressure in a notebook."""
         return shorthand.html(self)
 
     def totals(self) -> Mapping[str, Any]:

@@ -87,7 +87,7 @@ def test_a_sweep_tells_the_least_and_the_most_wear(tmp_path):
     volumes = [f"{1e9 * row['bodies.ball.wear_volume_m3']:.3g}" for row in (rows[0], rows[2])]
     assert f"The ball lost {volumes[0]} mm³" in ball
     assert f"to {volumes[1]} mm³" in ball
-    assert "(run 3: load normal 50 N, kinematics type b)" in ball
+    assert "(run 3: normal load 50 N, kinematics type b)" in ball
     assert "run 4: too steep" in (tmp_path / "study-sweep-report.html").read_text()
 
 

@@ -127,9 +127,16 @@ def test_the_picture_outlines_what_is_piled_up():
     before, after, *_ = pair(missing=0.0)
     x, y = after.grid.mesh
     raised = Heights(after.heights + 3e-7 * ridge(x / PITCH, y / PITCH), after.pitch)
-    figure = measured_scar_map(measured_scar(before, raised))
+    found = measured_scar(before, raised)
+    figure = measured_scar_map(found)
     (legend,) = figure.legends
-    assert [text.get_text() for text in legend.get_texts()] == ["scar", "piled up"]
+    words = {text.get_text() for text in legend.get_texts()} - {"taken for the volume", "piled up"}
+    (widths,) = words
+    # The ring is as wide as the widths that are printed.
+    (ring,) = figure.axes[0].patches
+    size = {"mm": 1e-3, "µm": 1e-6}[widths[-2:]]
+    sizes = size * ring.width, size * ring.height
+    assert sizes == pytest.approx((found.along, found.across))
     title = figure.axes[0].get_title("left")
     value, power = re.match(r"Volume \(([\d.]+) ± .*10\^\{(-\d+)\}\$ mm³", title).groups()
     assert 1e-9 * float(value) * 10.0 ** int(power) == pytest.approx(6.28e-16, rel=0.03, abs=0)

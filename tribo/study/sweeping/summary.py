@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
 from tribo.core.data_table import DataTable, Heading, TableRow
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 ROWS = 20
 """Most runs in the table."""
+MOST_CURVES = 6
+"""In a picture."""
 MEASURED = (
     ("max_pressure_Pa", Heading("p max", "MPa", ".3g", whole=True, spare=2), 1e-6),
     (".max_wear_depth_m", Heading("{}", "µm", ".3g", whole=True), 1e6),
@@ -44,7 +50,6 @@ def runs_table(runs: pd.DataFrame) -> DataTable | None:
 
 def draw_runs(runs: pd.DataFrame, folder: Path) -> list[Path]:
     """Draw the largest depth of each worn body over what varies most, and return the files."""
-    from tribo.plotting.curves import sweep_pictures
     from tribo.plotting.figures import write_figures
 
     depths = [str(name) for name in runs if str(name).endswith(".max_wear_depth_m")]
@@ -52,6 +57,41 @@ def draw_runs(runs: pd.DataFrame, folder: Path) -> list[Path]:
     pictures = sweep_pictures(runs, varied_paths(runs), worn)
     named = {f"{depth.split('.')[1]}_depth": draw for depth, draw in pictures.items()}
     return write_figures(named, folder) if named else []
+
+
+def sweep_pictures(
+    runs: pd.DataFrame, varied: Sequence[str], measures: Sequence[str]
+) -> dict[str, Callable[[], Figure]]:
+    """Return how to draw each measure over the number that varies most; none if no number does.
+
+    Where the runs do not part into curves it is drawn over every number that varies.
+    """
+    from tribo.plotting.curves import sweep_curves
+
+    done = runs[runs["status"] == "done"]
+    numbers = [name for name in varied if pd.api.types.is_numeric_dtype(done[name])]
+    numbers = [name for name in numbers if done[name].nunique() > 1]
+    if not numbers:
+        return {}
+    most = max(numbers, key=lambda name: done[name].nunique())
+    by, joined = curves_by(done, [name for name in varied if name != most])
+    x = [most] if joined else numbers
+    return {name: partial(sweep_curves, done, x, name, by, joined) for name in measures}
+
+
+def curves_by(done: pd.DataFrame, others: Sequence[str]) -> tuple[list[str], bool]:
+    """Return the columns that part runs into curves, and whether a line joins those of a curve.
+
+    Where other quantities vary along, as in a random sample, none does; only text tells the runs
+    apart then.
+    """
+    others = [name for name in others if done[name].nunique() > 1]
+    texts = [name for name in others if not pd.api.types.is_numeric_dtype(done[name])]
+    for names, joined in ((others, True), (texts, False)):
+        count = done.groupby(names).ngroups if names else 1
+        if count <= MOST_CURVES and len(done) >= (2 * count if joined else 1):
+            return names, joined
+    return [], False
 
 
 def varied_paths(runs: pd.DataFrame) -> Sequence[str]:
@@ -72,7 +112,7 @@ def is_text(runs: pd.DataFrame, name: str) -> bool:
 
 def labelled(name: str, runs: pd.DataFrame) -> tuple[str, str, float]:
     """Return what is said of a column, its unit, "" for none, and the unit's size."""
-    from tribo.plotting.curves import column_label
+    from tribo.lab.units import column_label
 
     if is_text(runs, name):
         return name.replace("_", " ").replace(".", " "), "", 1.0

@@ -6,14 +6,16 @@ import math
 
 import numpy as np
 from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.patches import Ellipse, Patch
 from tribo.kernel_api import (
+    Layout,
+    Scale,
     digits_of,
-    draw_depths,
+    field_picture,
     height_unit,
-    new_maps,
     size,
     smoothed,
     style,
@@ -27,27 +29,52 @@ MISSING = "#e0b080"
 
 def measured_scar_map(found: MeasuredScar) -> Figure:
     """Draw the depth of a measured scar, outlined as what is piled up, and missing pixels."""
-    unit = height_unit(found.depth)
-    with style.house_style():
-        figure, (shown,) = new_maps(np.isfinite(found.depths), found.after.grid)
-        most = float(np.max(smoothed(found.depths)[found.scar])) / size(unit)
-        draw_depths(shown, found.depths, unit, most)
+    unit, factor = height_unit(found.depth), size(height_unit(found.depth))
+    known = np.isfinite(found.depths)
+    most = float(np.max(smoothed(found.depths)[found.scar]))
+    power = math.floor(math.log10(found.volume))
+    part, sure = (each / 10**power for each in (found.volume, found.volume_uncertainty))
+    decimals = digits_of(part - sure, part + sure) - 1
+    title = rf"Volume ({part:.{decimals}f} ± {sure:.{decimals}f}) $\cdot\,10^{{{power + 9}}}$ mm³"
+
+    def marks(axes: Axes, shown: Layout) -> list[Artist]:
         x, y = shown.positions()
-        marks: list[Artist] = []
-        for area, dashes, words in ((found.scar, "-", "scar"), (found.piled, "--", "piled up")):
+        drawn: list[Artist] = []
+        outlines = (found.scar, ":", "taken for the volume"), (found.piled, "--", "piled up")
+        for area, dashes, words in outlines:
             if area.any():
                 look: style.Look = {"linestyles": dashes, "colors": "black", "linewidths": 0.8}
-                shown.axes.contour(x, y, area.T.astype(float), [0.5], **look)
-                marks.append(Line2D([], [], label=words, ls=dashes, color="black", lw=0.8))
-        if np.isnan(found.depths).any():
-            shown.axes.set_facecolor(MISSING)
-            marks.append(Patch(color=MISSING, label="missing"))
-        style.legend_below(figure, marks)
-        power = math.floor(math.log10(found.volume))
-        part, sure = (each / 10**power for each in (found.volume, found.volume_uncertainty))
-        decimals = digits_of(part - sure, part + sure) - 1
-        shown.axes.set_title(
-            rf"Volume ({part:.{decimals}f} ± {sure:.{decimals}f}) $\cdot\,10^{{{power + 9}}}$ mm³",
-            loc="left",
-        )
-    return figure
+                axes.contour(x, y, area.T.astype(float), [0.5], **look)
+                drawn.append(Line2D([], [], label=words, ls=dashes, color="black", lw=0.8))
+        drawn += _widths(axes, shown, found)
+        if not known.all():
+            axes.set_facecolor(MISSING)
+            drawn.append(Patch(color=MISSING, label="missing"))
+        return drawn
+
+    scale = Scale("Depth", unit, factor, style.DEPTHS, most=most)
+    grid = found.after.grid
+    return field_picture(found.depths, known, grid, scale, title, more=marks, vary=(0, 1)).figure()
+
+
+def _widths(axes: Axes, shown: Layout, found: MeasuredScar) -> list[Artist]:
+    """Draw the widths that are printed around the middle of the scar; a track has two edges."""
+    if found.along is None or found.across is None:
+        return []
+    deep = np.where(found.scar, np.nan_to_num(found.depths), 0.0)
+    x, y = shown.positions()
+    middle = np.average(x, weights=deep.sum(axis=1)), np.average(y, weights=deep.sum(axis=0))
+    sizes = [
+        w / size(unit) for w, unit in zip((found.along, found.across), shown.units, strict=True)
+    ]
+    words = " × ".join(
+        f"{w:.3g} {u}" for w, u in zip(sizes, shown.units, strict=True) if w < math.inf
+    )
+    if not found.is_track:
+        ring = Ellipse(middle, *sizes, fill=False, color="black", lw=0.8, label=words)
+        return [axes.add_patch(ring)]
+    axis = sizes.index(min(sizes))
+    draw, half = (axes.axhline if axis else axes.axvline), 0.5 * sizes[axis]
+    edges = [draw(middle[axis] + side * half, color="black", lw=0.8) for side in (-1, 1)]
+    edges[0].set_label(f"{words} wide")
+    return [edges[0]]

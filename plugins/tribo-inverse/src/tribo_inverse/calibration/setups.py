@@ -96,7 +96,8 @@ def _setup(
     """Return the setup of tests that have the same case."""
     changed = apply_settings(tables, tests[0].set)
     given = validate_case(tables).output.save_times
-    reached = [time for time in given if time <= model.end_time]
+    moments = map(model.motion.moment, given)
+    reached = [time for time, at in zip(given, moments, strict=True) if at <= model.end_time]
     if len(reached) < len(given):
         changed = apply_settings(changed, {"output.save_times": reached})
     entries = [entry for test in tests for entry in test.measured]

@@ -6,14 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from tribo.core.arrays import Array
 from tribo.core.data_table import DataTable, Heading, TableRow
 from tribo.core.rounding import ROUND_OFF
-from tribo.plotting import style
-from tribo.plotting.maps import new_maps
-from tribo.plotting.units import shown_in, time_labels
+from tribo.lab.units import shown_in
 from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
 
@@ -92,16 +89,3 @@ def _fields(result: Result) -> Iterator[KeptField]:
                 name = field.name.replace("_", " ")
                 own = (key, name) if alike else (f"{body}_{key}", f"{name}, {body}")
                 yield KeptField(*own, field.unit, values)
-
-
-def field_map(result: Result, kept: KeptField) -> Figure:
-    """Draw such a field from above at the last save."""
-    values = kept.values[-1]
-    unit, factor = shown_in(kept.unit, values)
-    with style.house_style():
-        figure, (shown,) = new_maps(result.field("pressure", -1) > 0, result.grid)
-        name = kept.name.capitalize()
-        label = f"{name} ({unit})" if unit else name
-        shown.image(values / factor, label, cmap=style.PRESSURES, interpolation="nearest")
-        shown.axes.set_title(f"t = {time_labels(result.times)[-1]}", loc="left")
-    return figure

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -10,7 +11,34 @@ from tribo.core.arrays import Array
 from tribo.core.dimensions import scale
 
 _UNITS = {"m": ("mm", "µm", "nm", "pm"), "Pa": ("MPa", "kPa", "Pa")}
-_FIXED = {"m^2": "mm²", "m^3": "mm³"}
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_FIXED = {"m^2": "mm²", "m^3": "mm³", "1/Pa": "mm³/(N·m)"}
+
+UNITS = (
+    ("_1_Pa", "1/Pa"),
+    ("_m_s", "m/s"),
+    ("_J_m2", "J/m^2"),
+    ("_m3", "m^3"),
+    ("_m2", "m^2"),
+    ("_J", "J"),
+    ("_N_m", "N m"),
+    ("_N", "N"),
+    ("_s", "s"),
+    ("_Pa", "Pa"),
+    ("_m", "m"),
+)
+"""Ends of names of columns, and their unit; the longer first, as the inverse of a pressure."""
+NAMES = {
+    "load.normal": "normal load",
+    "wear.k": "specific wear rate",
+    "max_wear_depth": "largest wear depth",
+    "max_plastic_depth": "largest plastic depth",
+    "wear_volume": "worn volume",
+    "surface.radius": "radius",
+    "grid.cells": "cells along an edge",
+    "kinematics.speed": "sliding speed",
+}
+"""What is said of a path of a case or a column, of a body without its name."""
 
 
 def size(unit: str) -> float:
@@ -41,15 +69,20 @@ def height_unit(largest: float) -> str:
 
 def shown_in(unit: str, values: Array) -> tuple[str, float]:
     """Return the unit in which values in an SI unit are shown, "" for none, and its size in SI."""
+    largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
     if unit in _UNITS:
-        largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
         if unit == "m" and largest < 1:
             unit = height_unit(largest)
         elif unit == "Pa":
             unit = fitting(unit, largest)
         return unit, size(unit)
     if unit in _FIXED:
-        return _FIXED[unit], size(_FIXED[unit])
+        shown, factor = _FIXED[unit], size(_FIXED[unit])
+        power = math.floor(math.log10(largest / factor)) if largest else 0
+        if power >= -2:
+            return shown, factor
+        # Matplotlib would put the power far from the unit.
+        return f"10{str(power).translate(_RAISED)} {shown}", factor * 10.0**power
     return ("" if unit == "1" else unit.replace("^2", "²").replace("^3", "³")), 1.0
 
 
@@ -68,3 +101,13 @@ def time_labels(times: Array) -> list[str]:
     unit = time_unit(times)
     shown = [float(time) / size(unit) for time in times]
     return [f"{time:.0f} {unit}" if time >= 1e3 else f"{time:.4g} {unit}" for time in shown]
+
+
+def column_label(name: str, values: Array) -> tuple[str, str, float]:
+    """Return what is said of a column, the unit for its values, "" for none, and its size."""
+    end, si = next((each for each in UNITS if name.endswith(each[0])), ("", "1"))
+    path, body = name.removesuffix(end), ""
+    if path.startswith("bodies."):
+        _, body, path = path.split(".", 2)
+    words = NAMES.get(path, path.replace("_", " ").replace(".", " ").replace("max ", "largest "))
+    return f"{words} of {body}" if body else words, *shown_in(si, values)
