@@ -21,6 +21,7 @@ from tribo.core.arrays import add_from as add_from
 from tribo.core.arrays import bounds as bounds
 from tribo.core.arrays import readonly as readonly
 from tribo.core.arrays import union as union
+from tribo.core.box import around as around
 from tribo.core.box import whole as whole
 from tribo.core.data_table import DataTable as DataTable
 from tribo.core.data_table import Heading as Heading
@@ -38,6 +39,9 @@ from tribo.core.lazy import lazy as lazy
 from tribo.core.measures import between_cells as between_cells
 from tribo.core.number_tables import check_file as check_file
 from tribo.core.number_tables import check_pixels as check_pixels
+from tribo.core.stages import NUMBER as NUMBER
+from tribo.core.stages import ONE_OR_STAGES as ONE_OR_STAGES
+from tribo.core.stages import STAGES as STAGES
 from tribo.core.units import number as number
 from tribo.core.units import parts as parts
 from tribo.core.words import did_you_mean as did_you_mean
@@ -64,6 +68,7 @@ from tribo.evolution.states import Memory as Memory
 from tribo.evolution.states import first_memory as first_memory
 from tribo.evolution.states import own as own
 from tribo.evolution.states import place as place
+from tribo.guards.parts import GuardedEffect as GuardedEffect
 from tribo.guards.parts import GuardedLaw as GuardedLaw
 from tribo.guards.trial_time import limited as limited
 from tribo.integration.division import Division as Division
@@ -109,6 +114,8 @@ from tribo.model.events import Event as Event
 from tribo.model.events import Worn as Worn
 from tribo.model.events import Yielded as Yielded
 from tribo.model.model import Model as Model
+from tribo.motion.held import Held as Held
+from tribo.motion.held import held as held
 from tribo.plotting import style as style
 from tribo.plotting.figures import picture_format as picture_format
 from tribo.plotting.figures import result_pictures as result_pictures

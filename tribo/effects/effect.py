@@ -37,7 +37,8 @@ class Effect(Component):
 
     reach: ClassVar[Literal["point", "contact"] | tuple[int, int] | None] = None
     """What its fields and rates at a point follow: the ``"point"`` alone; the load and the area of
-    the ``"contact"`` too; or points so many cells away along x and y. Gradients need it."""
+    the ``"contact"`` too; or points so many cells away along x and y. Gradients need it, or
+    `pull_back`."""
 
     def check(self, system: ContactSystem, swept: frozenset[str], solver: str) -> None:
         """Raise `CaseError` if the effect cannot serve this contact.
@@ -87,6 +88,29 @@ class Effect(Component):
         order in its length. Those of several effects multiply each other.
         """
         return 1.0
+
+    def pull_back(
+        self, contact: ContactConditions, cotangents: Mapping[str, Mapping[str, Array]]
+    ) -> Mapping[str, Array | float]:
+        """Return the derivatives of a number in what `fields` follow: a vector-Jacobian product.
+
+        Optional: with it gradients go through fields that reach across the contact.
+
+        Parameters
+        ----------
+        contact : ContactConditions
+            As in `fields`.
+        cotangents : Mapping[str, Mapping[str, ndarray]]
+            The derivatives of the number in each provided field, by body, shape (nx, ny).
+
+        Returns
+        -------
+        Mapping[str, ndarray or float]
+            By path in `contact` or the configuration, such as ``"pressure"``, ``"state.film"``,
+            ``"fields.friction_coefficient.ball"``, ``"system.materials.ball.young"``, ``"width"``.
+            What is left out has the derivative 0.
+        """
+        raise NotImplementedError
 
     def state_rates(self, contact: ContactConditions) -> Mapping[str, Array]:
         """Return by how much each state field changes per second.

@@ -11,6 +11,8 @@ import numpy as np
 from tribo.core.arrays import Array, Mask
 from tribo.core.fields import ContactConditions
 from tribo.core.grid import Grid
+from tribo.core.material import Material
+from tribo.effects.effect import Effect
 from tribo.guards.answers import initial
 from tribo.guards.parts import GuardedEffect
 from tribo.testing import samples
@@ -33,8 +35,9 @@ _LONGEST = 60.0
 """Time for which a state has been there at most, in s."""
 _FAR = 100.0
 _FINER, _ROUND_OFF = 0.1, 1e-9
-_VARIED, _SLIGHT = 1e-3, 1e-6
-"""Part by which a cell is varied, and of an answer that beyond `reach` may change: rounding."""
+_VARIED, _SLIGHT, _NUDGE = 1e-3, 1e-6, 1e-5
+"""Part by which a cell is varied, and of an answer that beyond `reach` may change: rounding; and
+part by which all that fields follow is varied."""
 
 
 class EffectChecks(LocalChecks):
@@ -187,6 +190,35 @@ class EffectChecks(LocalChecks):
                     needed = 0.5 * (more[name][body] - less[name][body])
                     expect_close(f"change of {name!r} by its slope", found, needed, 1e-4)
 
+    def product_is_that_of_differences(self) -> None:
+        """What `pull_back` answers are the derivatives of each field in all that it follows."""
+        apply_if(self._cls.pull_back is not Effect.pull_back, "it states no product")
+        pattern = samples.pattern(GRID.cells)
+        for given in self._samples():
+            told = mapped(given, lambda _, v: dict(v) if isinstance(v, Material) else v)
+            values = values_in(told) | values_in(self._config.model_dump())
+            less, more = (self._fields_beside(given, by) for by in (-_NUDGE, _NUDGE))
+            # Of all fields at once, in parts of what each of them has at most.
+            seeds = mapped(more, lambda _, v: pattern / (np.max(np.abs(v)) or 1.0))
+            found = self._make().pull_back(given, locked(seeds))
+            parts = (np.sum(by * _beside(values[path], 1.0)) for path, by in found.items())
+            ends = zip(*(values_in(each).values() for each in (seeds, less, more)), strict=True)
+            changes = (np.sum(seed * (high - low)) for seed, low, high in ends)
+            needed = float(sum(changes)) / (2 * _NUDGE)
+            expect_close("change of the fields by the product", float(sum(parts)), needed, 1e-3)
+
+    def _fields_beside(self, given: ContactConditions, by: float) -> Mapping[str, Any]:
+        """Return the fields where each number that they may follow differs by a part of itself."""
+
+        def other(_: object, value: Any) -> Any:
+            if isinstance(value, Material):
+                return Material.model_validate(mapped(dict(value), other))
+            return value + _beside(value, by) if isinstance(value, float | np.ndarray) else value
+
+        effect = self._cls.model_validate(mapped(self._config.model_dump(), other))
+        fields: Mapping[str, Any] = effect.fields(mapped(given, other))
+        return fields
+
     def fields_follow_no_wear(self) -> None:
         """Fields are the same with wear rates and without: wear follows from them."""
         effect = self._make()
@@ -212,6 +244,11 @@ class EffectChecks(LocalChecks):
 
         law = Reads(k=samples.ARCHARD.k)
         samples.run(lambda: samples.small_case(self._fields, law=law, effects=[self._make()]))
+
+
+def _beside(value: Any, by: float) -> Any:
+    """Return by how much a number is varied, each cell of an array by a part of its own."""
+    return by * value * (0.5 + samples.pattern(np.shape(value))) if np.ndim(value) else by * value
 
 
 def _varied(

@@ -13,6 +13,7 @@ swapped axes, a symmetry, or another zero of the gap: pressure_goes_with_the_gap
 a cell for a length or an area: finer_cells_change_little finer_cells_sample_the_same_surface
 a factor left out in one of the two: derivative_is_that_of_the_depth slopes_are_derivatives
 a factor or a sign left out in one of the two: curvature_is_that_of_the_heights
+a number or a sign left out in one of the two: product_is_that_of_differences
 a length left out in one of the two: compliance_is_the_average_of_a_linear_law
 shares of time for shares of the path, or another amplitude: speeds_share_the_path
 a sign, growth by itself, or no term that ends it: states_can_last

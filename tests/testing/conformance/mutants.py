@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import field_validator, model_serializer
 from testing.conformance.honest import Counts, Hill, Law, Motion, Solver
 from testing.conformance.models import Heating
+from testing.conformance.models_of_contact import Slip
 
 from tribo import (
     ContactSolver,
@@ -284,6 +285,29 @@ MUTANTS += wrong(
     ("declared_fields_have_units", {"provides": (Field("temperature", "", "Heat."),)}),
     ("only_declared_fields_are_asked_for", {"requires": ()}),
     ("runs_in_a_case", {"fields": failing_at_first}, RuntimeError),
+)
+
+
+def product(self, contact, cotangents):
+    body, friction = next(iter(contact.fields["friction_coefficient"].items()))
+    by = -sum(cotangents["local_slip"].values()) * self.slip(contact) ** 2 / self.strength
+    return {
+        "pressure": friction * by,
+        f"fields.friction_coefficient.{body}": contact.pressure * by,
+        "strength": -np.sum(friction * contact.pressure * by) / self.strength,
+    }
+
+
+def without(path):
+    return lambda *given: {key: by for key, by in product(*given).items() if path not in key}
+
+
+MUTANTS += wrong(
+    Slip,
+    *(
+        ("product_is_that_of_differences", {"pull_back": without(path)})
+        for path in ("pressure", "friction", "strength")
+    ),
 )
 
 # Observers.

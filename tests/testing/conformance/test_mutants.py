@@ -1,7 +1,8 @@
 """Every wrong implementation is caught, by the check that says what is wrong."""
 
 import pytest
-from testing.conformance.mutants import MUTANTS
+from testing.conformance.models_of_contact import Slip
+from testing.conformance.mutants import MUTANTS, product
 from testing.conformance.test_mistakes import FOUND
 
 from tribo.registry.kinds import KINDS
@@ -18,6 +19,11 @@ def test_a_mutant_is_caught_by_its_check(monkeypatch, name, mutant, raising):
     (checks,) = suites(mutant, [{}], {})
     with pytest.raises(raising):
         perform(checks, name)
+
+
+def test_a_product_that_is_right_is_none():
+    (checks,) = suites(type("Stated", (Slip,), {"pull_back": product}), [{}], {})
+    perform(checks, "product_is_that_of_differences")
 
 
 def test_there_are_mutants_of_every_kind():

@@ -68,8 +68,9 @@ class Cerruti:
     """Two half-spaces under tangential traction that is constant in each cell, in free space.
 
     The convolution is padded with zeros (DC-FFT), as that of the normal contact. Parameters are
-    those of `coefficients`, on a box, and the components: 1 for tractions along x alone, 2 for
-    both. With one an object is an `Operator` of `tribo.solve_bounded`.
+    those of `coefficients`, on a box; the components: 1 for tractions along x alone, 2 for both;
+    and by how much a rig in series gives way along x under a traction of 1 on one cell, in m/Pa.
+    With one component an object is an `Operator` of `tribo.solve_bounded`.
     """
 
     def __init__(
@@ -78,8 +79,9 @@ class Cerruti:
         spacing: tuple[float, float],
         compliances: tuple[float, float],
         components: int = 2,
+        rig: float = 0.0,
     ) -> None:
-        self.shape, self.spacing, self.components = shape, spacing, components
+        self.shape, self.spacing, self.components, self.rig = shape, spacing, components, rig
         self._padded = tuple(scipy.fft.next_fast_len(2 * n - 1, real=True) for n in shape)
         kernels = coefficients((self._padded[0], self._padded[1]), spacing, compliances)
         # Even in both, or odd in both: the spectra are real.
@@ -91,17 +93,21 @@ class Cerruti:
         self.typical = float(np.mean(self._symbols))
         """A mean eigenvalue, in m/Pa."""
         np.maximum(self._symbols, FLOOR * self.typical, out=self._symbols)
+        self._symbols[0, 0, 0] += rig * nx * ny
 
     def apply(self, traction: Array) -> Array:
         """Return the displacement (m) under a traction (Pa), (components, nx, ny) or (nx, ny)."""
         (nx, ny), (uxx, uyy, uxy) = self.shape, self._spectra
-        modes = scipy.fft.rfft2(traction, self._padded)
-        if traction.ndim == 2 or self.components == 1:
+        parts = traction.reshape(-1, nx, ny)
+        modes = scipy.fft.rfft2(parts, self._padded)
+        if len(parts) == 1:
             modes *= uxx
         else:
             one, other = modes
             modes = np.array([uxx * one + uxy * other, uxy * one + uyy * other])
-        return np.asarray(scipy.fft.irfft2(modes, self._padded)[..., :nx, :ny])
+        moved = scipy.fft.irfft2(modes, self._padded)[:, :nx, :ny]
+        moved[0] += self.rig * np.sum(parts[0])
+        return np.asarray(moved.reshape(traction.shape))
 
     def symbol(self) -> Array:
         """Return the eigenvalues of the periodic operator with the same near field, along x."""

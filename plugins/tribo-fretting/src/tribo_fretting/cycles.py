@@ -81,9 +81,8 @@ class SavedCycle:
         first = [(0.0, 0.0)]
         for part in np.linspace(0.0, 1.0, POINTS + 1)[1:]:
             amplitude, grid = float(part) * self.amplitude, self.result.grid
-            drag = first_loading(
-                self.motion, grid, self.materials, self.pressure, self.friction, amplitude
-            )
+            limit = self.friction * self.pressure
+            drag = first_loading(self.motion, grid, self.materials, limit, amplitude)
             force = float(np.sum(drag.traction[0])) * self.result.grid.cell_area
             rig = force / self.motion.stiffness if self.motion.stiffness else 0.0
             first.append((drag.displacement + rig, force))

@@ -1,12 +1,13 @@
-"""How a fretting contact is driven: amplitude, stages of it, the rig and its force."""
+"""What drags the contact: an amplitude, one or in stages, a rig, and a largest force."""
 
 from __future__ import annotations
 
-from itertools import pairwise
-from typing import Annotated, Literal
+from bisect import bisect_left
+from typing import Annotated, Literal, Self
 
-from pydantic import Discriminator, Tag, field_validator
+from pydantic import Tag, model_validator
 from tribo import Quantity, Table
+from tribo.kernel_api import NUMBER, ONE_OR_STAGES, STAGES, Held, held
 
 Amplitude = Annotated[float, Quantity("m", above=0, usual=(1e-10, 1e-3))]
 
@@ -24,8 +25,8 @@ class Drive(Table):
     """What drags a contact to and fro along x."""
 
     amplitude: Annotated[
-        Annotated[Amplitude, Tag("number")] | Annotated[tuple[AmplitudeStage, ...], Tag("stages")],
-        Discriminator(lambda value: "stages" if isinstance(value, list | tuple) else "number"),
+        Annotated[Amplitude, Tag(NUMBER)] | Annotated[tuple[AmplitudeStage, ...], Tag(STAGES)],
+        ONE_OR_STAGES,
     ]
     """How far the motion goes to each side: a number, or a list of stages, each a table with
     `until` and `amplitude`."""
@@ -41,30 +42,29 @@ class Drive(Table):
     allow_narrow_ring: bool = False
     """Whether a first contact is accepted whose ring of slip is narrower than four cells."""
 
-    @field_validator("amplitude")
-    @classmethod
-    def _rises(
-        cls, amplitude: float | tuple[AmplitudeStage, ...]
-    ) -> float | tuple[AmplitudeStage, ...]:
-        if isinstance(amplitude, float):
-            return amplitude
-        if not amplitude:
-            raise ValueError("the list is empty; give a number, or stages up to the end of the run")
-        for one, other in pairwise(stage.until for stage in amplitude):
-            if other <= one:
-                raise ValueError(
-                    f"times must increase from stage to stage, but {one:g} s is followed by "
-                    f"{other:g} s"
-                )
-        return amplitude
+    @model_validator(mode="after")
+    def _stages_rise(self) -> Self:
+        _ = self.held
+        return self
 
     @property
-    def stages(self) -> tuple[tuple[float, float], ...]:
-        """When each amplitude ends, in s, and the amplitude, in m; one is held for ever."""
-        if isinstance(self.amplitude, float):
-            return ((float("inf"), self.amplitude),)
-        return tuple((stage.until, stage.amplitude) for stage in self.amplitude)
+    def held(self) -> Held:
+        """The amplitudes, in m, and until when each is held, in s."""
+        return held("amplitude", self.amplitude)
 
     def amplitude_at(self, time: float) -> float:
         """Return the amplitude (m) up to a time, in s; the last one beyond."""
-        return next((held for end, held in self.stages if time <= end), self.stages[-1][1])
+        return self.held.rates[self._stage_at(time)]
+
+    def amplitude_path(self, time: float) -> str:
+        """Return the path to the amplitude up to a time, in s."""
+        one = isinstance(self.amplitude, float)
+        return "amplitude" if one else f"amplitude.{self._stage_at(time)}.amplitude"
+
+    def _stage_at(self, time: float) -> int:
+        return min(bisect_left(self.held.ends, time), len(self.held.ends) - 1)
+
+    @property
+    def components(self) -> int:
+        """How many components the traction has."""
+        return 2 if self.direction == "free" else 1

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from math import inf
 from typing import Annotated, Self
 
-import numpy as np
 from pydantic import ConfigDict, model_validator
-from tribo import CaseError, Effect, Exposure, Grid, Kinematics, Quantity, Stationary
+from tribo import Effect, Exposure, Grid, Kinematics, Quantity, Stationary
+from tribo.kernel_api import Held
 
 from tribo_fretting.drive import Drive
 from tribo_fretting.partial_slip import PartialSlip
@@ -40,40 +42,38 @@ class Fretting(Kinematics, Drive):
         return self
 
     @property
+    def _path(self) -> Held:
+        rates = tuple(4 * self.frequency * amplitude for amplitude in self.held.rates)
+        return replace(self.held, rates=rates)
+
+    @property
     def end_time(self) -> float:
         """Time at which the motion ends, in s."""
-        end = self.duration or (self.cycles or 0.0) / self.frequency
-        last = self.stages[-1][0]
-        if last < end * (1 - 1e-12):
-            raise CaseError(
-                f"the stages of the amplitude end at {last:g} s, before the run does at {end:g} s; "
-                "give them up to then",
-                "kinematics.amplitude",
-            )
-        return end
+        time = self.duration or (self.cycles or 0.0) / self.frequency
+        return self._path.end("amplitude", "m", time, None)
 
     @property
     def track_extent(self) -> float:
         """Length of the longest stroke, in m."""
-        return 2 * max(amplitude for _, amplitude in self.stages)
+        return 2 * max(self.held.rates)
 
     @property
     def lap(self) -> float:
         """Path of a cycle, in m; infinite where the amplitude changes."""
-        return np.inf if self.edges else 2 * self.track_extent
+        return inf if self.edges else 2 * self.track_extent
 
     @property
     def edges(self) -> Sequence[float]:
         """Times at which one stage of the amplitude ends and the next begins, in s."""
-        return [end for end, _ in self.stages[:-1]]
+        return [*self.held.ends[:-1]]
 
     def distance_at(self, time: float) -> float:
         """Return the path until `time`, in m."""
-        edges = (edge for edge in self.edges if edge < self.end_time)
-        times = np.array([0.0, *edges, self.end_time])
-        speeds = [4 * self.frequency * self.amplitude_at(end) for end in times[1:]]
-        path = np.concatenate([[0.0], np.cumsum(np.diff(times) * speeds)])
-        return float(np.interp(time, times, path))
+        return self._path.by(time)
+
+    def time_at(self, distance: float) -> float:
+        """Return the first time at which the path is that long (m), in s."""
+        return self._path.reached(distance)
 
     def coarsened(self, half_width_x: float) -> Kinematics:
         """Return the motion for a coarse grid, whose ring of slip is narrow."""

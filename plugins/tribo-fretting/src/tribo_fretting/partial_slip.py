@@ -21,6 +21,7 @@ from tribo_fretting.cerruti import dundurs_beta
 from tribo_fretting.drive import Drive
 from tribo_fretting.loading import first_loading
 from tribo_fretting.projected_cg import Drag
+from tribo_fretting.slip_adjoint import pulled_back
 
 TRACTION_X = Field("traction_x", "Pa", "Friction traction along x at the end of a stroke.")
 TRACTION_Y = Field("traction_y", "Pa", "Friction traction along y at the end of a stroke.")
@@ -79,18 +80,38 @@ class PartialSlip(Effect, Drive):
 
     def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
         """Return the slip per metre of the motion and the traction at the end of a stroke."""
-        friction = next(iter(contact.fields["friction_coefficient"].values()))
-        friction = np.broadcast_to(friction, contact.pressure.shape)
-        self._check_friction(contact, friction)
-        amplitude = self.amplitude_at(contact.time)
-        drag = first_loading(
-            self, contact.grid, contact.materials, contact.pressure, friction, amplitude
-        )
+        _, drag, amplitude = self._loaded(contact)
         if contact.distance == 0:
             _check_first_contact(contact, drag, self.allow_narrow_ring)
         slip = np.clip(drag.slip / amplitude, 0.0, 1.0)
         answers = zip(self.provides, (slip, *drag.traction), strict=True)
         return {field.name: dict.fromkeys(contact.materials, of) for field, of in answers}
+
+    def pull_back(
+        self, contact: ContactConditions, cotangents: Mapping[str, Mapping[str, Array]]
+    ) -> Mapping[str, Array | float]:
+        """Return derivatives in pressure, friction, elastic constants and numbers of the motion."""
+        limit, drag, amplitude = self._loaded(contact)
+        body, friction = next(iter(contact.fields["friction_coefficient"].items()))
+        names = [field.name for field in self.provides[: 1 + self.components]]
+        by = np.array([sum(cotangents[name].values()) for name in names])
+        by[0] = np.where(drag.slip < amplitude, by[0] / amplitude, 0.0)
+        by_limit, numbers = pulled_back(self, contact, limit, drag, by)
+        by_amplitude = numbers.pop("amplitude") - np.sum(by[0] * drag.slip) / amplitude
+        return {
+            "pressure": friction * by_limit,
+            f"fields.friction_coefficient.{body}": contact.pressure * by_limit,
+            self.amplitude_path(contact.time): by_amplitude,
+            **numbers,
+        }
+
+    def _loaded(self, contact: ContactConditions) -> tuple[Array, Drag, float]:
+        """Return the limit μp, the first loading and the amplitude."""
+        friction = next(iter(contact.fields["friction_coefficient"].values()))
+        self._check_friction(contact, friction)
+        limit, amplitude = friction * contact.pressure, self.amplitude_at(contact.time)
+        drag = first_loading(self, contact.grid, contact.materials, limit, amplitude)
+        return limit, drag, amplitude
 
     def _check_friction(self, contact: ContactConditions, friction: Array) -> None:
         cap, pressure = contact.system.cap, contact.pressure

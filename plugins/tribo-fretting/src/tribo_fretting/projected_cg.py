@@ -84,12 +84,12 @@ def dragged(
             return Drag(displacement, q, np.where(pressed, whole, _lengths(slip)), iteration)
         curved = np.where(sliding, outward / safe, 0.0)
         scale = pressed / np.sqrt(1 + curved / operator.typical)
-        z = _tangent(scale * operator.preconditioned(scale * residual), normal)
+        z = tangent(scale * operator.preconditioned(scale * residual), normal)
         if direction is None or not np.array_equal(sliding, was_sliding):
             direction = z
         else:
             beta = max(0.0, float(np.sum(z * (residual - before))) / decrease)
-            direction = z + beta * _tangent(direction, normal)
+            direction = z + beta * tangent(direction, normal)
         decrease, before, was_sliding = float(np.sum(residual * z)), residual, sliding
         response = operator.apply(direction)
         stiffness = np.sum(direction * (response + curved * direction))
@@ -109,7 +109,8 @@ def _lengths(vectors: Array) -> Array:
     return np.asarray(np.sqrt(np.sum(vectors**2, axis=0)))
 
 
-def _tangent(vectors: Array, normal: Array) -> Array:
+def tangent(vectors: Array, normal: Array) -> Array:
+    """Return vectors without what lies along a normal, all (components, nx, ny)."""
     return np.asarray(vectors - np.sum(vectors * normal, axis=0) * normal)
 
 

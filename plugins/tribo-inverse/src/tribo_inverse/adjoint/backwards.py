@@ -24,6 +24,7 @@ from tribo.kernel_api import (
 from tribo_inverse.adjoint.linear import StepSystem
 from tribo_inverse.adjoint.objective import Seeds
 from tribo_inverse.adjoint.parameters import Chain
+from tribo_inverse.increment.across import held
 from tribo_inverse.increment.carriers import carriers_between, carriers_of
 from tribo_inverse.increment.course import Before, Plain, plain
 from tribo_inverse.increment.remembering import Alone, Together
@@ -148,7 +149,7 @@ class Backwards:
 
     def __init__(self, model: Model, chains: Sequence[Chain], touched: Box) -> None:
         self.laws = {name: WatchedLaw(law) for name, law in model.laws.wear.items()}
-        self.model = model = model.with_laws(self.laws)
+        self.model = model = held(model.with_laws(self.laws))
         self.chains, self.touched = chains, touched
         cells, positions = model.grid.cells, len(model.cycle)
         self.shares = np.array([position.share for position in model.cycle])

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from tribo import Array
 
+from tribo_inverse.increment.across import Answer
 from tribo_inverse.increment.response import Arrays
 
 
@@ -15,7 +16,8 @@ class RateStage:
     """Rates where a part of an increment has `passed`, at states that are held to their limits.
 
     The rates are those at each cell of each position, and `means` those over each point of what
-    they change. `inside` tells by state where it was within its limits already.
+    they change. `inside` tells by state where it was within its limits already. Behind the rates
+    is what effects were told for their `answers`.
     """
 
     passed: float
@@ -23,3 +25,4 @@ class RateStage:
     inside: Sequence[Array]
     rates: Arrays
     means: Arrays
+    answers: Sequence[Sequence[Answer]]

@@ -10,6 +10,7 @@ import numpy as np
 from tribo import WORN_DEPTH, Array
 from tribo.kernel_api import CELLS, Memory, Part, Stretch, Values, over, own, retraced, transposed
 
+from tribo_inverse.increment.across import held_effects
 from tribo_inverse.increment.breaks import moved_breaks, with_breaks
 from tribo_inverse.increment.carriers import Carrier
 from tribo_inverse.increment.course import Before, Other
@@ -47,7 +48,7 @@ class _Along:
     def by_cell(self) -> Arrays:
         """The derivatives in the rates at each cell, shape (stages, positions, nx, ny)."""
         shares = over(self.stages.shares)
-        each = [self.stages.seen(seeds) for _, seeds in self.rates]
+        each = [self.stages.seen(*seeded) for seeded in self.rates]
         shape = self.rates[0][0].rates[0].shape
         return [
             np.stack([np.broadcast_to(shares * seed, shape) for seed in of_rate])
@@ -136,8 +137,10 @@ class Remembering:
             total += sum(float(np.sum(of)) * far for of, far in zip(by, deeper, strict=True))
         rates, moves = along.found, other.carriers is not self.stages.carriers
         if asks:
-            rates = others.rates(along.states, [stage.passed for stage, _ in along.rates])
+            rates = others.rates_at([stage for stage, _ in along.rates])
         if moves:
+            told = len(others.counts)
+            total += _dot(along.by_cell[told:], rates[told:], along.found[told:])
             return total + sum(
                 _dot(seeds, others.means([rate[i] for rate in rates]), stage.means)
                 for i, (stage, seeds) in enumerate(along.rates)
@@ -216,7 +219,7 @@ class Together(Remembering):
         Then `bodies` say all that the wear adds to the system of a step.
         """
         model = self.stages.model
-        if len(model.cycle) > 1 or model.laws.filling:
+        if len(model.cycle) > 1 or model.laws.filling or held_effects(model):
             return False
         if any(kept.weights is not None for kept in self.stages.kept):
             return False

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain, zip_longest
 from typing import NamedTuple
 
 import numpy as np
 from tribo import WORN_DEPTH, Array, CaseError
+from tribo import Field as FieldDeclaration
 from tribo.kernel_api import CELLS, over
 
+from tribo_inverse.increment.across import Answer, held, held_effects
 from tribo_inverse.increment.carriers import Carrier
 from tribo_inverse.increment.rate_stage import RateStage
 from tribo_inverse.increment.response import (
@@ -47,6 +50,7 @@ class Slopes(RateStage):
     by_pressure: Sequence[Response]
     by_state: Sequence[Sequence[Response]]
     by_factor: Sequence[Sequence[Response]]
+    by_field: Sequence[Mapping[str, Mapping[str, Sequence[Response]]]]
 
 
 @dataclass(frozen=True)
@@ -61,14 +65,24 @@ class Sloping(Stages):
     @cached_property
     def reach(self) -> Reach:
         """How far points follow each other, as the effects declare it."""
-        effects = [effect.component for effect in self.model.laws.effects]
+        across = held_effects(self.model)
+        if across and len(self.model.cycle) > 1:
+            raise CaseError(
+                f"{across[0]} reaches across the contact, and no gradient goes through that at "
+                'several positions; set kinematics.positions = "average"',
+                "kinematics.positions",
+            )
+        # Of those that state a product only the rates of their states follow what is near.
+        asked = (e for e in self.model.laws.effects if e not in across or e.state_fields)
+        effects = [effect.component for effect in asked]
         declared = [effect.reach for effect in effects]
         cells = [reach for reach in declared if isinstance(reach, tuple)]
         alone, whole = [ALONE] * len(self.begin), "contact" in declared
         if silent := [repr(effect.type) for effect in effects if effect.reach is None]:
             raise CaseError(
                 f"{', '.join(silent)} does not declare its reach, which a gradient needs; let its "
-                'class say reach = "point", reach = "contact", or cells along x and y as (1, 1)',
+                'class say reach = "point", reach = "contact", or cells along x and y as (1, 1); '
+                "or let it state pull_back",
                 "effects",
             )
         if not cells:
@@ -93,16 +107,31 @@ class Sloping(Stages):
         """Return stages with their derivatives."""
         if not self.model.laws.effects:
             return self._sloped(stages, self.reach)
-        return [self._sloped([stage], self.reach)[0] for stage in stages]
+        return [self.holding(stage)._sloped([stage], self.reach)[0] for stage in stages]
 
-    def seen(self, seeds: Sequence[Field]) -> list[Field]:
-        """Return derivatives in the rates of each cell from those in their means over points."""
-        return [
+    def seen(self, slopes: Slopes, seeds: Sequence[Field]) -> list[Field]:
+        """Return derivatives in the rates of each cell from those in their means over points.
+
+        After them come those in what effects were told, the last ones first gone through.
+        """
+        found = [
             carrier.part(self.box) * carrier.seen(seed, self.box)
             if isinstance(seed, np.ndarray)
             else seed
             for carrier, seed in zip((*self.own, *self.kept), seeds, strict=True)
         ]
+        end = len(slopes.rates)
+        found += [0.0] * (end - len(found))
+        answers, zero = chain(*slopes.answers), np.zeros((1, *self.box.shape))
+        for answer, by_field in reversed([*zip(answers, slopes.by_field, strict=True)]):
+            cotangents = {
+                name: {body: (zero + back(found, by))[0] for body, by in of_bodies.items()}
+                for name, of_bodies in by_field.items()
+            }
+            told = answer.back(cotangents)
+            found[end - len(told) : end] = told
+            end -= len(told)
+        return found
 
     def behind(self, slopes: Slopes, seeds: Sequence[Field]) -> tuple[list[Field], list[Field]]:
         """Return derivatives in what rates follow, from those in the rates of depths and states.
@@ -110,7 +139,7 @@ class Sloping(Stages):
         The first are in the pressure of each cell, the load and Σp²/2 of each position, still by
         cell, and factors on the bodies' rates; the second in the states.
         """
-        seen = self.seen(seeds)
+        seen = self.seen(slopes, seeds)
 
         def through(slopes: Sequence[Field]) -> Field:
             pairs = zip(seen, slopes, strict=True)
@@ -149,12 +178,17 @@ class Sloping(Stages):
         ]
         by_pressure = self._by_pressure(states, passed, rates, reach.pressure)
         by_factor = self._by_factor(states, passed, rates, reach.pressure or ALONE)
+        answers = stages[0].answers
+        by_field = [
+            self._by_field(answer, answers, states, passed, rates) for answer in chain(*answers)
+        ]
         return [
             Slopes(
                 **vars(stage),
                 by_pressure=_at(i, by_pressure),
                 by_state=[_at(i, responses) for responses in by_state],
                 by_factor=[_at(i, responses) for responses in by_factor],
+                by_field=by_field,
             )
             for i, stage in enumerate(stages)
         ]
@@ -210,7 +244,7 @@ class Sloping(Stages):
             return [
                 [
                     Response(rate if body == name else 0.0)
-                    for body, rate in zip(bodies, found, strict=True)
+                    for body, rate in zip_longest(bodies, found)
                 ]
                 for name in names
             ]
@@ -225,6 +259,36 @@ class Sloping(Stages):
             far = _on(carrier, reach)
             of_bodies.append(near(rates, found, ones, ASIDE * ones, far, seen))
         return of_bodies
+
+    def _by_field(
+        self,
+        answer: Answer,
+        answers: Sequence[Sequence[Answer]],
+        states: Arrays,
+        passed: Sequence[float],
+        found: Arrays,
+    ) -> dict[str, dict[str, Sequence[Response]]]:
+        """Return the responses to the fields of an answer, by field and body."""
+
+        def response(field: FieldDeclaration, body: str) -> Sequence[Response]:
+            of_bodies = answer.fields[field.name]
+
+            def rates(values: Array) -> Arrays:
+                fields = {**answer.fields, field.name: {**of_bodies, body: values[0]}}
+                other = replace(answer, fields=fields)
+                given = [[other if each is answer else each for each in of] for of in answers]
+                return self.rates(states, passed, model=held(self.model, given))
+
+            values = of_bodies[body][None]
+            step = ASIDE * (float(np.max(np.abs(values))) or 1.0)
+            most = np.inf if field.at_most is None else field.at_most
+            nudge = np.where(values + step > most, -step, step)
+            return _at(0, near(rates, found, values, nudge, ALONE))
+
+        return {
+            field.name: {body: response(field, body) for body in answer.fields[field.name]}
+            for field in answer.effect.provides
+        }
 
     def _seen_by(self, carrier: Carrier) -> Callable[[Array], Array]:
         return lambda own: carrier.seen(own, self.box)

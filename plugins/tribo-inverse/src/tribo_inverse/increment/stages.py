@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from tribo import Array, Box, ContactSolution, LocalConditions
@@ -23,6 +24,7 @@ from tribo.kernel_api import (
     with_loads,
 )
 
+from tribo_inverse.increment.across import held, held_effects
 from tribo_inverse.increment.carriers import Carrier, carriers_between
 from tribo_inverse.increment.course import pressed, stacked
 from tribo_inverse.increment.rate_stage import RateStage
@@ -118,7 +120,7 @@ class Stages:
         increment: over all of one in many parts that may be far beyond what it is.
         """
         nudges, lengths = [], over(np.array([*map(self.part_after, passed)]))
-        for state, rate, of in zip(states, rates[len(self.own) :], self.limits, strict=True):
+        for state, rate, of in zip(states, rates[len(self.own) :], self.limits, strict=False):
             largest = np.max(np.abs(state), CELLS, keepdims=True)
             fastest = over(np.max(np.abs(rate), (-3, *CELLS)))
             most = np.maximum(largest, lengths * fastest)
@@ -139,7 +141,7 @@ class Stages:
 
     def means(self, rates: Arrays) -> Arrays:
         """Return the mean rates of the depths and of what is remembered, where these lie."""
-        pairs = zip(self.counts, rates, strict=True)
+        pairs = zip(self.counts, rates, strict=False)
         return [carrier.gathered(counts * rate, self.box) for (carrier, counts), rate in pairs]
 
     def embedded(self, values: Array) -> Array:
@@ -150,10 +152,11 @@ class Stages:
 
     def at(self, states: Sequence[Array], passed: float) -> RateStage:
         """Return the stage at some states, where a part of the increment has passed."""
-        held = self.held(states)
-        inside = [given == kept for given, kept in zip(states, held, strict=True)]
-        rates = [each[0] for each in self.rates([state[None] for state in held], [passed])]
-        return RateStage(passed, held, inside, rates, self.means(rates))
+        within = self.held(states)
+        inside = [given == kept for given, kept in zip(states, within, strict=True)]
+        rates = [each[0] for each in self.rates([state[None] for state in within], [passed])]
+        answers = [[*effect.noted] for effect in held_effects(self.model)]
+        return RateStage(passed, within, inside, rates, self.means(rates), answers)
 
     def told(self, passed: Sequence[float], pressure: Array | None = None) -> Array:
         """Return the pressures that laws are told at some stages, (stages, positions, nx, ny).
@@ -181,7 +184,8 @@ class Stages:
     ) -> Arrays:
         """Return the rates at each position at some stages, (stages, positions, nx, ny).
 
-        Laws are pointwise: where there are no effects they are asked of all stages at once.
+        Behind them is what effects that state a product were told. Laws are pointwise: where there
+        are no effects they are asked of all stages at once.
 
         Parameters
         ----------
@@ -207,6 +211,22 @@ class Stages:
             each[0] if len(each) == 1 else np.concatenate(each) for each in zip(*found, strict=True)
         ]
 
+    def holding(self, stage: RateStage) -> Self:
+        """Return the same with effects that state a product and answer as at a stage."""
+        if not stage.answers:
+            return self
+        return replace(self, model=held(self.model, stage.answers))
+
+    def rates_at(self, stages: Sequence[RateStage]) -> Arrays:
+        """Return the rates at stages whose answers are held."""
+        if not self.model.laws.effects:
+            return self.rates(together([s.states for s in stages]), [s.passed for s in stages])
+        each = [
+            self.holding(stage).rates([state[None] for state in stage.states], [stage.passed])
+            for stage in stages
+        ]
+        return [np.concatenate(of_stages) for of_stages in zip(*each, strict=True)]
+
     def _loaded(
         self, contacts: Sequence[ContactSolution], passed: float
     ) -> Sequence[ContactSolution]:
@@ -219,7 +239,11 @@ class Stages:
         memory = self.slid.before.with_values(state[0] for state in states)
         moment = self.slid.interval.at(passed[0])
         shown = told[0] if self.box.is_window else self.embedded(told[0])
+        for effect in held_effects(model):
+            effect.noted.clear()
         rates = stacked(model, pressed(self.contacts, shown), memory, moment)
+        answers = (answer for effect in held_effects(model) for answer in effect.noted)
+        rates += [value[None] for answer in answers for value in answer.told.values()]
         return [each[(None, slice(None), *self.box.slices)] for each in rates]
 
     def _of_laws(

@@ -1,0 +1,199 @@
+"""The gradient of a run through fields that reach across the contact, by their stated products."""
+
+import numpy as np
+import pytest
+from gradient_effects import Heat, Softens
+from gradients import CLOSE, LONG, SHAPE, TIGHT, Kind, difference, few, resolved, run
+from paper_models import K, archard, motion, pair
+from tribo.case import Case
+from tribo.core.errors import CaseError
+from tribo.core.fields import FRICTION_COEFFICIENT
+from tribo.effects.effect import Effect
+from tribo.simulation.march import begin, march
+from tribo.simulation.positions import composed
+from tribo.wear.running_in import RunningIn
+
+from tribo_inverse.adjoint.gradient import gradient
+from tribo_inverse.adjoint.objective import Depth, Seeds, Volume
+
+
+class Rubs(Effect):
+    """Friction that falls with the pressure of each point."""
+
+    type = "rubs"
+    reach = "point"
+    most: float = 0.5
+    falls: float = 1e9
+    provides = (FRICTION_COEFFICIENT,)
+
+    def fields(self, contact):
+        friction = self.most / (1 + contact.pressure / self.falls)
+        return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
+
+
+class Flows(Heat):
+    """The heat of friction, which flows to each point from all around, and warms a bulk."""
+
+    type = "flows"
+    requires = ("friction_coefficient",)
+    reach = "contact"
+    strength: float = 2e-9
+
+    def blurred(self, contact, values):
+        waves = (np.fft.fftfreq(n) * n / 4 for n in values.shape)
+        decay = np.exp(-np.add.outer(*(wave**2 for wave in waves)))
+        return np.fft.ifft2(decay * np.fft.fft2(values)).real
+
+    def fields(self, contact):
+        friction = contact.fields["friction_coefficient"]["ball"]
+        source = friction * contact.pressure * contact.speed**0.5
+        found = self.strength * self.blurred(contact, source)
+        return {"temperature": dict.fromkeys(contact.materials, found + contact.state["bulk"])}
+
+    def pull_back(self, contact, cotangents):
+        by = sum(cotangents["temperature"].values())
+        friction = contact.fields["friction_coefficient"]["ball"]
+        source = self.strength * contact.speed**0.5 * self.blurred(contact, by)
+        total = float(np.sum(source * friction * contact.pressure))
+        return {
+            "pressure": friction * source,
+            "fields.friction_coefficient.ball": contact.pressure * source,
+            "state.bulk": np.sum(by, keepdims=True),
+            "strength": total / self.strength,
+            "speed": 0.5 * total / contact.speed,
+        }
+
+
+FLOWS = [*SHAPE, *(f"effects.{name}" for name in ("0.most", "0.falls", "1.strength", "1.capacity"))]
+HOT = {"bodies": pair(Softens(k=K), archard()), "stepping": LONG}
+KINDS = {
+    "heat that flows": Kind(
+        run(effects=[Rubs(), Flows()], kinematics=motion(duration=4), **HOT),
+        Depth("ball"),
+        ["load.normal", *(f"kinematics.{of}" for of in ("frequency", "stroke")), *FLOWS],
+        1e-5,
+    ),
+    "at several speeds": Kind(
+        run(
+            effects=[Rubs(), Flows()],
+            kinematics=motion(duration=1, waveform="sinusoidal"),
+            **HOT,
+        ),
+        Volume("ball"),
+        ["load.normal", *FLOWS],
+        1e-5,
+    ),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+def test_it_is_that_of_the_same_steps(kind):
+    assert KINDS[kind].off() < CLOSE
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "left_out",
+    ["pressure", "fields.friction_coefficient.ball", "state.bulk", "strength", "speed"],
+)
+def test_each_part_of_a_product_counts(monkeypatch, left_out):
+    whole = Flows.pull_back
+
+    def part(self, contact, cotangents):
+        return {
+            path: by for path, by in whole(self, contact, cotangents).items() if path != left_out
+        }
+
+    monkeypatch.setattr(Flows, "pull_back", part)
+    assert KINDS["heat that flows"].off() > 10 * CLOSE
+
+
+def test_several_positions_are_refused():
+    case = run(effects=[Rubs(), Flows()], kinematics=resolved(duration=0.1), **HOT)
+    with pytest.raises(CaseError) as refused:
+        gradient(case, Volume("ball"), [])
+    assert refused.value.path == "kinematics.positions"
+
+
+STEEL = {"young": "207 GPa", "poisson": 0.3}
+
+
+def fretting(**motion):
+    """A ball of 10 mm on a flat under 100 N, in a few steps."""
+    pytest.importorskip("tribo_fretting")
+    moves = {"type": "fretting.motion", "frequency": "20 Hz", "cycles": 4e4, "tolerance": 1e-12}
+    return Case.model_validate(
+        {
+            "grid": {"size": "0.5 mm", "cells": 24},
+            "load": {"normal": "100 N"},
+            "friction": {"coefficient": 0.6},
+            "bodies": {
+                "ball": {
+                    "surface": {"type": "sphere", "radius": "10 mm"},
+                    "material": STEEL,
+                    "wear": archard(1e-15),
+                },
+                "flat": {"surface": {"type": "flat"}, "material": STEEL},
+            },
+            "kinematics": moves | motion,
+            "contact": TIGHT,
+            "stepping": few(nonlinear_tolerance=1e-13, depth_tolerance=0.03),
+        }
+    )
+
+
+RING = Depth("ball", 1.3e-4, 2e-5)
+"""A depth in the ring of slip."""
+
+
+def friction_energy(view):
+    """The work of friction by V = (k/μ) W, which holds for the law of Archard."""
+    case = view.model.case
+    factor = case.friction.coefficient / case.bodies["ball"].wear.k
+    volume, seeds = Volume("ball")(view)
+    return factor * volume, Seeds({"ball": factor * seeds.wear["ball"]})
+
+
+def answers(view):
+    return np.array([Volume("ball")(view)[0], RING(view)[0], view.state.friction_energy]), None
+
+
+FRETTING = {
+    "partial slip": {"amplitude": "2.2 um", "cycles": 1e5},
+    "free on a rig": {"amplitude": "5 um", "stiffness": "50 N/um", "direction": "free"},
+    "force held": {"amplitude": "4 um", "force_amplitude": "55 N"},
+    "gross slip": {"amplitude": "6 um", "cycles": 2e4},
+}
+PATHS = ["bodies.ball.wear.k", "friction.coefficient", "kinematics.amplitude", "load.normal"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", FRETTING)
+def test_depth_volume_and_energy_of_fretting_follow_each_number(name):
+    case = fretting(**FRETTING[name])
+    model = composed(case)
+    states = [accepted.state for accepted in march(model, begin(model))]
+    steps = [(state.time, state.distance) for state in states]
+    rig = FRETTING[name].keys() & {"stiffness", "force_amplitude"}
+    paths = [*PATHS, *(f"kinematics.{key}" for key in rig)]
+    found = [gradient(case, looks, paths) for looks in (Volume("ball"), RING, friction_energy)]
+    for path in paths:
+        direct = difference(model, steps, answers, {path: 1.0}, {}, 1e-5)
+        off = [
+            each.relative[path] - by / each.value for each, by in zip(found, direct, strict=True)
+        ]
+        assert np.max(np.abs(off)) < CLOSE
+
+
+@pytest.mark.slow
+def test_stages_friction_of_an_effect_and_memory_of_fretting_count():
+    stages = [{"until": f"{t} s", "amplitude": a} for t, a in ((400, "2.2 um"), (600, "3 um"))]
+    case = fretting(amplitude=stages, cycles=None, duration=600)
+    fresh = RunningIn(law=archard(5e-16), factor=4.0, over="50 MPa m")
+    ball = case.bodies["ball"].model_copy(update={"wear": fresh})
+    changes = {"bodies": {**case.bodies, "ball": ball}, "friction": None, "effects": (Rubs(),)}
+    paths = [f"kinematics.amplitude.{stage}.amplitude" for stage in (0, 1)]
+    paths += ["effects.0.most", "effects.0.falls", "bodies.ball.wear.over", "load.normal", *SHAPE]
+    paths = [path.replace("disk", "flat") for path in paths]
+    assert Kind(case.model_copy(update=changes), Volume("ball"), paths, 1e-5).off() < CLOSE
