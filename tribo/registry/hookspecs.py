@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from tribo.lab.heights import Heights
     from tribo.model.model import Model
     from tribo.result.read import Result
-    from tribo.verification.reference import Reference
 
 PROJECT = "tribo"
 """Name of the plugin manager."""
@@ -93,6 +92,7 @@ ITEMS: Mapping[str, type[Any]] = {
     "tribo_export_formats": ExportFormat,
     "tribo_height_formats": HeightFormat,
     "tribo_templates": CaseTemplate,
+    "tribo_cases": Path,
     "tribo_findings": Finding,
     "tribo_commands": Command,
 }
@@ -136,8 +136,8 @@ def tribo_templates() -> Iterable[CaseTemplate]:
 
 
 @hookspec
-def tribo_cases() -> Iterable[Reference]:
-    """Return problems with a known answer, for `tribo verify`."""
+def tribo_cases() -> Iterable[Path]:
+    """Return folders of validation cases, for `tribo verify`."""
     return ()
 
 

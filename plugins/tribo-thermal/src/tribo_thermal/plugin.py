@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from matplotlib.figure import Figure
-from tribo import Array, CaseTemplate, Component, LabRow, Reference, Result, hookimpl
+from tribo import Array, CaseTemplate, Component, LabRow, Result, hookimpl
 
 from tribo_thermal.arrhenius import Arrhenius
 from tribo_thermal.flash import TEMPERATURE, Flash
@@ -29,11 +29,9 @@ def tribo_templates() -> list[CaseTemplate]:
 
 
 @hookimpl
-def tribo_cases() -> tuple[Reference, ...]:
-    """Offer heat sources that come back on their track."""
-    from tribo_thermal.verification import REFERENCES
-
-    return REFERENCES
+def tribo_cases() -> tuple[Path, ...]:
+    """Offer cases of the contact temperature."""
+    return (Path(__file__).with_name("cases"),)
 
 
 def temperatures(result: Result) -> dict[str, Array]:
