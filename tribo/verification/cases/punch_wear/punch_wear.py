@@ -1,7 +1,5 @@
 """Flat punches that wear to an even pressure: the rate at which the rest decays."""
 
-from collections.abc import Callable
-
 import numpy as np
 
 import tribo
@@ -15,17 +13,6 @@ STEP, STEPS = 0.5, 16
 STEEL = tribo.Material(young="207 GPa", poisson=0.3)
 
 
-class Punch(tribo.Surface):
-    """A surface from a function."""
-
-    type = "verification.flat_punch"
-    heights: Callable[[tribo.Grid], tribo.Array]
-
-    def height(self, grid: tribo.Grid) -> tribo.Array:
-        """Return the function's heights."""
-        return self.heights(grid)
-
-
 def rate(
     inside: tribo.Mask,
     grid: tribo.Grid,
@@ -35,7 +22,7 @@ def rate(
     tilt: tribo.Array,
 ) -> float:
     """Return the slowest rate, from what is left of the pressure beside its mean."""
-    punch = Punch(heights=lambda _: np.where(inside, tilt, -1e-3))
+    punch = tribo.HeightMap(size=grid.size, heights=np.where(inside, tilt, -1e-3))
     motion = tribo.Unidirectional(speed=0.1, track_length=2e-3, distance=1.0)
     bodies = {
         "punch": tribo.Body(surface=punch, material=STEEL, wear=tribo.Archard(k=K)),

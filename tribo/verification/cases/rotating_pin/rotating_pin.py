@@ -12,20 +12,11 @@ CASES = {"even": (SPRINGS, 1e-4), "punch": (HALF_SPACE, 1e-4), "worn": (SPRINGS,
 """Contact and revolutions, after which the pressure is still the first one, or wears evenly."""
 
 
-class Disc(tribo.Surface):
-    """A flat end of radius 0.5 mm."""
-
-    type = "verification.disc"
-
-    def height(self, grid: tribo.Grid) -> tribo.Array:
-        """Return 0 on the disc."""
-        return np.where(np.hypot(*grid.mesh) < 0.5e-3, 0.0, -1e-3)
-
-
 def found(part: float) -> dict[str, float]:
     """Return the worn volume over k F s, less 1, by pressure and radius of the track."""
-    disc = Disc()
-    radius = np.sqrt(np.count_nonzero(disc.height(GRID) == 0) * GRID.cell_area / np.pi)
+    inside = np.hypot(*GRID.mesh) < 0.5e-3
+    disc = tribo.HeightMap(size=GRID.size, heights=np.where(inside, 0.0, -1e-3))
+    radius = np.sqrt(np.count_nonzero(inside) * GRID.cell_area / np.pi)
     volumes = {}
     for pressure, (contact, revolutions) in CASES.items():
         for radii in (1.25, 2.5, 5):
