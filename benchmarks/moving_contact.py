@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 from common import Row, Tables, main
+from moved import LOAD, RADIUS, WEAR_COEFFICIENT, on_flat, to_and_fro
 from scipy.optimize import brentq
 
 from tribo.closed_forms.ball_on_track import ball_on_track
@@ -25,9 +26,6 @@ from tribo.lab.scar import crown
 from tribo.motion.averaging_error import groove_excess
 from tribo.simulation.march import march
 from tribo.stepping.first_contact import first_contact
-from tribo.verification.moving import to_and_fro
-from tribo.verification.paper_bodies import BALL, LOAD, RADIUS, WEAR_COEFFICIENT, on_flat
-from tribo.wear.archard import Archard
 
 K = WEAR_COEFFICIENT
 STROKE = 2e-3
@@ -51,11 +49,10 @@ def compared(
     """Wear by the average and by the moving contact; compare them."""
     length = stroke * grid.spacing[0]
     model = on_flat(
-        BALL,
         grid,
         DcFft(tolerance=1e-7),
         load=load,
-        ball_law=Archard(k=ball_k),
+        ball_k=ball_k,
         flat_k=flat_k,
         track_length=length,
         distance=path,

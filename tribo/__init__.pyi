@@ -136,8 +136,6 @@ from tribo.units import mN as mN
 from tribo.units import ms as ms
 from tribo.units import nm as nm
 from tribo.units import um as um
-from tribo.verification.reference import Reference as Reference
-from tribo.verification.reference import Row as Row
 from tribo.wear.archard import Archard as Archard
 from tribo.wear.law import WearLaw as WearLaw
 from tribo.wear.modified import ModifiedLaw as ModifiedLaw

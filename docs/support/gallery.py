@@ -10,9 +10,10 @@ from typing import Any
 
 from IPython.display import Markdown
 
-from tribo import Result, Simulation, TriboWarning, load_case, templates
+from tribo import Result, Simulation, TriboWarning, load_case, templates, verification
 
 CASES = Path(os.environ["TRIBO_REPOSITORY"]) / "examples" / "gallery"
+VALIDATED = Path(verification.__file__).parent / "cases"
 TEMPLATES = Path(templates.__file__).parent
 Rows = Mapping[str, tuple[float, float, float]]
 """By quantity with its unit: published, tribo's, and by how many percent they may differ."""
@@ -20,11 +21,13 @@ Rows = Mapping[str, tuple[float, float, float]]
 
 def run(name: str, *changes: str) -> Result:
     """Run a case or template with `changes`, as ``"grid.cells=64"``."""
-    folder = TEMPLATES if name in templates.TEMPLATES else CASES
+    path = VALIDATED / name / "case.toml"
+    if not path.exists():
+        path = (TEMPLATES if name in templates.TEMPLATES else CASES) / f"{name}.toml"
     with warnings.catch_warnings():
         # What it warns of, the result has as notices.
         warnings.simplefilter("ignore", TriboWarning)
-        return Simulation(load_case(folder / f"{name}.toml", overrides=changes)).run()
+        return Simulation(load_case(path, overrides=changes)).run()
 
 
 def end(result: Result) -> Mapping[str, Any]:

@@ -39,25 +39,22 @@ def table(found: dict[str, Any]) -> Markdown:
 
 
 def _lines(rows: list[dict[str, Any]]) -> Iterator[str]:
-    yield "| Case | Quantity | Expected | Got | Error | Order (theory) | Verdict | Note |"
-    yield "| --- | --- | ---: | ---: | ---: | ---: | --- | --- |"
+    yield "| Case | Quantity | Expected | Got | Error | Order (theory) | Verdict | Kind | Reason |"
+    yield "| --- | --- | ---: | ---: | ---: | ---: | --- | --- | --- |"
     for (case, source), group in groupby(rows, lambda row: (row["case"], row["source"])):
         title = f"**{case}**<br>{source}"
         for row in group:
             order = f"{row['order']:.2f} ({row['theory']:g})" if row["order"] else NOTHING
             error = NOTHING if row["error"] is None else f"{row['error']:.1e}"
-            yield " | ".join(
-                [
-                    f"| {title}",
-                    row["quantity"].replace("|", "\\|"),
-                    _value(row["expected"], row["unit"]),
-                    _value(row["got"], row["unit"]),
-                    error,
-                    order,
-                    row["verdict"],
-                    f"{row['note']} |",
-                ]
-            )
+            kind = f"{row['kind']}, published" if row["published"] else row["kind"]
+            cells = [
+                title,
+                f"{row['quantity']} {row['solver']}".strip(),
+                _value(row["expected"], row["unit"]),
+                _value(row["got"], row["unit"]),
+                *(error, order, row["verdict"], kind, row["reason"]),
+            ]
+            yield f"| {' | '.join(cell.replace('|', '/') for cell in cells)} |"
             title = ""
 
 

@@ -1,6 +1,8 @@
 """`tribo verify`, as a user meets it."""
 
 import json
+import shutil
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -9,8 +11,9 @@ from tribo.cli.main import tribo
 from tribo.core.errors import CaseError, NumericalError
 from tribo.templates import template
 from tribo.verification import refinement, suite
-from tribo.verification.reference import Reference, Row
+from tribo.verification.suite import cases_in
 
+CASES = Path(suite.__file__).with_name("cases")
 SMALL = ["--set", "grid.cells=24", "--set", "grid.size=0.7 mm", "--set", "kinematics.duration=20"]
 SMALL += ["--set", "output.save_times=[]"]
 
@@ -27,13 +30,6 @@ def case(tmp_path):
 
 
 @pytest.fixture
-def failing(monkeypatch):
-    wrong = Row("depth", "m", 1.0, 1.1, 1e-3, note="none")
-    made_up = Reference("made up", "nowhere", lambda n, _: [wrong], (8,))
-    monkeypatch.setattr(suite, "REFERENCES", (made_up,))
-
-
-@pytest.fixture
 def studied_once(monkeypatch):
     """What makes the study of a case makes it for the first command only."""
     found, refine = [], refinement.refine
@@ -47,44 +43,63 @@ def studied_once(monkeypatch):
 
 
 def test_the_table_has_every_column_and_a_verdict():
-    done = invoke("--only", "full contact, one decay length")
+    done = invoke("wave_explicit")
     assert done.exit_code == 0, done.output
     for word in ("quantity", "expected", "got", "error", "order", "verdict"):
         assert word in done.stdout
     assert "tribo.closed_forms.sinusoid" in done.stdout
-    assert "0.99 (1)" in done.stdout
-    assert "4 hold, 0 fail, 0 need" in done.stdout
+    assert "1.01 (1)" in done.stdout
+    assert "2 hold, 0 fail, 0 need" in done.stdout
     assert max(map(len, done.stdout.splitlines())) <= 120
 
 
 def test_json_has_the_environment_and_a_row_for_each_quantity():
-    data = json.loads(invoke("--only", "Westergaard", "--json").stdout)
+    data = json.loads(invoke("westergaard_wave", "--json").stdout)
     assert {"python", "platform", "packages", "holds", "rows"} <= data.keys()
     assert data["holds"] is True
-    assert len(data["rows"]) == 3
     row = data["rows"][0]
-    assert (row["quantity"], row["unit"], row["theory"]) == ("peak pressure", "Pa", 2.0)
+    assert (row["case"], row["quantity"], row["unit"]) == ("westergaard_wave", "max pressure", "Pa")
+    assert (row["kind"], row["published"]) == ("closed form", False)
     assert row["got"] == pytest.approx(row["expected"], rel=1e-4)
-    assert row["order"] == pytest.approx(2.0, abs=0.2)
+    assert row["order"] == pytest.approx(row["theory"], abs=0.2)
     assert "Westergaard (1939)" in row["source"]
 
 
 @pytest.mark.parametrize("form", [[], ["--json"]])
-def test_a_check_that_fails_is_named_and_the_exit_code_3(failing, form):
-    done = invoke(*form)
+def test_a_row_that_fails_is_told_in_a_line_and_the_exit_code_is_3(tmp_path, form):
+    folder = shutil.copytree(cases_in(CASES / "archard_k")[0].folder, tmp_path / "mine")
+    expected = folder / "expected.toml"
+    expected.write_text(expected.read_text().replace("6.22e-07", "6.3e-07"))
+    done = invoke(tmp_path, *form)
     assert isinstance(done.exception, NumericalError)
     assert done.exception.exit_code == 3
-    assert "made up: depth" in str(done.exception)
+    (line,) = str(done.exception).splitlines()
+    for part in ("mine", "wear depth of pin", "6.3e-07 m", "6.22e-07", "Archard (1953)"):
+        assert part in line
     # The table is printed all the same.
-    assert "made up" in done.stdout
+    assert "mine" in done.stdout
     if form:
         assert json.loads(done.stdout)["rows"][0]["verdict"] == "fails"
 
 
-def test_no_such_check_says_which_there_are():
-    done = invoke("--only", "nonsense")
+def test_no_such_case_says_which_there_are():
+    done = invoke("hertz_bal1")
     assert isinstance(done.exception, CaseError)
-    assert "Hertz, circular" in str(done.exception)
+    assert "did you mean 'hertz_ball'?" in str(done.exception)
+
+
+def test_quick_takes_the_cases_that_say_so():
+    rows = json.loads(invoke("archard_k", "--quick", "--json").stdout)["rows"]
+    assert [row["case"] for row in rows] == ["archard_k"]
+    assert json.loads(invoke("hertz_ball", "--quick", "--json").stdout)["rows"] == []
+
+
+def test_coverage_fails_where_a_component_is_in_no_case():
+    done = invoke(CASES / "archard_k", "--coverage", "--json")
+    assert isinstance(done.exception, NumericalError)
+    missing = json.loads(done.stdout)["uncovered"]
+    assert "dcfft" in missing
+    assert not {"archard", "periodic", "flat", "unidirectional"} & set(missing)
 
 
 def test_a_case_gets_an_uncertainty_for_each_result(case, studied_once):
@@ -126,5 +141,5 @@ def test_where_values_diverge_nothing_is_quoted(case, studied_once):
 
 
 def test_options_that_do_not_go_together_are_refused(case):
-    assert invoke(case, "--only", "Hertz").exit_code == 2
+    assert invoke(case, "--quick").exit_code == 2
     assert invoke("--set", "grid.cells=8").exit_code == 2

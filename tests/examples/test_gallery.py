@@ -8,7 +8,11 @@ from tribo import load_case
 
 ROOT = Path(__file__).parents[2]
 PAGES = ROOT / "docs" / "gallery"
-CASES = sorted((ROOT / "examples" / "gallery").glob("*.toml"))
+CASES = {path.stem: path for path in (ROOT / "examples" / "gallery").glob("*.toml")} | {
+    path.parent.name: path
+    for path in (ROOT / "tribo" / "verification" / "cases").glob("*/case.toml")
+    if (PAGES / f"{path.parent.name}.md").exists()
+}
 INDEX = (PAGES / "index.md").read_text(encoding="utf-8")
 TESTS = sorted(page for page in PAGES.glob("*.md") if page.stem != "index")
 
@@ -17,10 +21,10 @@ def test_there_are_at_least_ten():
     assert len(TESTS) >= 10
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("case", CASES)
 def test_a_case_is_valid_and_has_a_page(case):
-    assert len(load_case(case).bodies) == 2
-    assert PAGES / f"{case.stem}.md" in TESTS
+    assert len(load_case(CASES[case]).bodies) == 2
+    assert PAGES / f"{case}.md" in TESTS
 
 
 @pytest.mark.parametrize("page", TESTS, ids=lambda path: path.stem)

@@ -2,22 +2,11 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
 from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.lab import ball, track
 
 R = 5e-3
-
-
-@pytest.mark.parametrize("d", [1e-6, 2e-3, 9e-3])
-def test_cap_volume_is_that_of_a_body_of_revolution(d):
-    h = ball.ball_cap_depth(d, R)
-    # z runs down from the pole; the section there has radius² z(2R − z).
-    volume, _ = quad(lambda z: np.pi * z * (2 * R - z), 0.0, h)
-    assert h * (2 * R - h) == pytest.approx(d**2 / 4, rel=1e-12, abs=0)
-    assert ball.ball_cap_volume(d, R) == pytest.approx(volume, rel=1e-10, abs=0)
-    assert ball.cap_diameter(volume, R) == pytest.approx(d, rel=1e-9, abs=0)
 
 
 @pytest.mark.parametrize(

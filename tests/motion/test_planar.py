@@ -8,7 +8,6 @@ from tribo import Case, CaseError, Grid, Planar, Simulation
 GRID = Grid((0.9e-3, 1.6e-3), (36, 64))
 STEEL = {"young": "210 GPa", "poisson": 0.3, "hardness": "40 GPa"}
 BALL = {"type": "sphere", "radius": "20 mm"}
-PIN = {"type": "pin", "radius": "0.16 mm", "edge": "0.1 mm"}
 SPRINGS, K, LOAD, TURNS = 2e14, 4e-14, 20.0, 100
 
 
@@ -28,40 +27,6 @@ def case(surface=BALL, positions=49, **motion):
         | given
         | motion,
     )
-
-
-def one_after_the_other(shape, radius, count):
-    """Wear in `count` places of each turn, from springs alone: pin and plate."""
-    (nx, ny), (dx, dy) = GRID.cells, GRID.spacing
-    turn = 2 * np.pi * (np.arange(count) + 0.5) / count
-    along, across = (
-        np.round(radius * part / step).astype(int)
-        for part, step in ((np.sin(turn), dx), (1 + np.cos(turn), dy))
-    )
-    pin, plate = np.zeros((nx, ny)), np.zeros((nx + 2 * along.max(), ny))
-    ranks = np.arange(1, shape.size + 1)
-    for _ in range(TURNS):
-        for i, j in zip(along.max() - along, across, strict=True):
-            gap = shape + pin + np.roll(plate, -j, axis=1)[i : i + nx]
-            heights = np.sort(gap, axis=None)
-            approach = (LOAD / (SPRINGS * dx * dy) + np.cumsum(heights)) / ranks
-            approach = approach[np.flatnonzero(approach > heights)[-1]]
-            worn = K * SPRINGS * np.maximum(approach - gap, 0) * 2 * np.pi * radius / count
-            pin += worn
-            plate[i : i + nx] += np.roll(worn, j, axis=1)
-    return pin, plate
-
-
-@pytest.mark.parametrize("surface", [BALL, PIN])
-def test_a_circle_wears_both_bodies_as_one_place_after_the_other_does(surface):
-    model = Simulation(case(surface)).model
-    gap = model.contact.gaps[0]
-    pin, plate = one_after_the_other(gap, 0.2e-3, 49)
-    result = Simulation(case(surface)).run()
-    last = len(result.times) - 1
-    for name, field, needed in (("pin", "wear_depth", pin), ("plate", "track_depth", plate)):
-        found = result.field(field, last, name)
-        np.testing.assert_allclose(found, needed, rtol=0, atol=0.01 * needed.max(), err_msg=name)
 
 
 TWO_TO_ONE = [(0, 0), (4e-4, 0), (4e-4, 2e-4), (0, 2e-4)]

@@ -7,7 +7,6 @@ from paper_models import (
     archard,
     flat,
     foundation,
-    half_space,
     last,
     named,
     small,
@@ -16,7 +15,6 @@ from paper_models import (
 )
 
 from tribo import CaseError, Effect, Field, Grid, Rotating, Unidirectional
-from tribo.verification.paper_bodies import Shape, drawn_radius
 
 K, LOAD, RADIUS = 3e-16, 100.0, 2e-3
 GRID = Grid((0.75e-3, 1e-3), (20, 25))
@@ -110,52 +108,3 @@ def test_an_axis_in_the_window_is_refused(motion):
 def test_an_axis_beside_the_window_is_not(motion, radius, breadth):
     grid = Grid((0.75e-3, breadth), (20, 25))
     small(grid=grid, kinematics=motion(speed=0.1, track_radius=radius, distance=1))
-
-
-def over_a_disc(radii, pressure):
-    """Return the mean path of a pin's points over that of its middle, weighted with a pressure."""
-    angle = 2 * np.pi * (np.arange(400) + 0.5) / 400
-    nodes, weights = np.polynomial.legendre.leggauss(80)
-    # r = sin u, so that a punch's pressure is finite.
-    u, weights = 0.25 * np.pi * (nodes[:, None] + 1), weights[:, None]
-    path = np.hypot(np.sin(u) * np.cos(angle), radii + np.sin(u) * np.sin(angle)) / radii
-    weights = weights * np.sin(u) * pressure(path, np.cos(u)) * np.cos(u)
-    return np.sum(weights * path) / np.sum(weights)
-
-
-PRESSURES = {
-    "even": lambda path, rise: np.ones_like(path),
-    "punch": lambda path, rise: np.ones_like(path) / rise,
-    "worn": lambda path, rise: 1 / path,
-}
-
-
-@pytest.mark.parametrize(
-    ("radii", "contact", "pressure", "percent", "revolutions"),
-    [
-        (1.25, foundation(), "even", 8.25, 1e-4),
-        (2.5, foundation(), "even", 2.01, 1e-4),
-        (5, foundation(), "even", 0.50, 1e-4),
-        (1.25, half_space(), "punch", 11.07, 1e-4),
-        (2.5, half_space(), "punch", 2.69, 1e-4),
-        (5, half_space(), "punch", 0.67, 1e-4),
-        (1.25, foundation(), "worn", -9.92, 1e6),
-        (2.5, foundation(), "worn", -2.09, 1e6),
-        (5, foundation(), "worn", -0.505, 1e6),
-    ],
-)
-def test_a_round_pin_loses_what_its_points_slide_of_a_straight_track(
-    radii, contact, pressure, percent, revolutions
-):
-    exact = over_a_disc(radii, PRESSURES[pressure])
-    assert 100 * (exact - 1) == pytest.approx(percent, abs=6e-3)
-    grid = Grid((1.1e-3, 1.1e-3), (48, 48))
-    inside = np.hypot(*grid.mesh) < 0.5e-3
-    middle = radii * drawn_radius(inside, grid)
-    kinematics = Rotating(speed=0.1, track_radius=middle, revolutions=revolutions)
-    disc = Shape(heights=lambda _: np.where(inside, 0.0, -1e-3))
-    pins = [named("pin", disc, steel(), archard(K)), named("disk", flat(), steel())]
-    state = last(small(grid=grid, bodies=pins, contact=contact, kinematics=kinematics))
-    volume = np.sum(state.bodies["pin"].wear) * grid.cell_area / (K * LOAD * state.distance)
-    # Error of the cells, 44 across the disc.
-    assert volume - 1 == pytest.approx(exact - 1, rel=2e-2)

@@ -15,7 +15,8 @@ from tribo.templates import template
 
 HOOKS = """
 from matplotlib.figure import Figure
-from tribo import CaseTemplate, ExportFormat, LabRow, Reference, Row
+from pathlib import Path
+from tribo import CaseTemplate, ExportFormat, LabRow
 
 def write(result, folder):
     folder.mkdir()
@@ -40,8 +41,7 @@ def tribo_templates():
 
 @hookimpl
 def tribo_cases():
-    rows = lambda level, placement: [Row("x", "m", 2.0, 2.5, 0.3, note="made up")]
-    return [Reference("case of {0}", "nowhere", rows, (1,))]
+    return [Path("{0}_cases")]
 """
 CHANGES = ("grid.cells=32", "grid.size=0.7 mm", "kinematics.duration=0.1", "output.save_times=[]")
 
@@ -140,9 +140,19 @@ def test_a_hook_that_fails_is_named_and_hurts_no_other(folder, instead, words):
     assert words.format(file=file) in message
 
 
-def test_verify_has_the_cases_of_every_plugin():
-    rows = json.loads(told("verify", "--only", "case of ", "--json"))["rows"]
-    found = {row["case"]: (row["expected"], row["got"], row["verdict"]) for row in rows}
-    assert found == {
-        f"case of {name}": (2.0, 2.5, "holds") for name in ("adds_a", "adds_b", "adds_c", "alone")
+def test_verify_has_the_cases_of_every_plugin_and_names_a_folder_without_any(folder):
+    names = ["adds_a", "adds_b", "adds_c"]
+    for name in names:
+        mine = folder / f"{name}_cases" / f"case_of_{name}"
+        mine.mkdir(parents=True)
+        (mine / f"case_of_{name}.py").write_text("def found(part): return {'x': 2.5}\n")
+        (mine / "expected.toml").write_text(
+            "title = 't'\nsource = 'nowhere'\nkind = 'measured'\npublished = true\n"
+            "[[expect]]\nquantity = 'x'\nvalue = 2.0\ntolerance = 0.3\nreason = 'made up'\n"
+        )
+    done = tribo("verify", "case_of_", "--json")
+    rows = json.loads(done.stdout)["rows"]
+    assert {row["case"]: (row["expected"], row["got"], row["verdict"]) for row in rows} == {
+        f"case_of_{name}": (2.0, 2.5, "holds") for name in names
     }
+    assert "alone_cases" in done.stderr

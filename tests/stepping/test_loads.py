@@ -1,12 +1,8 @@
 """A load that changes over time: volumes, contacts and bits."""
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
-from contact_problems import pressed
 from paper_models import (
-    FOUNDATION,
     K,
     archard,
     case,
@@ -37,15 +33,6 @@ def loaded(load, duration=20, **changes):
 
 def volumes(model, state):
     return [model.cycle.maps[name].volume(body.wear) for name, body in state.bodies.items()]
-
-
-@pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step=0.07)], ids=lambda s: s.type)
-def test_blocks_wear_the_sum_of_load_times_distance(stepping):
-    model = loaded(BLOCKS, stepping=stepping)
-    carried = 20 * 6 * SPEED + 100 * 14 * SPEED
-    state = last(model)
-    assert volumes(model, state) == pytest.approx([K * carried] * 2, rel=1e-10, abs=0)
-    assert state.load_distance == pytest.approx(carried, rel=1e-12, abs=0)
 
 
 def test_a_ramp_wears_the_integral_of_the_load_though_its_contacts_carry_that_at_each_end():
@@ -84,38 +71,6 @@ def depth_after(steps, load):
 def test_steps_under_a_ramp_are_of_first_order():
     exact, coarse, fine = (depth_after(steps, RAMP) for steps in (128, 8, 16))
     assert (coarse - exact) / (fine - exact) == pytest.approx(2, abs=0.35)
-
-
-def plain_loop(load, end, steps=700):
-    """Wear ball and disk by forward Euler, under a load (N) that is a function of time (s)."""
-    (nx, ny), (dx, dy) = GRID.cells, GRID.spacing
-    x, y = GRID.mesh
-    gap, ball, groove = 5e-3 - np.sqrt(25e-6 - x**2 - y**2), np.zeros((nx, ny)), np.zeros(ny)
-    times = end * np.linspace(0, 1, steps + 1) ** 1.5
-    for begin, after in pairwise(times):
-        total = load(0.5 * (begin + after)) / (dx * dy * FOUNDATION)
-        p = FOUNDATION * pressed((gap + ball + groove)[None], total)[0]
-        ball += K * SPEED * (after - begin) * p
-        groove += K * SPEED * (after - begin) * p.sum(axis=0) * dx / 2e-3
-    return ball, groove
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("stages", "load"),
-    [
-        (BLOCKS, lambda time: 20.0 if time < 6 else 100.0),
-        (RAMP, lambda time: np.interp(time, [0, 8, 60], [20, 100, 10])),
-    ],
-    ids=["blocks", "ramp"],
-)
-def test_both_bodies_wear_as_in_a_plain_loop(stages, load):
-    # At the default tolerance the depth is 0.8 % off, as that under a constant load is.
-    stepping = Implicit(depth_tolerance=1e-4, pressure_tolerance=5e-3)
-    state = last(loaded(stages, stepping=stepping))
-    for name, expected in zip(("ball", "disk"), plain_loop(load, 20.0), strict=True):
-        off = np.abs(state.bodies[name].wear - expected)
-        assert off.max() < 2e-3 * expected.max(), name
 
 
 @pytest.mark.slow

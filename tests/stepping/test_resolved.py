@@ -19,7 +19,7 @@ from paper_models import (
     states,
     steel,
 )
-from stroke import GRID, STROKE, plain_loop, resolved
+from stroke import GRID, STROKE, resolved
 
 from tribo import (
     CaseError,
@@ -44,24 +44,6 @@ from tribo.stepping.contacts import undeformed
 @pytest.fixture(scope="module")
 def every_cell():
     return last(resolved())
-
-
-@pytest.mark.slow
-def test_both_bodies_wear_as_in_a_plain_loop_over_the_cells_of_the_stroke(every_cell):
-    ball, disk = plain_loop(every_cell.distance, steps=500)
-    for found, expected in ((every_cell.bodies["ball"], ball), (every_cell.bodies["disk"], disk)):
-        assert found.wear.shape == expected.shape
-        assert np.max(np.abs(found.wear - expected)) < 5e-3 * expected.max()
-    # The ends of the groove differ from its middle, and the ball from the disk.
-    assert disk[22, 10] > 1.3 * disk[10, 10]
-
-
-@pytest.mark.slow
-def test_the_volumes_are_exact(every_cell):
-    asked = K * 100 * every_cell.distance
-    for name, body in every_cell.bodies.items():
-        volume = np.sum(body.wear) * GRID.cell_area
-        assert volume == pytest.approx(asked, rel=1e-12, abs=0), name
 
 
 @pytest.mark.slow

@@ -14,7 +14,6 @@ from tribo import (
     WearRate,
     hookimpl,
 )
-from tribo.core.fields import LocalConditions
 from tribo.core.material import Material
 from tribo.wear.modified import Scaled
 from tribo.wear.running_in import RunningIn, Smoothing
@@ -22,45 +21,6 @@ from tribo.wear.running_in import RunningIn, Smoothing
 STEEL = Material(young="207 GPa", poisson=0.3)
 K, PRESSURE = 1e-15, 40e6
 ARCHARD = Archard(k=K)
-
-
-def worn(law, distance, steps, pressure=PRESSURE):
-    """Depth under an even pressure by the classical Runge-Kutta method: no stepping of tribo."""
-    start = law.initial_state()
-    state = np.array([0.0, *start.values()])
-
-    def slope(values):
-        given = {name: np.full((1, 1), v) for name, v in zip(start, values[1:], strict=True)}
-        rate = law.rate(LocalConditions(np.full((1, 1), pressure), 0.1, STEEL, {}, given))
-        of_state = [float(rate.state_rates[name][0, 0]) for name in start]
-        return np.array([float(rate.depth_rate[0, 0]), *of_state])
-
-    step = distance / steps
-    for _ in range(steps):
-        a = slope(state)
-        b = slope(state + 0.5 * step * a)
-        c = slope(state + 0.5 * step * b)
-        state = state + step / 6 * (a + 2 * b + 2 * c + slope(state + step * c))
-    return state
-
-
-@pytest.mark.parametrize("pressure", [PRESSURE, 3 * PRESSURE])
-def test_running_in_costs_the_same_depth_under_any_pressure(pressure):
-    law = RunningIn(law=ARCHARD, factor=6, over="0.2 GPa m")
-    depth, work = worn(law, 20.0, 200, pressure)
-    fresh = 1 - np.exp(-pressure * 20 / 0.2e9)
-    assert depth == pytest.approx(K * pressure * 20 + 5 * K * 0.2e9 * fresh, rel=1e-6)
-    assert work == pytest.approx(20 * pressure)
-
-
-def test_smoothing_is_its_closed_form():
-    law = Smoothing(law=ARCHARD, factor=6, roughness="0.4 um", settled="0.1 um", depth="0.3 um")
-    depth, left = worn(law, 20.0, 200)
-    exact = 0.3e-6 * np.log(1 + 6 * (np.exp(K * PRESSURE * 20 / 0.3e-6) - 1))
-    assert depth == pytest.approx(exact, rel=1e-6)
-    assert left == pytest.approx(0.1e-6 + 0.3e-6 * np.exp(-exact / 0.3e-6), rel=1e-6, abs=0)
-    late = worn(law, 200.0, 2000)[0]
-    assert late - K * PRESSURE * 200 == pytest.approx(0.3e-6 * np.log(6), rel=1e-4)
 
 
 def test_a_surface_smoother_than_it_settles_at_is_refused():

@@ -11,78 +11,96 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tribo.cli.options import JSON, PATH, SET, echo_json
+from tribo.cli.options import JSON, SET, echo_json
 
 if TYPE_CHECKING:
     from tribo.core.data_table import DataTable
     from tribo.verification.convergence import Convergence
-    from tribo.verification.reference import Row
     from tribo.verification.refinement import Refinement
+    from tribo.verification.validation import Row, ValidationCase
 
 
 @click.command()
-@click.argument("case", required=False, type=PATH)
+@click.argument("case", required=False)
 @SET
-@click.option("--only", metavar="TEXT", help="Only checks with TEXT in their name or source.")
+@click.option("--quick", is_flag=True, help="Only cases that run in less than a second.")
+@click.option("--coverage", is_flag=True, help="List the components that no case uses.")
 @JSON
-def verify(case: Path | None, overrides: tuple[str, ...], only: str | None, as_json: bool) -> None:
-    """Compare this installation with closed forms, limits and other codes, in about a minute.
+def verify(
+    case: str | None, overrides: tuple[str, ...], quick: bool, coverage: bool, as_json: bool
+) -> None:
+    """Compare this installation with closed forms, other codes and measurements.
 
-    With CASE, run it on three grids and with three lengths of step instead,
-    and print the uncertainty to quote with its results.
+    CASE is the name of a case, or how names begin; a folder with cases of your own; or a
+    case file, which is run on three grids and with three lengths of step instead, for the
+    uncertainty to quote with its results.
 
     \b
     Example:
       tribo verify
-      tribo verify --only hertz
+      tribo verify hertz
+      tribo verify my_cases/
       tribo verify my.toml
 
-    Exit codes: 0 all holds, 2 bad input, 3 a check fails or a run of CASE does.
+    Exit codes: 0 all holds, 2 bad input, 3 a case fails or a run of a case file does.
     """
-    if case is not None:
-        if only is not None:
-            raise click.UsageError("--only chooses among the checks; leave it out with a CASE")
-        _verify_case(case, overrides, as_json)
+    if case is not None and (Path(case).suffix == ".toml" or Path(case).is_file()):
+        if quick or coverage:
+            raise click.UsageError("--quick and --coverage are of validation, not of a case file")
+        _study(Path(case), overrides, as_json)
+        return
+    if overrides:
+        raise click.UsageError("--set changes a case file; name one")
+    from tribo.verification.suite import called, cases_in, installed_cases
+
+    if case is not None and Path(case).is_dir():
+        cases = cases_in(Path(case))
     else:
-        if overrides:
-            raise click.UsageError("--set changes a CASE; name one")
-        _verify_installation(only, as_json)
+        cases = called(case or "", installed_cases())
+    if coverage:
+        _coverage(cases, as_json)
+    else:
+        _validate([each for each in cases if each.expected.quick or not quick], as_json)
 
 
-def _verify_installation(only: str | None, as_json: bool) -> None:
+def _coverage(cases: Sequence[ValidationCase], as_json: bool) -> None:
+    from tribo.core.errors import NumericalError
+    from tribo.verification.suite import uncovered
+
+    missing = uncovered(cases)
+    if as_json:
+        echo_json({"uncovered": missing})
+    if missing:
+        raise NumericalError(f"no case uses {', '.join(missing)}")
+    if not as_json:
+        click.echo(f"Every installed component is used by one of {len(cases)} cases.")
+
+
+def _validate(cases: Sequence[ValidationCase], as_json: bool) -> None:
     from tribo.cli.console import Console
-    from tribo.core.errors import CaseError, NumericalError
+    from tribo.core.errors import NumericalError
     from tribo.result.provenance import environment
-    from tribo.verification.suite import references
 
-    wanted = (only or "").casefold()
-    known_cases = references()
-    chosen = [known for known in known_cases if wanted in f"{known.case} {known.source}".casefold()]
-    if not chosen:
-        names = "; ".join(known.case for known in known_cases)
-        raise CaseError(f"no check has {only!r} in its name or source; there are: {names}")
-    rows = []
-    with _progress(len(chosen)) as tell:
-        for known in chosen:
-            tell(known.case)
-            rows += known.run()
+    rows: list[Row] = []
+    with _progress(len(cases)) as tell:
+        for case in cases:
+            tell(case.name)
+            rows += case.run()
     failed = [row for row in rows if row.verdict == "fails"]
     if as_json:
         found = {**environment(), "holds": not failed, "rows": [asdict(row) for row in rows]}
         echo_json(found)
     else:
-        for table in _suite_tables(rows):
+        for table in _tables(rows):
             Console().table(table)
         held = sum(row.verdict == "holds" for row in rows)
         absent = len(rows) - held - len(failed)
-        click.echo(f"{held} hold, {len(failed)} fail, {absent} need a code that is not installed.")
+        click.echo(f"{held} hold, {len(failed)} fail, {absent} need a solver not installed.")
     if failed:
-        raise NumericalError(
-            "these fail: " + "; ".join(f"{row.case}: {row.quantity}" for row in failed)
-        )
+        raise NumericalError("\n".join(map(str, failed)))
 
 
-def _verify_case(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
+def _study(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
     from tribo.cli.console import Console
     from tribo.config.load import load_case
     from tribo.simulation.run import Simulation
@@ -107,7 +125,7 @@ def _progress(total: int) -> Iterator[Callable[[str], None]]:
         yield lambda what: progress.update(task, advance=1, description=what)
 
 
-def _suite_tables(rows: Sequence[Row]) -> Iterator[DataTable]:
+def _tables(rows: Sequence[Row]) -> Iterator[DataTable]:
     """Yield a table for each case, with a row for each quantity."""
     from tribo.core.data_table import DataTable, Heading, TableRow
 
@@ -115,16 +133,14 @@ def _suite_tables(rows: Sequence[Row]) -> Iterator[DataTable]:
         *(Heading("quantity"), Heading("expected", form=".5g"), Heading("got", form=".5g")),
         *(Heading("error", form=".1e"), Heading("order"), Heading("verdict")),
     )
-    for (case, source), group in groupby(rows, lambda row: (row.case, row.source)):
-        lines, notes = [], []
+    for title, group in groupby(rows, lambda row: f"{row.case}: {row.title}, {row.source}"):
+        lines = []
         for row in group:
             order = None if row.order is None else f"{row.order:.2f} ({row.theory:g})"
-            verdict = row.verdict.replace("not installed", "absent")
-            name = _named(row.quantity, row.unit)
-            lines.append(TableRow((name, row.expected, row.got, row.error, order, verdict)))
-            if row.verdict == "fails" and row.note:
-                notes.append(f"{row.quantity}: {row.note}")
-        yield DataTable(f"{case}, {source}", headings, lines, notes, dense=True)
+            name = _named(row.quantity, row.unit) + (f", {row.solver}" if row.solver else "")
+            got = row.expected, row.got, row.error
+            lines.append(TableRow((name, *got, order, row.verdict)))
+        yield DataTable(title, headings, lines, dense=True)
 
 
 def _study_table(study: Refinement) -> DataTable:

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from tribo.lab.heights import Heights
     from tribo.model.model import Model
     from tribo.result.read import Result
-    from tribo.verification.reference import Reference
 
 PROJECT = "tribo"
 """Name of the plugin manager."""
@@ -97,6 +96,7 @@ ITEMS: Mapping[str, type[Any]] = {
     "tribo_export_formats": ExportFormat,
     "tribo_height_formats": HeightFormat,
     "tribo_templates": CaseTemplate,
+    "tribo_cases": Path,
     "tribo_findings": Finding,
     "tribo_commands": Command,
 }
@@ -146,8 +146,8 @@ def tribo_templates() -> Iterable[CaseTemplate]:
 
 
 @hookspec
-def tribo_cases() -> Iterable[Reference]:
-    """Return problems with a known answer, for `tribo verify`."""
+def tribo_cases() -> Iterable[Path]:
+    """Return folders of validation cases, for `tribo verify`."""
     return ()
 
 

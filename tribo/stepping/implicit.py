@@ -309,6 +309,8 @@ class Implicit(Scheme):
             worn = after.bodies[name].wear - before.bodies[name].wear
             lag = np.abs(worn - forward)
             scale = float(np.max(after.bodies[name].wear)) + FIRST * after.reference_depth
+            # Flat bodies that have not begun to wear have neither.
+            scale = scale or float(np.finfo(np.float64).tiny)
             late = _loaded_mean(
                 model, contacts, [model.cycle.maps[name].see(lag, m) for m in range(len(shares))]
             )

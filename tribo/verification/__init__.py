@@ -1,6 +1,6 @@
-"""What `tribo verify` runs: closed forms, limits, brute force, other codes.
+"""What `tribo verify` runs: validation cases, and the study of a user's own case.
 
-A `reference.Reference` is a problem with a known answer: a function from a
-level (cells, steps) to rows of expected and computed values. `suite.REFERENCES`
-lists them all. `refinement` estimates the errors of grid and steps in a user's case.
+A case is a folder with `case.toml`, or a script, and `expected.toml`: those of the kernel lie in
+`cases`. `expected` reads what a case must give, `validation` runs and judges it, `suite` collects
+the cases of the kernel and of packages. `refinement` estimates the errors of grid and steps.
 """

@@ -1,34 +1,64 @@
-"""All problems with a known answer."""
+"""All validation cases: those of the kernel, of the installed packages, and of a folder."""
 
 from __future__ import annotations
 
 import sys
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
 
-from tribo.core.errors import PluginError
+from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.all_plugins import from_all_plugins
 from tribo.registry.hookspecs import hookimpl
-from tribo.verification import codes, contacts, formulas, plasticity, punches, strokes, wear
-from tribo.verification.reference import Reference
-
-_MODULES = (contacts, plasticity, wear, punches, strokes, formulas)
-_FOUND = (value for module in _MODULES for value in vars(module).values())
-
-REFERENCES = (*(known for known in _FOUND if isinstance(known, Reference)), *codes.REFERENCES)
+from tribo.registry.registry import default_registry
+from tribo.verification.validation import ValidationCase
 
 
 @hookimpl(trylast=True)
-def tribo_cases() -> tuple[Reference, ...]:
-    """Offer the problems of the kernel."""
-    return REFERENCES
+def tribo_cases() -> tuple[Path, ...]:
+    """Offer the cases of the kernel."""
+    return (Path(__file__).with_name("cases"),)
 
 
-def references() -> list[Reference]:
-    """Return the problems of the kernel and those of the installed plugins.
-
-    `PluginError` if one of those is no `Reference`.
-    """
-    found = from_all_plugins("tribo_cases", sys.modules[__name__])
-    for each in found:
-        if not isinstance(each, Reference):
-            raise PluginError(f"a plugin's tribo_cases returns {each!r}, which is no Reference")
+def installed_cases() -> list[ValidationCase]:
+    """Return the cases of the kernel and of the installed packages."""
+    found: list[ValidationCase] = []
+    for folder in from_all_plugins("tribo_cases", sys.modules[__name__]):
+        try:
+            found += cases_in(folder)
+        except CaseError as error:
+            warnings.warn(f"{error}; its cases are left out", TriboWarning, stacklevel=2)
     return found
+
+
+def cases_in(folder: Path) -> list[ValidationCase]:
+    """Return the case that a folder is, or those in it; CaseError if there is none."""
+    folder = folder.resolve()
+    if (folder / "expected.toml").exists():
+        return [ValidationCase(folder)]
+    found = [ValidationCase(path.parent) for path in sorted(folder.glob("*/expected.toml"))]
+    if not found:
+        raise CaseError(
+            f"{folder} has no expected.toml, nor has a folder in it; write one as in "
+            "docs/verification.md"
+        )
+    return found
+
+
+def called(name: str, cases: list[ValidationCase]) -> list[ValidationCase]:
+    """Return the cases whose name begins so; CaseError if there is none."""
+    chosen = [case for case in cases if case.name.startswith(name)]
+    if not chosen:
+        names = [case.name for case in cases]
+        meant = suggestion(did_you_mean(name, names))
+        raise CaseError(f"no case is called {name!r}{meant} Cases: {', '.join(names)}")
+    return chosen
+
+
+def uncovered(cases: Sequence[ValidationCase]) -> list[str]:
+    """Return the types of installed components that no case uses."""
+    registry = default_registry()
+    registry.load_all()
+    used = {name for case in cases for name in case.types}
+    return sorted(set(registry.components) - used)

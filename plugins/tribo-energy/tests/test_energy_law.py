@@ -35,18 +35,6 @@ def rate(pressure, energy=0.0, **config):
     return law.rate(LocalConditions(pressure, 0.1, STEEL, fields, state))
 
 
-def test_friction_traction_is_mu_p_on_both_bodies():
-    answer = traction(PRESSURE)["friction_traction"]
-    np.testing.assert_allclose(answer["ball"], 0.1 * PRESSURE)
-    np.testing.assert_array_equal(answer["ball"], answer["disk"])
-
-
-def test_depth_is_alpha_times_the_energy_of_a_metre():
-    answer = rate(PRESSURE)
-    np.testing.assert_allclose(answer.depth_rate, 3.11e-15 * MU * PRESSURE)
-    np.testing.assert_allclose(answer.state_rates["dissipated_energy"], MU * PRESSURE)
-
-
 CONFIGS = [
     {},
     {"threshold_traction": "120 MPa"},
@@ -68,23 +56,3 @@ def test_derivative_is_that_of_depth_through_the_traction(config, energy):
         rtol=1e-9,
         atol=1e-9 * 3.11e-16,
     )
-
-
-def test_nothing_wears_below_the_threshold_traction():
-    depth = rate(PRESSURE, threshold_traction="120 MPa").depth_rate
-    assert np.all(depth[PRESSURE <= 1.2e9] == 0)
-    np.testing.assert_allclose(
-        depth[PRESSURE > 1.2e9], 3.11e-15 * (MU * PRESSURE[PRESSURE > 1.2e9] - 120e6)
-    )
-
-
-def test_the_onset_of_wear_costs_exactly_the_threshold_energy():
-    # Integrated over the energy of a point, depth/α is ΣE − E_th once the onset is over.
-    threshold, pressure = 1e9, np.full((1, 1), 1e9)
-    energy = np.linspace(0, 3e9, 3001)
-    per_energy = [
-        rate(pressure, e, threshold_energy=threshold).depth_rate[0, 0] / (3.11e-15 * MU * 1e9)
-        for e in energy
-    ]
-    assert per_energy[0] == 0
-    assert np.trapezoid(per_energy, energy) == pytest.approx(2e9, rel=1e-9)

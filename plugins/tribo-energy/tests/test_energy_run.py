@@ -83,21 +83,6 @@ def test_each_body_sees_all_the_energy_of_friction(energy):
 
 
 @pytest.mark.slow
-def test_wear_begins_at_the_threshold_energy():
-    threshold = 3e7
-    data = case(10, threshold_energy=threshold)
-    data |= {"grid": {"size": "0.5 mm", "cells": 16}, "contact": "winkler"}
-    del data["bodies"]["disk"]["wear"]
-    _, last, _ = run(data)
-    ball = last.state.bodies["ball"]
-    dissipated = ball.law["dissipated_energy"]
-    expected = ALPHA * np.maximum(dissipated - threshold, 0)
-    assert np.all(ball.wear[dissipated < 0.97 * threshold] == 0)
-    assert ball.wear.max() == pytest.approx(expected.max(), rel=1e-4)
-    np.testing.assert_allclose(ball.wear, expected, atol=0.003 * ball.wear.max())
-
-
-@pytest.mark.slow
 def test_a_threshold_traction_narrows_the_scar(energy):
     _, cut, _ = run(case(threshold_traction="20 MPa"))
     narrow, wide = (np.count_nonzero(r.state.bodies["ball"].wear) for r in (cut, energy[1]))

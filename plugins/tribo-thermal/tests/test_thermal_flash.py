@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from greens_function import moved_on, steady_cycle, to_and_fro
 from tribo import CaseError, ContactConditions, ContactSystem, Grid, Material
 
 from tribo_thermal.flash import Flash
-from tribo_thermal.verification import moved_on, steady_cycle, to_and_fro
 
 STEEL = {"young": "207 GPa", "poisson": 0.3}
 HEAT = {"conductivity": "46 W/(m K)", "density": "7850 kg/m^3", "heat_capacity": "460 J/(kg K)"}

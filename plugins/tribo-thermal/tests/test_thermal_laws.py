@@ -1,7 +1,5 @@
 """Rates of the laws that follow the temperature, without a run."""
 
-import math
-
 import numpy as np
 import pytest
 from tribo import CaseError, LocalConditions, Material
@@ -28,21 +26,6 @@ def arrhenius(energy="50 kJ/mol"):
 def softening(**config):
     given = {"K": 1.2e-6, "softening": "0.001 1/K", "reference_temperature": 300.0, **config}
     return Softening(**given)
-
-
-def test_arrhenius_is_archard_at_the_reference_temperature():
-    assert coefficient(arrhenius(), 363.15) == pytest.approx(3e-16, rel=1e-12, abs=0)
-
-
-def test_the_logarithm_of_k_falls_by_q_over_r_with_one_over_t():
-    law = arrhenius()
-    slope = math.log(coefficient(law, 400.0) / coefficient(law, 350.0)) / (1 / 400 - 1 / 350)
-    assert slope == pytest.approx(-50e3 / 8.314462618, rel=1e-9)
-
-
-def test_without_activation_energy_temperature_does_not_matter():
-    law = arrhenius("0 J/mol")
-    assert coefficient(law, 900.0) == coefficient(law, 300.0)
 
 
 @pytest.mark.parametrize("energy", ["50 kJ", "50 kPa/mol", "50 kJ/mol K", -1.0])

@@ -88,30 +88,10 @@ def test_one_temperature_shortens_the_stable_step_as_it_raises_the_rate():
     assert ratio == pytest.approx(faster(case(), 0), rel=2e-3)
 
 
-def test_without_activation_energy_it_is_archard():
-    for volume in lost(case("0 J/mol")).values():
-        assert volume == pytest.approx(3.11e-16 * 100 * 30, rel=1e-8, abs=0)
-
-
 def test_the_body_that_takes_the_heat_wears_more():
     volumes = lost(case(heat_fraction={"ball": 1.0, "disk": 0.0}))
     assert volumes["disk"] == pytest.approx(3.11e-16 * 100 * 30, rel=1e-8, abs=0)
     assert volumes["ball"] > 1.5 * volumes["disk"]
-
-
-def test_softening_runs_too():
-    data = case()
-    for body in data["bodies"].values():
-        body["material"]["hardness"] = "4 GPa"
-        body["wear"] = {
-            "type": "thermal.softening",
-            "K": 1.244e-6,
-            "softening": "0.001 1/K",
-            "reference_temperature": "90 degC",
-        }
-    # A rise of some 10 K costs some percent of the hardness.
-    for volume in lost(data).values():
-        assert 1.003 < volume / (3.11e-16 * 100 * 30) < 1.03
 
 
 def test_a_case_without_the_effect_is_refused():

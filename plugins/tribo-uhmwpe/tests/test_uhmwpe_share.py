@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tribo import LocalConditions, Material, Simulation, Surface
 
-from tribo_uhmwpe.cross_shear import FRESH, CrossShear
+from tribo_uhmwpe.cross_shear import CrossShear
 
 SIDE, PRESSURE = 0.4e-3, 1e6
 ALONG, ACROSS = 1e-15, 6.4e-15
@@ -45,28 +45,6 @@ def share(result, save, body):
     fields = ("slid_path", "slid_cosine", "slid_sine")
     path, *moments = (result.field(field, save, body)[10, 10] for field in fields)
     return 0.5 * (1 - np.hypot(*moments) / path)
-
-
-@pytest.mark.parametrize(
-    ("path", "extent", "across"),
-    [
-        ("circle", (4e-4, 4e-4), 1 / 2),
-        ("square", (4e-4, 4e-4), 1 / 2),
-        ("square", (4e-4, 2e-4), 1 / 3),
-        # Twice as long as wide, aslant.
-        ([(0, 0), (2.4e-4, 3.2e-4), (0.8e-4, 4.4e-4), (-1.6e-4, 1.2e-4)], None, 1 / 3),
-        ([(0, 0), (3e-4, 4e-4)], None, 0),
-    ],
-)
-def test_a_pin_wears_by_the_share_of_its_path_from_the_first_step_on(path, extent, across):
-    motion = {"type": "planar", "path": path, "extent": extent, "positions": 12}
-    k = ALONG + (ACROSS - ALONG) * across
-    with run({**motion, "speed": 12e-3}) as result:
-        for save in (1, 2):
-            assert share(result, save, "pin") == pytest.approx(across, abs=1e-9)
-            exact = k * PRESSURE * result.saves()[save]["distance_m"]
-            depth = result.field("wear_depth", save, "pin")[10, 10]
-            assert depth == pytest.approx(exact, rel=1e-9, abs=ACROSS * PRESSURE * FRESH)
 
 
 def test_a_fresh_point_wears_as_along_a_straight_path():

@@ -22,6 +22,12 @@ def tribo_components() -> tuple[type[Component], ...]:
 
 
 @hookimpl
+def tribo_cases() -> tuple[Path, ...]:
+    """Offer the validation cases of this package."""
+    return (Path(__file__).with_name("cases"),)
+
+
+@hookimpl
 def tribo_templates() -> list[CaseTemplate]:
     """Offer the paper's test, worn by dissipated energy."""
     summary = "the paper's test, worn by dissipated energy"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from tribo import Component, LabRow, Result, hookimpl
 
 from tribo_film.mixed import RATIO, Mixed
@@ -14,6 +16,12 @@ SHALLOW = 1.0
 def tribo_components() -> tuple[type[Component], ...]:
     """Offer mixed lubrication."""
     return (Mixed,)
+
+
+@hookimpl
+def tribo_cases() -> tuple[Path, ...]:
+    """Offer the validation cases of this package."""
+    return (Path(__file__).with_name("cases"),)
 
 
 @hookimpl

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -22,6 +23,12 @@ COUPLED = 0.02
 def tribo_components() -> tuple[type[Component], ...]:
     """Offer the motion of fretting, and the partial slip that it brings along."""
     return (Fretting, PartialSlip)
+
+
+@hookimpl
+def tribo_cases() -> tuple[Path, ...]:
+    """Offer the validation cases of this package."""
+    return (Path(__file__).with_name("cases"),)
 
 
 @hookimpl

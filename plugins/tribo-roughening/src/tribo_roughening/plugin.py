@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from tribo import Component, hookimpl
 
 from tribo_roughening.detachment import Detachment
@@ -11,3 +13,9 @@ from tribo_roughening.detachment import Detachment
 def tribo_components() -> tuple[type[Component], ...]:
     """Offer wear in particles."""
     return (Detachment,)
+
+
+@hookimpl
+def tribo_cases() -> tuple[Path, ...]:
+    """Offer the validation cases of this package."""
+    return (Path(__file__).with_name("cases"),)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
-from tribo import Array, CaseTemplate, Column, Component, Reference, Result, hookimpl
+from tribo import Array, CaseTemplate, Column, Component, Result, hookimpl
 
 from tribo_thermal.arrhenius import Arrhenius
 from tribo_thermal.flash import TEMPERATURE, Flash
@@ -30,11 +30,9 @@ def tribo_templates() -> list[CaseTemplate]:
 
 
 @hookimpl
-def tribo_cases() -> tuple[Reference, ...]:
-    """Offer heat sources that come back on their track."""
-    from tribo_thermal.verification import REFERENCES
-
-    return REFERENCES
+def tribo_cases() -> tuple[Path, ...]:
+    """Offer cases of the contact temperature."""
+    return (Path(__file__).with_name("cases"),)
 
 
 def temperatures(result: Result) -> dict[str, Array]:

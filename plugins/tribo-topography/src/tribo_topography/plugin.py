@@ -19,6 +19,12 @@ def tribo_components() -> tuple[type[Component], ...]:
 
 
 @hookimpl
+def tribo_cases() -> tuple[Path, ...]:
+    """Offer the validation cases of this package."""
+    return (Path(__file__).with_name("cases"),)
+
+
+@hookimpl
 def tribo_export_formats() -> list[ExportFormat]:
     """Offer the worn surfaces as points."""
     return [ExportFormat("xyz", "the worn surfaces as points, in m", export_xyz)]

@@ -1,0 +1,157 @@
+"""Every validation case holds, uses what is installed, and can fail."""
+
+import shutil
+
+import pytest
+
+from tribo.core.errors import CaseError
+from tribo.verification import suite, validation
+from tribo.verification.suite import cases_in, installed_cases, uncovered
+from tribo.verification.validation import ValidationCase
+
+CASES = installed_cases()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_a_case_holds(case):
+    rows = list(case.run())
+    assert not [str(row) for row in rows if row.verdict == "fails"]
+
+
+def test_every_installed_component_is_used_by_a_case():
+    assert uncovered(CASES) == []
+
+
+def test_names_are_unique_and_each_row_tells_its_order_or_why_it_has_none():
+    assert len({case.name for case in CASES}) == len(CASES)
+    for case in CASES:
+        assert all(row.reason for row in case.expected.expect)
+
+
+@pytest.fixture
+def own(tmp_path):
+    """A copy of a case, to be changed."""
+    original = next(case for case in CASES if case.name == "archard_k").folder
+    return ValidationCase(shutil.copytree(original, tmp_path / "own"))
+
+
+def edit(case, name, old, new):
+    path = case.folder / name
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new), encoding="utf-8")
+
+
+def test_a_folder_of_ones_own_holds_and_a_changed_value_fails(own):
+    (case,) = cases_in(own.folder.parent)
+    assert [row.verdict for row in case.run()] == ["holds"]
+    edit(own, "expected.toml", "value = [6.22e-07, 6.22e-07]", "value = ['0.622 um', 6.3e-7]")
+    (row,) = cases_in(own.folder)[0].run()
+    assert row.verdict == "fails"
+    assert row.error == pytest.approx(0.08 / (6.22 + 6.3))
+    for part in ("own", "wear depth of pin", "6.22e-07 m", "Archard (1953)"):
+        assert part in str(row)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "place"),
+    [
+        ("tolerance = 1e-08", "tolerance = -1", "expect.0.tolerance"),
+        ("quantity", "quantty", "expect.0"),
+        ("value = [6.22e-07, 6.22e-07]", "value = 6.22e-7", "expect.0"),
+        ('kind = "closed form"', 'kind = "mine"', "kind"),
+    ],
+)
+def test_a_mistake_is_one_line_with_its_place(own, old, new, place):
+    edit(own, "expected.toml", old, new)
+    with pytest.raises(CaseError) as error:
+        own.expected  # noqa: B018
+    (line,) = str(error.value).splitlines()
+    assert line.startswith(f"{own.folder / 'expected.toml'}: {place}")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('quantity = "wear_depth"', 'quantity = "wear_dept"', "wear_depth"),
+        ('body = "pin"', 'body = "ball"', "pin, flat"),
+        ('body = "pin"', "", "pin or flat"),
+        ("value = [6.22e-07, 6.22e-07]", 'value = ["1 N", 0]', "1 N"),
+        ("tolerance", "time = 3\ntolerance", "50 s"),
+    ],
+)
+def test_what_a_result_does_not_have_fails_the_row_and_says_so(own, old, new, words):
+    edit(own, "expected.toml", old, new)
+    (row,) = own.run()
+    assert (row.verdict, row.got) == ("fails", None)
+    assert words in str(row)
+
+
+def test_a_folder_without_a_case_is_refused(tmp_path):
+    with pytest.raises(CaseError, match=r"expected\.toml"):
+        cases_in(tmp_path)
+
+
+def made(own, error, order="order = 2", tolerance=0.02):
+    """Return a case of a script whose error over the levels is known."""
+    (own.folder / "own.py").write_text(f"def found(part, n): return {{'x': 5.0 * (1 + {error})}}\n")
+    (own.folder / "expected.toml").write_text(
+        "title = 't'\nsource = 's'\nkind = 'measured'\npublished = true\n"
+        "levels = { n = [10, 20, 40] }\n"
+        f"[[expect]]\nquantity = 'x'\nvalue = 5.0\ntolerance = {tolerance}\nreason = 'r'\n{order}\n"
+    )
+    (row,) = ValidationCase(own.folder).run()
+    return row
+
+
+@pytest.mark.parametrize(
+    ("error", "order", "verdict"),
+    [
+        ("1 / n**2", "order = 2", "holds"),
+        ("-1 / n**2", "order = 2", "holds"),
+        ("1 / n**1.7", "order = 2", "fails"),
+        ("1 / n**2.3", "order = 2", "fails"),
+        ("40 / n**2", "order = 2", "fails"),
+        ("float('nan')", "order = 2", "fails"),
+        # Without an error there is no order to be seen.
+        ("0.0", "order = 2", "fails"),
+        ("0.0", "", "holds"),
+        ("1 / (n - n)", "", "fails"),
+    ],
+)
+def test_a_row_holds_with_its_order_and_within_its_tolerance_only(own, error, order, verdict):
+    assert made(own, error, order).verdict == verdict
+
+
+def test_errors_are_the_root_mean_square_over_placements(own):
+    made(own, "0.02 * (part > 0)")
+    edit(own, "expected.toml", "published = true", "published = true\nplacements = 2")
+    (row,) = ValidationCase(own.folder).run()
+    assert row.error == pytest.approx(0.02 / 2**0.5)
+
+
+def test_a_solver_that_is_missing_is_told_from_one_that_disagrees(own):
+    edit(own, "expected.toml", "quick = true", 'solvers = ["no.such", "dcfft"]')
+    verdicts = {row.solver: row.verdict for row in own.run()}
+    assert verdicts == {"": "holds", "no.such": "not installed", "dcfft": "fails"}
+
+
+def test_a_window_grows_with_its_cells_between_placements(own, monkeypatch):
+    edit(own, "expected.toml", "quick = true", "placements = 3")
+    sizes = []
+    run = validation.Simulation
+
+    def spied(case):
+        sizes.append(case.grid.size[0])
+        return run(case)
+
+    monkeypatch.setattr(validation, "Simulation", spied)
+    list(own.run())
+    assert sizes == pytest.approx([1e-4, 1.25e-4, 1.5e-4])
+
+
+def test_coverage_names_a_component_that_no_case_uses():
+    without = [case for case in CASES if case.name != "power_3" and case.name != "power_1_5"]
+    assert uncovered(without) == ["power"]
+    assert suite.called("hertz_b", CASES)[0].name == "hertz_ball"

@@ -1,0 +1,46 @@
+"""One quantity of a result, by its name, body, time and place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.ndimage import map_coordinates
+
+from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
+from tribo.result.read import Result
+
+
+def quantity(
+    result: Result,
+    name: str,
+    body: str | None = None,
+    time: float | None = None,
+    places: Sequence[tuple[float, float]] = (),
+) -> tuple[Array, str]:
+    """Return the values of a variable, one for each place, and their SI unit.
+
+    `name` is that of a variable of the result; the last save counts if there is no `time` (s), and
+    the largest value of a field if there are no `places` (x, y), in m. `CaseError` if there is no
+    such variable, body or save.
+    """
+    known = result._variables.get(name)
+    dims = known.dims if known else ()
+    if known and ("body" in dims) != (body is not None):
+        bodies = " or ".join(result.body_names)
+        wanted = f"of a body; give body = {bodies}" if body is None else "of the contact, not"
+        raise CaseError(f"{name} is {wanted} {body or ''}".rstrip())
+    save = len(result.times) - 1 if time is None else result.save_at(time)
+    if "step" in dims:
+        passed = result.table("history")["time_s"]
+        save = int(np.argmin(np.abs(passed - result.times[save]))) - len(passed)
+        values = result._scalars[name][(save, *([result.body_names.index(body)] if body else []))]
+    else:
+        values = result.field(name, save, body)
+    assert known
+    if places:
+        axes = zip(zip(*places, strict=True), result.grid.spacing, values.shape, strict=True)
+        at = [np.array(axis) / cell + 0.5 * (count - 1) for axis, cell, count in axes]
+        values = map_coordinates(values, at, order=1, mode="nearest")
+    return np.atleast_1d(values if places else np.max(values)), known.unit
