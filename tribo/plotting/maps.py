@@ -125,8 +125,8 @@ class Scale(NamedTuple):
             vmax=high if high > low else low + 1.0,
         )
         axes.set(**window)
-        end = "" if self.most else f"to {MOST_CELLS:g} % of cells; "
-        label = f"{self.label}\n{end}largest {np.max(cells):.4g}"
+        end = f"{high:.3g}" if self.most else f"{MOST_CELLS:g} % of cells"
+        label = f"{self.label}\nto {end}; largest {np.max(cells):.4g}"
         bar = axes.inset_axes((1.0 + 2.0 / width, 0.0, 3.0 / width, 1.0))
         axes.figure.colorbar(image, cax=bar, label=label, ticks=ticks(max(3, int(height / 8))))
 
