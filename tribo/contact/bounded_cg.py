@@ -174,9 +174,10 @@ class _Iterate:
         self.displacement = operator.apply(self.pressure)
         self.full = np.zeros(gap.shape, dtype=bool)
         self.conjugate = True
-        self.direction: Array | None = None
-        self.gradient = np.zeros(0)
-        self.decrease = 0.0
+        # Written anew in each iteration: new memory costs as much as what is computed in it.
+        self.deformed, self.residual, self.gradient, self.direction = np.zeros((4, *gap.shape))
+        self.change, self.ahead, self.moved = np.empty((3, *gap.shape))
+        self.decrease = np.inf
         self.length = 1.0
         self.rate = 1.0 / float(self.symbol.max())
         self.lengthen = False
@@ -192,7 +193,7 @@ class _Iterate:
         if limits(self.limit):
             self.full = p >= self.limit
             self.free &= ~self.full
-        self.deformed = self.displacement + self.gap
+        np.add(self.displacement, self.gap, out=self.deformed)
         self.approach = _approach(self.deformed, self.free, self.zero, self.full)
         self.deformed -= over(self.approach)
         return judged(p, self.gap, self.displacement, self.deformed, self.total, self.limit)
@@ -204,25 +205,24 @@ class _Iterate:
         if limits(self.limit):
             face |= self.full & (g > 0)
         share = 1.0 / np.maximum(face.sum(CELLS), 1)
-        residual = _centred(g, face, share)
+        residual = _centred(g, face, share, self.residual)
         modes = scipy.fft.rfft2(residual)
         modes /= self.symbol
-        shape = residual.shape[-2:]
-        z = _centred(scipy.fft.irfft2(modes, s=shape, overwrite_x=True), face, share)
+        z = scipy.fft.irfft2(modes, s=residual.shape[-2:], overwrite_x=True)
+        z = _centred(z, face, share, z)
         decrease = self.dot(residual, z)
-        direction = -z
-        if self.direction is not None:
-            # Polak and Ribière's formula forgets by itself when the face changes.
-            beta = (decrease - self.dot(z, self.gradient)) / self.decrease
-            if beta > 0:
-                kept = _centred(self.direction, face, share)
-                kept *= beta
-                direction += kept
+        # Polak and Ribière's formula forgets by itself when the face changes. The direction before
+        # is lost here, and forgotten unless this step is taken.
+        beta = max(0.0, (decrease - self.dot(z, self.gradient)) / self.decrease)
+        self.decrease = np.inf
+        direction = _centred(self.direction, face, share, self.direction)
+        direction *= beta
+        direction -= z
         if self.dot(residual, direction) >= 0:
-            direction = -z
+            np.negative(z, out=direction)
         # Not `ahead` less the pressure, of which little but rounding may be left.
-        change = self.length * direction
-        ahead = self.pressure + change
+        change = np.multiply(direction, self.length, out=self.change)
+        ahead = np.add(self.pressure, change, out=self.ahead)
         meets_bound = self._leaves(ahead)
         if meets_bound.any():
             ahead[meets_bound] = project(
@@ -239,14 +239,15 @@ class _Iterate:
         curvature = self.dot(change, response)
         if curvature <= 0:
             return False
-        self.direction, self.gradient, self.decrease = direction, residual, decrease
-        best = -slope / curvature
-        self.length *= min(max(best, 0.5), 2.0)
-        part, moved = best, self.pressure + best * change
-        if (meets_bound.any() and best >= _NEAR_ENOUGH) or self._leaves(moved).any():
+        self.residual, self.gradient, self.decrease = self.gradient, residual, decrease
+        part = -slope / curvature
+        self.length *= min(max(part, 0.5), 2.0)
+        change *= part
+        moved = np.add(self.pressure, change, out=self.moved)
+        if (meets_bound.any() and part >= _NEAR_ENOUGH) or self._leaves(moved).any():
             # `ahead` lies within the bounds, and cells that meet one leave the face there.
-            part, moved = 1.0, ahead
-        self.pressure = balance(moved, self.total, self.limit)
+            part, moved, self.ahead = 1.0, ahead, moved
+        self.moved, self.pressure = self.pressure, balance(moved, self.total, self.limit)
         response *= part
         self.displacement += response
         return True
@@ -273,7 +274,7 @@ class _Iterate:
 
     def switch(self) -> None:
         self.conjugate = not self.conjugate
-        self.direction = None
+        self.decrease = np.inf
         self.rate = 1.0 / float(self.symbol.max())
 
     def solutions(self, iterations: int, reached: list[Residuals]) -> list[ContactSolution]:
@@ -311,11 +312,10 @@ def _approach_at_bounds(gap: Array, zero: Mask, full: Mask) -> float:
     return 0.5 * (highest + float(gap[zero].min())) if zero.any() else highest
 
 
-def _centred(values: Array, face: Mask, share: Array) -> Array:
-    """Return `values` on the face less their mean there, `share` being one over its cells."""
-    kept = values * face
-    kept -= over(share * kept.sum(CELLS)) * face
-    return kept
+def _centred(values: Array, face: Mask, share: Array, centred: Array) -> Array:
+    """Write `values` on the face less their mean there, `share` being one over its cells."""
+    np.multiply(values, face, out=centred)
+    return np.subtract(centred, over(share * centred.sum(CELLS)), out=centred, where=face)
 
 
 def at(limit: Array | float, place: tuple[int, ...] | Mask) -> Array | float:
