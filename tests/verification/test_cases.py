@@ -61,6 +61,7 @@ def test_a_folder_of_ones_own_holds_and_a_changed_value_fails(own):
         ("quantity", "quantty", "expect.0"),
         ("value = [6.22e-07, 6.22e-07]", "value = 6.22e-7", "expect.0"),
         ('kind = "closed form"', 'kind = "mine"', "kind"),
+        ("quick = true", 'levels = { "grid.cells" = [4, 8], "load.normal" = [1] }', "levels"),
     ],
 )
 def test_a_mistake_is_one_line_with_its_place(own, old, new, place):

@@ -124,7 +124,7 @@ MUTANTS = {
     "hardness left out": (
         (Archard, "_coefficient"),
         lambda right: lambda law, material: right(law, material) if law.K is None else law.K,
-        "archard_K",
+        "archard_hardness",
     ),
     "one coefficient for both": (
         (rates, "rates_at_each"),

@@ -97,6 +97,13 @@ class Expected(Table):
     """Contact solvers that must give the same, where they are installed."""
     expect: tuple[Expectation, ...]
 
+    @field_validator("levels")
+    @classmethod
+    def _alike(cls, levels: dict[str, tuple[Any, ...]]) -> dict[str, tuple[Any, ...]]:
+        if len({len(values) for values in levels.values()}) > 1:
+            raise ValueError("lists of unequal length; give every path a value for each level")
+        return levels
+
     @field_validator("expect")
     @classmethod
     def _some(cls, expect: tuple[Expectation, ...]) -> tuple[Expectation, ...]:
