@@ -15,7 +15,7 @@ from tribo import (
     TriboWarning,
     read_heights,
 )
-from tribo.lab import heights
+from tribo.registry import all_plugins
 from tribo.registry.plugins import builtin
 
 from tribo_scar import measured_scar, measured_scar_map
@@ -143,7 +143,7 @@ def test_the_picture_outlines_what_is_piled_up():
 
 
 def test_a_file_of_a_format_that_nothing_reads_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(heights, "default_registry", lambda: Registry([builtin()]))
+    monkeypatch.setattr(all_plugins, "default_registry", lambda: Registry([builtin()]))
     with pytest.raises(
         CaseError, match=r"map\.x3p is no NumPy, CSV or HDF5 file .* install tribo-t"
     ):
