@@ -68,7 +68,7 @@ def test_a_lab_table_has_a_row_for_each(swept):
         lab = lab_report(result)
         sentences = [*lab_sentences(result, lab)]
     assert "path: 1 m" in sentences
-    assert f"volume of disk: {LOST[0]:.4g} m^3" in sentences
+    assert f"volume of disk: {1e14 * LOST[0]:.4g} 10⁻⁵ mm³" in sentences
     assert lab.as_json()["plugins"][0]["key"] == "quantities.slid_m"
 
 

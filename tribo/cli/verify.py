@@ -127,7 +127,10 @@ def _progress(total: int) -> Iterator[Callable[[str], None]]:
 
 def _tables(rows: Sequence[Row]) -> Iterator[DataTable]:
     """Yield a table for each case, with a row for each quantity."""
+    import numpy as np
+
     from tribo.core.data_table import DataTable, Heading, TableRow
+    from tribo.lab.units import shown_in
 
     headings = (
         *(Heading("quantity"), Heading("expected", form=".5g"), Heading("got", form=".5g")),
@@ -137,15 +140,19 @@ def _tables(rows: Sequence[Row]) -> Iterator[DataTable]:
         lines = []
         for row in group:
             order = None if row.order is None else f"{row.order:.2f} ({row.theory:g})"
-            name = _named(row.quantity, row.unit) + (f", {row.solver}" if row.solver else "")
-            got = row.expected, row.got, row.error
-            lines.append(TableRow((name, *got, order, row.verdict)))
+            numbers = np.array([row.expected, row.got], float)
+            unit, size = shown_in(row.unit, numbers)
+            name = _named(row.quantity, unit) + (f", {row.solver}" if row.solver else "")
+            lines.append(TableRow((name, *numbers / size, row.error, order, row.verdict)))
         yield DataTable(title, headings, lines, dense=True)
 
 
 def _study_table(study: Refinement) -> DataTable:
     """Return a row for each estimate, with the uncertainty to quote and where it is from."""
+    import numpy as np
+
     from tribo.core.data_table import DataTable, Heading, TableRow
+    from tribo.lab.units import shown_in
 
     headings = (
         *(Heading("quantity"), Heading("value", form=".5g"), Heading("±", form=".1e")),
@@ -161,7 +168,9 @@ def _study_table(study: Refinement) -> DataTable:
         quoted, gci = each.uncertainty, each.grid.gci
         percent = None if quoted is None or not each.value else 100 * quoted / abs(each.value)
         orders = _order(each.grid), None if gci is None else 100 * gci, _order(each.steps)
-        rows.append(TableRow((_named(each.name, each.unit), each.value, quoted, percent, *orders)))
+        unit, size = shown_in(each.unit, np.array(each.value))
+        plus = None if quoted is None else quoted / size
+        rows.append(TableRow((_named(each.name, unit), each.value / size, plus, percent, *orders)))
     cells = ", ".join(str(level.cells[0]) for level in study.grids)
     steps = ", ".join(str(level.steps) for level in study.steps)
     notes = [
@@ -184,4 +193,4 @@ def _order(found: Convergence) -> str:
 
 
 def _named(name: str, unit: str) -> str:
-    return name if unit == "1" else f"{name}, {unit}"
+    return f"{name}, {unit}" if unit else name

@@ -8,6 +8,8 @@ from itertools import product
 from math import isnan, nan
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tribo.closed_forms.hertz import first_yield_pressure
 from tribo.core.errors import warn
 from tribo.core.findings import Finding
@@ -16,6 +18,7 @@ from tribo.core.words import readable, said, signed
 from tribo.lab.against_hertz import computed_pressure, first_hertz, in_mpa, yield_words
 from tribo.lab.inferred import InferredVolume, inferred_volumes, track_section
 from tribo.lab.scar import scar
+from tribo.lab.units import shown_in
 from tribo.registry.hookspecs import LabRow
 from tribo.registry.registry import from_plugins_of, place, process_kept
 from tribo.result.read import Result
@@ -140,7 +143,9 @@ def lab_sentences(result: Result, lab: LabReport) -> Iterator[str]:
     force, work = last.get("friction_force_N"), last.get("friction_energy_J")
     if force is not None and work is not None:
         yield f"Friction: {force:.4g} N at the end, {work:.4g} J dissipated."
-    yield from map(str, lab.rows)
+    for row in lab.rows:
+        unit, size = shown_in(row.unit, np.array(row.value))
+        yield str(row._replace(value=row.value / size, unit=unit))
 
 
 def run_sentences(result: Result) -> Iterator[str]:

@@ -12,7 +12,7 @@ from tribo.core.dimensions import scale
 
 _UNITS = {"m": ("mm", "µm", "nm", "pm"), "Pa": ("MPa", "kPa", "Pa")}
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-_FIXED = {"m^2": "mm²", "m^3": "mm³", "1/Pa": "mm³/(N·m)"}
+_FIXED = {"m^2": "mm²", "m^3": "mm³", "1/Pa": "mm³/(N·m)", "m^3/J": "mm³/J"}
 
 UNITS = (
     ("_1_Pa", "1/Pa"),
