@@ -4,12 +4,15 @@ import importlib
 import json
 import math
 import sys
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
 import pytest
+from sweeps import Inline
 
+from tribo import sweep
 from tribo.contact import bounded_cg
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
@@ -128,6 +131,32 @@ def test_time_schemes(figures):
     euler, second = schemes["backward Euler"], schemes["TR-BDF2"]
     assert second["contact_solves"] == 2 * euler["contact_solves"] - 1
     assert second["depth_error_percent"] < 0.5 * euler["depth_error_percent"]
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:resolution")
+def test_the_efficiency_of_a_sweep_is_measured(module, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["sweep.py", "--runs", "2", "--cells", "12", "--json"])
+    inline = partial(sweep, executor=Inline())
+    measured = module("sweep")
+    monkeypatch.setattr(measured, "sweep", lambda *given, jobs: inline(*given))
+    short = "kinematics.duration = 20\noutput.save_times = [0]\n[sample]"
+    monkeypatch.setattr(measured, "STUDY", measured.STUDY.replace("[sample]", short))
+    measured.main()
+    found = json.loads(capsys.readouterr().out)
+    assert (found["runs"], found["jobs"]) == (2, 2)
+    assert found["efficiency"] == found["speedup"] / 2 > 0
+    assert 0 < found["inside_runs"] < 1
+
+
+@pytest.mark.slow
+def test_resolved_hour(figures, module, monkeypatch):
+    hour = module("resolved_hour")
+    monkeypatch.setattr(hour, "CASES", {"one": hour.CASES["equal coefficients"]})
+    options = ["--cells", "16", "--positions", "37", "--duration", "0.2"]
+    rows = figures("resolved_hour", *options)["resolved hour"]
+    assert [row["positions"] for row in rows] == ["average", 37]
+    assert all(row["times"] > 0 for row in rows)
 
 
 @pytest.mark.slow
