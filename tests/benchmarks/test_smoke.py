@@ -115,7 +115,7 @@ def test_plastic_and_rough(figures):
 @pytest.mark.slow
 def test_profile_run(figures):
     packages, modules = figures(
-        *("profile_run", "--cells", "32", "--set", "kinematics.duration=50"),
+        *("profile_run", "--cells", "32", "--repeats", "4", "--set", "kinematics.duration=50"),
         "output.save_times=[0]",
     ).values()
     assert sum(row["percent"] for row in packages) == pytest.approx(100)
