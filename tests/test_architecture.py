@@ -1,10 +1,9 @@
 """Imports go one way."""
 
 import ast
+from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
-
-import pytest
 
 import tribo
 
@@ -47,10 +46,11 @@ RANK = {
     "__init__": 10,
     "__main__": 10,
 }
-LOW = {"core", "component.py", "integration", "model", "evolution", "stepping"}
+LOW = {"core", "component", "integration", "model", "evolution", "stepping"}
 MODELS = {"contact", "wear", "motion", "surfaces", "effects", "observers"}
 
 
+@cache
 def imports(path: Path, *, types: bool = False) -> set[str]:
     """Modules of tribo that a file imports, those for type checking only with `types`."""
     tree = ast.parse(path.read_text())
@@ -86,40 +86,31 @@ MODULES = {
 FILES = sorted(MODULES.values())
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
-def test_imports_go_one_way(path):
-    package = path.relative_to(ROOT).parts[0].removesuffix(".py")
-    for other in packages(path):
-        assert RANK[other] <= RANK[package], f"{package} imports {other}"
+def package_of(path):
+    return path.relative_to(ROOT).parts[0].removesuffix(".py")
 
 
-@pytest.mark.parametrize(
-    "path",
-    [p for p in FILES if p.relative_to(ROOT).parts[0] in LOW],
-    ids=lambda p: str(p.relative_to(ROOT)),
-)
-def test_core_and_steps_name_nothing_above_them_even_as_a_type(path):
-    rank = RANK[path.relative_to(ROOT).parts[0].removesuffix(".py")]
-    assert all(RANK[other] <= rank for other in packages(path, types=True))
+def test_imports_go_one_way():
+    for path in FILES:
+        above = [other for other in packages(path) if RANK[other] > RANK[package_of(path)]]
+        assert not above, path
 
 
-@pytest.mark.parametrize(
-    "path",
-    [p for p in FILES if p.relative_to(ROOT).parts[0] in MODELS],
-    ids=lambda p: str(p.relative_to(ROOT)),
-)
-def test_models_use_only_what_a_stranger_may(path):
-    package = path.relative_to(ROOT).parts[0]
-    assert packages(path) <= {"core", "component", "closed_forms", "result", package}
+def test_core_and_steps_name_nothing_above_them_even_as_a_type():
+    for path in (p for p in FILES if package_of(p) in LOW):
+        named = packages(path, types=True)
+        assert not [other for other in named if RANK[other] > RANK[package_of(path)]], path
 
 
-@pytest.mark.parametrize(
-    "path",
-    sorted(PLUGINS.glob("*/src/**/*.py")),
-    ids=lambda p: p.name,
-)
-def test_packages_use_what_the_kernel_hands_out(path):
-    assert imports(path) <= {"tribo.__init__", "tribo.kernel_api"}
+def test_models_use_only_what_a_stranger_may():
+    for path in (p for p in FILES if package_of(p) in MODELS):
+        own = {"core", "component", "closed_forms", "result", package_of(path)}
+        assert packages(path) <= own, path
+
+
+def test_packages_use_what_the_kernel_hands_out():
+    for path in PLUGINS.glob("*/src/**/*.py"):
+        assert imports(path) <= {"tribo.__init__", "tribo.kernel_api"}, path
 
 
 def test_every_package_has_a_rank():

@@ -13,7 +13,6 @@ COMMANDS = {
     "sweep": ["sweep", "study.toml", "--jobs", "1"],
     "dask": ["sweep", "study.toml", "--jobs", "1", "--dask"],
     "kit": ["plugins", "check", "energy.friction_traction"],
-    "doctor": ["doctor"],
 }
 
 

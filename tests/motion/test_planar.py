@@ -8,7 +8,7 @@ from tribo import Case, CaseError, Grid, Planar, Simulation
 GRID = Grid((0.9e-3, 1.6e-3), (36, 64))
 STEEL = {"young": "210 GPa", "poisson": 0.3, "hardness": "40 GPa"}
 BALL = {"type": "sphere", "radius": "20 mm"}
-SPRINGS, K, LOAD, TURNS = 2e14, 4e-14, 20.0, 100
+SPRINGS, K, LOAD, TURNS = 2e14, 16e-14, 20.0, 25
 
 
 def case(surface=BALL, positions=49, **motion):
@@ -22,7 +22,7 @@ def case(surface=BALL, positions=49, **motion):
             "plate": {"surface": {"type": "flat"}, "material": STEEL, "wear": law},
         },
         contact={"type": "winkler", "modulus": SPRINGS, "plasticity": False},
-        stepping={"type": "implicit", "depth_tolerance": 1e-4},
+        stepping={"type": "implicit", "depth_tolerance": 1e-3},
         kinematics={"type": "planar", "revolutions": TURNS, "positions": positions}
         | given
         | motion,

@@ -9,13 +9,15 @@ from paper_models import K, archard, small
 from tribo_inverse import calibrate
 
 import tribo
-from tribo import Archard, CaseError, Quantity, Stop, WearLaw, WearRate, compare, sweep
+from tribo import Archard, CaseError, Grid, Quantity, Stop, WearLaw, WearRate, compare, sweep
 
 
 def case(law=None):
-    bodies = small().case.bodies
-    worn = {n: b.model_copy(update={"wear": law or Halved(k=2 * K)}) for n, b in bodies.items()}
-    return small().case.model_copy(update={"bodies": worn, "stop": Stop(distance=4)})
+    plain = small(grid=Grid((0.7e-3, 0.7e-3), (20, 20))).case
+    worn = {
+        n: b.model_copy(update={"wear": law or Halved(k=2 * K)}) for n, b in plain.bodies.items()
+    }
+    return plain.model_copy(update={"bodies": worn, "stop": Stop(distance=4)})
 
 
 def worn(result, body="ball"):

@@ -248,12 +248,12 @@ def test_with_an_effect_that_remembers_it_is_worn_through_at_the_exact_distance(
 @pytest.mark.filterwarnings("ignore::tribo.TriboWarning")
 def test_long_steps_of_a_ball_in_debris_that_is_worn_through_take_few_solves():
     # Slopes over other parts of a step than its wear took up to 60 passes, without end.
-    case = ball(16, "1 m")
+    case = ball(12, "1 m")
     case["bodies"]["pin"]["layers"][0]["thickness"] = "0.3 um"
     case["stepping"] = LONG
     with_debris = Case.model_validate(case).model_copy(update={"effects": (Debris(),)})
     _, notices, totals = ended(with_debris)
-    assert totals["contact_solves"] <= 45
+    assert totals["contact_solves"] <= 40
     assert any("layer 1 of pin" in told for told in notices)
 
 
@@ -275,7 +275,7 @@ def test_what_laws_of_layers_remember_goes_on_from_one_to_the_next(stepping):
 
 
 @pytest.mark.parametrize("over", [1e6, 100e6])
-@pytest.mark.parametrize("part", [0.5, 0.7, 0.9])
+@pytest.mark.parametrize("part", [0.5, 0.9])
 def test_what_is_under_a_layer_runs_in_however_late_in_a_step_that_is_passed(part, over):
     # By up to 67 %, as the state of what was passed to last counted for nothing.
     thick, factor = 0.35e-6, 4.0

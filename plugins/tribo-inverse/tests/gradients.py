@@ -5,23 +5,27 @@ from functools import cached_property
 from inspect import signature
 
 import numpy as np
+import pytest
 from paper_models import archard, case, half_space, motion, pair
+from tribo import Simulation
 from tribo.case import Case, Layer
 from tribo.core.errors import NumericalError
 from tribo.core.grid import Grid
 from tribo.simulation.assembly import assemble
-from tribo.simulation.march import begin, march
-from tribo.simulation.positions import composed
+from tribo.simulation.march import march
 from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Implicit
 from tribo.stepping.step import distance_until, rested, start_sliding
 from tribo.wear.running_in import RunningIn, Smoothing
 
+from tribo_inverse.adjoint.backwards import covered
 from tribo_inverse.adjoint.gradient import gradient
 from tribo_inverse.adjoint.numbers import changed, find
 from tribo_inverse.adjoint.objective import View
 from tribo_inverse.adjoint.parameters import Stops
+from tribo_inverse.increment.breaks import unreached
 from tribo_inverse.recording.local import localised
+from tribo_inverse.recording.tape import recorded
 
 
 def repeated(model, base, steps, worn, until=None):
@@ -58,13 +62,18 @@ def deepest(model, state):
     return max(np.max(body.wear) for body in bodies)
 
 
+def looks_of(objective, model):
+    """Objectives by the time that they look at."""
+    return objective if isinstance(objective, dict) else {model.end_time: objective}
+
+
 def sought(model, base, steps, objective, worn, depth, by):
     """The objective after the same steps; of a run that a depth ends, up to this depth.
 
     Of that depth it is on the line through the runs that end a part `by` sooner and later, whose
     error, the same to both sides, a central difference has not.
     """
-    looks = objective if isinstance(objective, dict) else {base.end_time: objective}
+    looks = looks_of(objective, base)
     times = [*(time for time, _ in steps[:-1]), base.end_time]
 
     def after(until=None):
@@ -112,9 +121,26 @@ class Kind:
     seed: int = 0
 
     @cached_property
+    def recording(self):
+        """The model, its accepted states, those that are looked at, and the records of the run."""
+        model = covered(Simulation(self.case).model)
+        model = unreached(model, model)
+        states, records = [], []
+
+        def noted(*given):
+            for accepted in march(*given):
+                states.append(accepted.state)
+                yield accepted
+
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr("tribo_inverse.recording.tape.march", noted)
+            looked_at = recorded(model, list(looks_of(self.objective, model)), records)
+        return model, states, looked_at, records
+
+    @cached_property
     def varied(self):
         """Random changes of all inputs, and the difference along them."""
-        model, random = composed(self.case), np.random.default_rng(self.seed)
+        (model, states, *_), random = self.recording, np.random.default_rng(self.seed)
         numbers = {path: random.uniform(0.5, 1.5) for path in self.paths}
         own = {name: (each.rows, model.grid.cells[1]) for name, each in model.cycle.maps.items()}
         sizes = {"wear_rate": 1.0, "height": 1e-8}
@@ -129,7 +155,6 @@ class Kind:
             }
             for which, size in sizes.items()
         }
-        states = [accepted.state for accepted in march(model, begin(model))]
         steps = [(state.time, state.distance) for state in states]
         ended = steps[-1][0] < model.end_time
         depth = deepest(model, states[-1]) if ended else None
@@ -139,7 +164,17 @@ class Kind:
     def off(self):
         """By how much the gradient misses the difference, relative to it."""
         numbers, maps, direct = self.varied
-        found = gradient(self.case, self.objective, self.paths)
+        *_, looked_at, records = self.recording
+
+        def again(model, times, tape):
+            for record in records:
+                tape.append(record)
+            return looked_at
+
+        # What goes back through a run may be changed; the run is the same.
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr("tribo_inverse.adjoint.gradient.recorded", again)
+            found = gradient(self.case, self.objective, self.paths)
         follows = sum(by * found.relative[path] * found.value for path, by in numbers.items())
         for which, of_bodies in maps.items():
             for name, change in of_bodies.items():

@@ -196,9 +196,9 @@ KINDS["pressure beside"] = Kind(
 )
 KINDS["layers"] = Kind(
     run(
-        bodies=layered(None, ("0.43 nm", archard(2 * K))),
+        bodies=layered(None, ("0.08 nm", archard(2 * K))),
         effects=[Grains()],
-        kinematics=motion(duration=0.1),
+        kinematics=motion(duration=0.02),
         stepping=SLOW,
     ),
     Depth("disk"),

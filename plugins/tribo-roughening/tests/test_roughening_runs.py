@@ -5,8 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tribo import CaseError, Observer, Simulation
-from tribo.core.errors import Interrupted
+from tribo import CaseError, Simulation
 from tribo.lab.roughness import parameters
 
 from tribo_roughening.resistance import resistance
@@ -18,14 +17,6 @@ DIAMETER, THICKNESS = EXAMPLE["DIAMETER"], EXAMPLE["THICKNESS"]
 MODULUS = 207e9 / (2 * (1 - 0.3**2))
 INTEGRATED = 1e-4
 """What is remembered is integrated within a step to 3e-5."""
-
-
-class Stop(Observer):
-    type = "test.stop"
-
-    def on_step(self, snapshot):
-        if snapshot.state.steps == 5:
-            raise KeyboardInterrupt
 
 
 def quick(*given, **sizes):
@@ -102,20 +93,6 @@ def test_two_bodies_that_slide_over_each_other_each_know_their_own_depth(monkeyp
             np.testing.assert_allclose(body.state["worn"], body.wear_depth[:], rtol=INTEGRATED)
             # Four particles in a third of a layer: ±0.5/√1.3.
             assert body.wear_depth[-1].mean() == pytest.approx(0.3 * THICKNESS, rel=0.5, abs=0)
-
-
-@pytest.mark.slow
-def test_a_run_resumed_has_the_same_bits(tmp_path):
-    data = quick(20e-9, cells=8, particles=2, layers=1)
-    data["kinematics"]["duration"] *= 0.3
-    data["output"] = {}
-    with Simulation(data).run(tmp_path / "whole.h5") as whole:
-        needed = whole.body("patch").wear_depth
-    path = tmp_path / "stopped.h5"
-    with pytest.raises(Interrupted):
-        Simulation(data).run(path, observers=[Stop()])
-    with Simulation(data).resume(path) as resumed:
-        np.testing.assert_array_equal(resumed.body("patch").wear_depth, needed)
 
 
 def test_a_body_swept_by_the_average_has_no_places():

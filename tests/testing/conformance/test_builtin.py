@@ -22,7 +22,7 @@ from tribo.surfaces.rough import Rough
 from tribo.surfaces.sphere import Sphere
 from tribo.surfaces.texture import Texture
 from tribo.surfaces.waves import Waves
-from tribo.testing import parametrize_checks
+from tribo.testing import check
 from tribo.wear.archard import Archard
 from tribo.wear.modified import Scaled
 from tribo.wear.power import Power
@@ -33,52 +33,40 @@ BACK_AND_FORTH = {"stroke": "2 mm", "frequency": "25 Hz"}
 ROUND = {"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"}
 LAYER = {"thickness": 1e-4, "young": 1e10, "poisson": 0.3}
 
-test_archard = parametrize_checks(Archard, [{"k": "3e-16 1/Pa"}, {"K": 1e-6}])
-test_power = parametrize_checks(Power, [{**REFERENCE, "p_exponent": 1.5}])
-test_scaled = parametrize_checks(Scaled)
-test_running_in = parametrize_checks(RunningIn)
-test_smoothing = parametrize_checks(Smoothing)
-test_dcfft = parametrize_checks(DcFft)
-test_periodic = parametrize_checks(Periodic)
-test_winkler = parametrize_checks(Winkler, [{}, {"layer": LAYER}])
-test_reciprocating = parametrize_checks(
-    Reciprocating,
-    [
+TURN = {"path": "circle", "extent": ("0.2 mm", "0.1 mm"), "speed": "20 mm/s", "revolutions": 9}
+TRIANGLE = {"path": [(0, 0), (2e-4, 0), (0, 1e-4)], "extent": None, "positions": "cells"}
+CHECKED = {
+    Archard: [{"k": "3e-16 1/Pa"}, {"K": 1e-6}],
+    Power: [{**REFERENCE, "p_exponent": 1.5}],
+    Winkler: [{}, {"layer": LAYER}],
+    Reciprocating: [
         {**BACK_AND_FORTH, "duration": 200},
         {**BACK_AND_FORTH, "cycles": 5000, "waveform": "sinusoidal", "swept": "ball"},
         {**BACK_AND_FORTH, "stroke": "1 mm", "duration": 200, "positions": 15},
     ],
-)
-test_measured = parametrize_checks(
-    Measured,
-    [
+    Measured: [
         {"path": [(0, 0), (1, 1e-3), (3, 1e-3), (4, 0)], "cycles": 200, "positions": 15},
         {"path": [(2, 0), (5, 3e-4), (6, 1e-4), (9, 7e-4)], "positions": "cells", "swept": "ball"},
     ],
-)
-test_rotating = parametrize_checks(Rotating, [ROUND])
-TURN = {"path": "circle", "extent": ("0.2 mm", "0.1 mm"), "speed": "20 mm/s", "revolutions": 9}
-TRIANGLE = {"path": [(0, 0), (2e-4, 0), (0, 1e-4)], "extent": None, "positions": "cells"}
-test_planar = parametrize_checks(Planar, [TURN, {**TURN, **TRIANGLE, "swept": "ball"}])
-test_unidirectional = parametrize_checks(
-    Unidirectional,
-    [ROUND, {**ROUND, "turns": True, "swept": "ball", "track_radius": "5 mm"}],
-)
-test_sphere = parametrize_checks(Sphere, [{"radius": "5 mm"}])
-test_paraboloid = parametrize_checks(Paraboloid, [{"radius_x": "5 mm", "radius_y": "10 mm"}])
-test_cylinder = parametrize_checks(
-    Cylinder, [{"radius": "5 mm", "axis": "x"}, {"radius": "5 mm", "degrees": 30}]
-)
-test_pin = parametrize_checks(Pin, [{"radius": "3 mm", "edge": "0.5 mm"}])
-test_flat = parametrize_checks(Flat)
-test_array = parametrize_checks(HeightMap)
-test_rough = parametrize_checks(Rough)
-test_texture = parametrize_checks(Texture)
-test_waves = parametrize_checks(Waves)
-test_progress = parametrize_checks(Progress)
+    Rotating: [ROUND],
+    Planar: [TURN, {**TURN, **TRIANGLE, "swept": "ball"}],
+    Unidirectional: [ROUND, {**ROUND, "turns": True, "swept": "ball", "track_radius": "5 mm"}],
+    Sphere: [{"radius": "5 mm"}],
+    Paraboloid: [{"radius_x": "5 mm", "radius_y": "10 mm"}],
+    Cylinder: [{"radius": "5 mm", "axis": "x"}, {"radius": "5 mm", "degrees": 30}],
+    Pin: [{"radius": "3 mm", "edge": "0.5 mm"}],
+}
+EXAMPLES = (Scaled, RunningIn, Smoothing, DcFft, Periodic)
+EXAMPLES += (Flat, HeightMap, Rough, Texture, Waves, Progress)
+CHECKED |= dict.fromkeys(EXAMPLES)
+
+
+@pytest.mark.parametrize("cls", CHECKED)
+def test_it_conforms(cls):
+    report = check(cls, CHECKED[cls])
+    assert report.ok, report
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_none_is_left_out(kind):
-    checked = {name for name, value in globals().items() if name.startswith("test_")}
-    assert {f"test_{name}" for name in Registry.with_plugins().names(kind)} <= checked
+    assert {*Registry.with_plugins().names(kind)} <= {cls.type for cls in CHECKED}
