@@ -76,6 +76,13 @@ def test_the_first_contact_on_springs_has_four_thirds_of_the_peak(foundations):
     assert peaks[1] / peaks[0] == pytest.approx(4 / 3, rel=0.03)
 
 
+def test_a_notebook_shows_the_last_common_time(foundations):
+    shown = foundations._repr_html_()
+    assert f"at {foundations.times[-1]:g} s" in shown
+    for label in foundations.results:
+        assert label in shown and label in repr(foundations)
+
+
 def test_json_has_every_common_save_and_is_json(foundations):
     data = json.loads(json.dumps(foundations.as_json(), allow_nan=False))
     assert data["reference"] == "dcfft"

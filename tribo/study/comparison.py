@@ -26,6 +26,7 @@ from tribo.simulation.run import Simulation
 from tribo.study.differences import differences
 from tribo.study.matching import check_match, pairs, renamed
 from tribo.study.runs import run_variants
+from tribo.study.side_by_side import comparison_table
 from tribo.study.variation import grid, short_labels, variants
 
 MOST = 12
@@ -59,6 +60,13 @@ class Comparison:
                 "the results have no time of a save in common: "
                 + "; ".join(f"{label} {result!r}" for label, result in self.results.items())
             )
+
+    def __repr__(self) -> str:
+        return f"<Comparison of {', '.join(self.results)}>"
+
+    def _repr_html_(self) -> str:
+        """Show in a notebook what differs at the last time in common."""
+        return comparison_table(self, self.times[-1:])._repr_html_()
 
     def __enter__(self) -> Self:
         return self

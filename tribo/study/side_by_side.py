@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections import ChainMap
 from collections.abc import Iterator, Mapping, Sequence
 from math import isnan, nan
+from typing import TYPE_CHECKING
 
 from tribo.core.column import labelled
 from tribo.core.data_table import DataTable, Heading, TableRow
 from tribo.core.words import readable, signed
 from tribo.lab.report import quantity_rows
 from tribo.result.layout import SAVED
-from tribo.study.comparison import Comparison
 from tribo.study.differences import differences
+
+if TYPE_CHECKING:
+    from tribo.study.comparison import Comparison
 
 _TOTALS = (
     ("steps", "steps", ".0f"),
