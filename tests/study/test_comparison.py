@@ -80,7 +80,8 @@ def test_a_notebook_shows_the_last_common_time(foundations):
     shown = foundations._repr_html_()
     assert f"at {foundations.times[-1]:g} s" in shown
     for label in foundations.results:
-        assert label in shown and label in repr(foundations)
+        assert label in shown
+        assert label in repr(foundations)
 
 
 def test_json_has_every_common_save_and_is_json(foundations):
