@@ -14,7 +14,7 @@ Fields = Mapping[str, Mapping[str, Array]]
 
 
 @dataclass(frozen=True)
-class Answer:
+class EffectFields:
     """The fields of an effect in a contact."""
 
     effect: GuardedEffect
@@ -46,19 +46,19 @@ class Answer:
 class HeldEffect(GuardedEffect):
     """An effect that notes its answers, or repeats those that are given."""
 
-    def __init__(self, effect: GuardedEffect, given: Sequence[Answer]) -> None:
+    def __init__(self, effect: GuardedEffect, given: Sequence[EffectFields]) -> None:
         vars(self).update(vars(effect))
-        self._effect, self._given, self.noted = effect, given, list[Answer]()
+        self._effect, self._given, self.noted = effect, given, list[EffectFields]()
 
     def fields(self, contact: ContactConditions) -> dict[str, dict[str, Array]]:
         """Return its fields."""
         given = self._given[len(self.noted)].fields if self._given else None
         found = self._effect.fields(contact) if given is None else given
-        self.noted.append(Answer(self._effect, contact, found))
+        self.noted.append(EffectFields(self._effect, contact, found))
         return {name: dict(of_bodies) for name, of_bodies in found.items()}
 
 
-def held(model: Model, answers: Sequence[Sequence[Answer]] = ()) -> Model:
+def held(model: Model, answers: Sequence[Sequence[EffectFields]] = ()) -> Model:
     """Return a model whose effects that state a product note answers, or repeat these of each."""
     given = iter(answers)
     effects = tuple(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tribo import Array
 
-from tribo_inverse.increment.across import Answer
+from tribo_inverse.increment.across import EffectFields
 from tribo_inverse.increment.response import Arrays
 
 
@@ -25,4 +25,4 @@ class RateStage:
     inside: Sequence[Array]
     rates: Arrays
     means: Arrays
-    answers: Sequence[Sequence[Answer]]
+    answers: Sequence[Sequence[EffectFields]]

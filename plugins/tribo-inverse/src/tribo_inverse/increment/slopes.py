@@ -13,7 +13,7 @@ from tribo import WORN_DEPTH, Array, CaseError
 from tribo import Field as FieldDeclaration
 from tribo.kernel_api import CELLS, over
 
-from tribo_inverse.increment.across import Answer, held, held_effects
+from tribo_inverse.increment.across import EffectFields, held, held_effects
 from tribo_inverse.increment.carriers import Carrier
 from tribo_inverse.increment.rate_stage import RateStage
 from tribo_inverse.increment.response import (
@@ -262,8 +262,8 @@ class Sloping(Stages):
 
     def _by_field(
         self,
-        answer: Answer,
-        answers: Sequence[Sequence[Answer]],
+        answer: EffectFields,
+        answers: Sequence[Sequence[EffectFields]],
         states: Arrays,
         passed: Sequence[float],
         found: Arrays,
