@@ -24,6 +24,8 @@ os.environ["PYTHONPATH"] = os.pathsep.join(
 # Pages show no plugin as not ready because this machine is busy.
 os.environ.setdefault("TRIBO_PLUGIN_TIME_LIMIT", "240")
 os.environ["TRIBO_REPOSITORY"] = str(DOCS.parent)
+# Cells show their figures as in a notebook, whatever draws outside.
+os.environ["MPLBACKEND"] = "module://matplotlib_inline.backend_inline"
 os.environ.setdefault("MPLCONFIGDIR", str(Path(gettempdir()) / "tribo-docs-matplotlib"))
 
 project = "tribo"
