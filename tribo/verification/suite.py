@@ -34,10 +34,10 @@ def installed_cases() -> list[ValidationCase]:
 
 def cases_in(folder: Path) -> list[ValidationCase]:
     """Return the case that a folder is, or those in it; CaseError if there is none."""
-    folder = folder.resolve()
-    if (folder / "expected.toml").exists():
-        return [ValidationCase(folder)]
-    found = [ValidationCase(path.parent) for path in sorted(folder.glob("*/expected.toml"))]
+    place = folder.resolve()
+    if (place / "expected.toml").exists():
+        return [ValidationCase(place)]
+    found = [ValidationCase(path.parent) for path in sorted(place.glob("*/expected.toml"))]
     if not found:
         raise CaseError(
             f"{folder} has no expected.toml, nor has a folder in it; write one as in "
@@ -52,7 +52,10 @@ def called(name: str, cases: list[ValidationCase]) -> list[ValidationCase]:
     if not chosen:
         names = [case.name for case in cases]
         meant = suggestion(did_you_mean(name, names))
-        raise CaseError(f"no case is called {name!r}{meant} Cases: {', '.join(names)}")
+        raise CaseError(
+            f"{name}: there is no such file or folder, and no case is called so{meant} "
+            "'tribo verify --quick' names the quick ones"
+        )
     return chosen
 
 
