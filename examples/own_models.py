@@ -144,8 +144,7 @@ def case() -> Case:
 def main() -> None:
     """Check the models, and run the case."""
     for model in (Shielded, Film, Rosette):
-        check(model)
-        print(f"{model.type} keeps the contract.")
+        print(check(model))
     result = case().run()
     result.show()
     for body in ("ball", "plate"):

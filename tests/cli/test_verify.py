@@ -82,6 +82,13 @@ def test_a_row_that_fails_is_told_in_a_line_and_the_exit_code_is_3(tmp_path, for
         assert json.loads(done.stdout)["rows"][0]["verdict"] == "fails"
 
 
+def test_a_place_outside_of_the_window_is_refused(tmp_path):
+    folder = shutil.copytree(cases_in(CASES / "archard_k")[0].folder, tmp_path / "mine")
+    expected = folder / "expected.toml"
+    expected.write_text(expected.read_text().replace("[0, 0]", "[0.2, 0]"))
+    assert "outside of the window along x" in str(invoke(tmp_path).exception)
+
+
 def test_no_such_case_says_which_there_are():
     done = invoke("hertz_bal1")
     assert isinstance(done.exception, CaseError)

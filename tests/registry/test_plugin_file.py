@@ -113,7 +113,7 @@ def test_check_compare_and_the_workers_of_a_sweep_take_a_file_too(asked, folder)
             LAW + LAW.replace("Plain", "Other").replace("k: float", "type = 'plain'\n    k: float"),
             "",
         ),
-        (None, "No such file"),
+        (None, "no such file"),
     ],
 )
 def test_a_file_that_cannot_take_part_is_one_clear_error(folder, text, words):

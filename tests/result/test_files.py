@@ -126,9 +126,10 @@ def test_the_wear_depth_of_a_save_is_that_of_the_body(path):
             result.field("wear_depth", 0, "bal")
 
 
-def test_a_save_is_found_by_its_time_within_rounding():
+def test_a_save_is_found_by_its_time_within_rounding_and_as_it_is_printed():
     result = made(times=(0.0, 0.1 + 0.2, 3600.0))
     assert [result.save_at(time) for time in (0, 0.3, 3600 * (1 + 1e-15))] == [0, 1, 2]
+    assert made(times=(0.0, 1492.0775914865187)).save_at(1492.08) == 1
     for time in (0.31, 3599, 3601, -1, float("nan")):
         with pytest.raises(CaseError, match=r"no save at .* s; its saves are at 0, 0\.3, 3600 s"):
             result.save_at(time)

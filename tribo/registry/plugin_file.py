@@ -27,6 +27,8 @@ def add_files(paths: Iterable[Path | str]) -> None:
     for path in map(Path, paths):
         module = ModuleType("plugin_" + re.sub(r"\W", "_", path.stem))
         module.__file__ = str(path.resolve())
+        if not path.is_file():
+            raise CaseError(f"{path}: there is no such file", "--plugin")
         try:
             code = path.read_bytes()
             if module.__name__ in sys.modules:

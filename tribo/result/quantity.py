@@ -42,5 +42,8 @@ def quantity(
     if places:
         axes = zip(zip(*places, strict=True), result.grid.spacing, values.shape, strict=True)
         at = [np.array(axis) / cell + 0.5 * (count - 1) for axis, cell, count in axes]
+        for axis, where, count in zip("xy", at, values.shape, strict=True):
+            if not np.all((where >= -0.5) & (where <= count - 0.5)):
+                raise CaseError(f"a place lies outside of the window along {axis}; it is in m")
         values = map_coordinates(values, at, order=1, mode="nearest")
     return np.atleast_1d(values if places else np.max(values)), known.unit

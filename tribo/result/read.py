@@ -259,7 +259,9 @@ class Result:
         times = self.times
         if len(times):
             nearest = int(np.argmin(np.abs(times - time)))
-            if abs(times[nearest] - time) <= ROUND_OFF * times[-1]:
+            # Tables and names of files have the digits of :g.
+            alike = f"{times[nearest]:g}" == f"{time:g}"
+            if alike or abs(times[nearest] - time) <= ROUND_OFF * times[-1]:
                 return nearest
         listed = ", ".join(f"{saved:g}" for saved in times)
         raise CaseError(f"{self.name} has no save at {time:g} s; its saves are at {listed} s")

@@ -19,6 +19,7 @@ from tribo.guards.answers import answers_of
 from tribo.testing.child import Lost, Unknown, child
 from tribo.testing.compare import (
     CheckFailed,
+    apply_if,
     expect_close,
     first_difference,
     locked,
@@ -143,6 +144,7 @@ class Checks(ABC):
 
     def configuration_can_be_pickled(self) -> None:
         """An object can be sent to another process, as parallel sweeps need it."""
+        apply_if(self._cls.__module__ != "__main__", "it is defined in a script or a notebook")
         try:
             again = child().call(deepcopy, self._config)
         except (Unknown, Lost) as error:
