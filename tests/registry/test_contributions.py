@@ -84,7 +84,7 @@ def test_plugins_of_a_case_and_those_of_hooks_alone_add_rows_and_pictures_and_no
     rows = json.loads(told("show", "case.h5", "--json"))["lab"]["plugins"]
     names = {"adds_a", "adds_b", "alone"}
     assert {row["label"] for row in rows} == {f"path of {name}" for name in names}
-    assert "path of adds_b: 0.01 m" in told("show", "case.h5")
+    assert "path of adds_b: 10 mm" in told("show", "case.h5")
     with Result.open("case.h5") as result:
         pictures = result_pictures(result)
     added = {name: draw for name, draw in pictures.items() if name.endswith("_picture")}
