@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from io import BytesIO
 
+import matplotlib.pyplot as plt
 from IPython.display import Image
 from matplotlib.figure import Figure
 
@@ -15,4 +16,6 @@ def picture(figure: Figure, width: int = 620) -> Image:
     data = BytesIO()
     with house_style():
         figure.savefig(data, format="png", dpi=200)
+    # The notebook would show it a second time.
+    plt.close(figure)
     return Image(data.getvalue(), width=width)
