@@ -20,7 +20,7 @@ An error of first order in the size of a cell is as large on the finer grid as t
 LEAST = 0.005
 """Per cent for one per cent, below which a number is left out."""
 
-EffectFields = Literal["depth", "end_time"]
+Answer = Literal["depth", "end_time"]
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Sensitivity:
     """
 
     body: str
-    of: EffectFields
+    of: Answer
     percent: dict[str, float]
     uncertainty: dict[str, float]
     cells: tuple[tuple[int, int], tuple[int, int]]
@@ -99,7 +99,7 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
 
 
 def _of_two(coarse: Model, fine: Model) -> Sensitivity:
-    asked: list[tuple[str, EffectFields]] = []
+    asked: list[tuple[str, Answer]] = []
 
     def answer(view: View) -> tuple[float, Seeds]:
         if not asked:
@@ -119,7 +119,7 @@ def _of_two(coarse: Model, fine: Model) -> Sensitivity:
     return Sensitivity(*asked[0], percent, uncertainty, (coarse.grid.cells, fine.grid.cells))
 
 
-def _asked(view: View) -> tuple[str, EffectFields]:
+def _asked(view: View) -> tuple[str, Answer]:
     model, state = view.model, view.state
     deepest = max(model.laws.wear, key=lambda name: float(np.max(view.wear(name))))
     if state.time < model.end_time:
