@@ -11,7 +11,7 @@ from strangers.oxidation import OXIDE, OxideFilm
 
 from tribo import CaseError, Field, Interrupted, Result, Simulation, TriboError
 from tribo.cli.show import show
-from tribo.result.export import export_csv
+from tribo.result.export import si_tables, write_tables
 from tribo.result.summary import summary
 
 POWER, FRICTION, SPEED = 1e7, 0.1, 0.1
@@ -59,7 +59,7 @@ def test_it_has_unit_and_meaning(path):
 
 def test_it_is_exported_in_the_profiles(path, tmp_path):
     with Result.open(path) as result:
-        export_csv(result, tmp_path)
+        write_tables(si_tables(result), tmp_path)
     with (tmp_path / "profiles_x.csv").open() as file:
         rows = list(csv.DictReader(file))
     for row in rows[::7]:
@@ -69,7 +69,7 @@ def test_it_is_exported_in_the_profiles(path, tmp_path):
 
 def test_its_largest_value_and_its_mean_are_exported_with_the_saves(path, tmp_path):
     with Result.open(path) as result:
-        export_csv(result, tmp_path)
+        write_tables(si_tables(result), tmp_path)
         films = [expected(result.field("pressure", save)) for save in range(4)]
     with (tmp_path / "saves.csv").open() as file:
         rows = list(csv.DictReader(file))

@@ -9,7 +9,7 @@ from paper_models import archard, case, motion, pair, small
 from strangers.running_in import RunningIn
 
 from tribo import Field, Grid, Implicit, Result, Simulation
-from tribo.result.export import export_csv
+from tribo.result.export import si_tables, write_tables
 from tribo.simulation.predict import predict
 
 LAW = RunningIn(k_first=9e-16, k_last=3e-16, length=20.0)
@@ -69,7 +69,7 @@ def test_what_one_law_does_not_keep_is_nan_there_and_a_taken_name_gets_its_kind(
 
 def test_it_is_exported_in_the_profiles(path, tmp_path):
     with Result.open(path) as result:
-        export_csv(result, tmp_path)
+        write_tables(si_tables(result), tmp_path)
     with (tmp_path / "profiles_y.csv").open() as file:
         rows = list(csv.DictReader(file))
     slips = [float(row["bodies.disk.state.slip_m"]) for row in rows]

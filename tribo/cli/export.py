@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -44,9 +45,9 @@ def export(output: Path, directory: Path | None, name: str, columns: str | None)
     folder = directory or output.with_name(f"{output.stem}-{name}")
     with Result.open(output) as result:
         lab = saves_table(result).to_dataframe()
-        tables = (
-            {"lab": lab[_chosen(columns, lab)]} if columns else si_tables(result) | {"lab": lab}
-        )
+        tables: dict[str, Any] = {"lab": lab[_chosen(columns, lab)] if columns else lab}
+        if not (write or columns):
+            tables = si_tables(result) | tables
         with writing(folder):
             paths = write(result, folder) if write else write_tables(tables, folder, name)
         for path in paths:

@@ -17,11 +17,6 @@ from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
 
 
-def export_csv(result: Result, folder: Path) -> list[Path]:
-    """Write history, saves and profiles as CSV files, with units in their column names."""
-    return write_tables(si_tables(result), folder)
-
-
 def si_tables(result: Result) -> dict[str, Mapping[str, Array]]:
     """Return history, saves and profiles in SI, with units in their column names."""
     return {
