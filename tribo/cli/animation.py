@@ -30,8 +30,10 @@ def save_animation(result: Result, path: Path) -> Path:
     labels = time_labels(result.times)
     frames: list[list[Picture]] = [[] for _ in labels]
     for name in ("", *result.body_names):
-        pressures = [result.field("pressure", save) for save in range(len(labels))]
-        fields = removed(result, name) if name else np.array(pressures)
+        if name:
+            fields = removed(result, name)
+        else:
+            fields = np.array([result.field("pressure", save) for save in range(len(labels))])
         marked = np.any([scar_mask(field) for field in fields], axis=0)
         most = float(np.max(fields[-len(labels) + 1 :]))
         unit = height_unit(most) if name else fitting("Pa", most)

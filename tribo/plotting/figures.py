@@ -102,7 +102,7 @@ class Plot:
         return [name for name, kind in KINDS.items() if kind.each(self._result)]
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
-        if name not in KINDS or name not in dir(self):
+        if name not in KINDS or not KINDS[name].each(self._result):
             raise AttributeError(unknown("picture", name, dir(self)))
         return wraps(KINDS[name].draw)(partial(self._on_axes, name))
 
