@@ -77,8 +77,13 @@ class Table(BaseModel, metaclass=_TableClass):
 
     def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
         """Yield the fields that are not at their defaults."""
-        fields = type(self).model_fields
-        return ((name, value) for name, value in self if value != fields[name].default)
+        yield from given(self).items()
+
+
+def given(table: BaseModel) -> dict[str, Any]:
+    """Return the values of a table that are not at their defaults, by field."""
+    fields = type(table).model_fields
+    return {name: value for name, value in table if value != fields[name].default}
 
 
 def descriptions(table: type[BaseModel]) -> dict[str, str]:

@@ -7,6 +7,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from tribo.core.table import given
 from tribo.core.units import quantities, stated
 
 _INDENT = "  "
@@ -21,23 +22,18 @@ def _lines(name: str, value: Any, depth: int = 0) -> Iterator[str]:
     inside: dict[str, Any] = {}
     beside = [value.type] if hasattr(value, "type") else []
     if isinstance(value, BaseModel):
-        for key, (inner, field) in _given(value).items():
+        fields = type(value).model_fields
+        for key, inner in given(value).items():
             if _is_table(inner):
                 inside[key] = inner
             else:
-                beside.append(f"{key} {_text(inner, field)}")
+                beside.append(f"{key} {_text(inner, fields[key])}")
     else:
         pairs = value.items() if isinstance(value, Mapping) else enumerate(value)
         inside = {str(key): inner for key, inner in pairs}
     yield _INDENT * depth + f"{name}: {', '.join(beside)}".removesuffix(": ")
     for key, inner in inside.items():
         yield from _lines(key, inner, depth + 1)
-
-
-def _given(table: BaseModel) -> dict[str, tuple[Any, Any]]:
-    """Return the values that are not at their defaults, each with its field."""
-    fields = type(table).model_fields
-    return {key: (v, fields[key]) for key, v in table if v != fields[key].default}
 
 
 def _is_table(value: Any) -> bool:

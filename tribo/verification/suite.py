@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import sys
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
-from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.errors import CaseError, warn
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.all_plugins import from_all_plugins
 from tribo.registry.hookspecs import hookimpl
@@ -28,7 +27,7 @@ def installed_cases() -> list[ValidationCase]:
         try:
             found += cases_in(folder)
         except CaseError as error:
-            warnings.warn(f"{error}; its cases are left out", TriboWarning, stacklevel=2)
+            warn(f"{error}; its cases are left out")
     return found
 
 
