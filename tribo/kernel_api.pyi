@@ -91,6 +91,7 @@ from tribo.lab.inferred import track_section as track_section
 from tribo.lab.kept import kept_fields as kept_fields
 from tribo.lab.report import lab_report as lab_report
 from tribo.lab.report import lab_sentences as lab_sentences
+from tribo.lab.report import quantity_rows as quantity_rows
 from tribo.lab.report import run_sentences as run_sentences
 from tribo.lab.rests import with_rests as with_rests
 from tribo.lab.roughness import without_form as without_form

@@ -13,8 +13,9 @@ from pydantic import ValidationError
 from tribo import Array, Case, CaseError, Simulation
 from tribo.kernel_api import Model
 
-from tribo_inverse.adjoint.backwards import covered, swept_back
+from tribo_inverse.adjoint.backwards import swept_back
 from tribo_inverse.adjoint.ending import at_depth
+from tribo_inverse.adjoint.limits import covered
 from tribo_inverse.adjoint.numbers import changed, find, listed
 from tribo_inverse.adjoint.objective import Objective, View, is_finite, looked
 from tribo_inverse.adjoint.parameters import Chain, chain

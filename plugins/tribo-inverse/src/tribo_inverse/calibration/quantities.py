@@ -20,8 +20,8 @@ from tribo.kernel_api import (
     diameter,
     did_you_mean,
     from_all_plugins,
-    lab_report,
     profile,
+    quantity_rows,
     suggestion,
     track_section,
 )
@@ -167,7 +167,7 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
     """Return a computed value, and its standard deviation due to the grid."""
     if label := quantity(asked.quantity).label:
         key = ".".join(filter(None, ("quantities", asked.body, label)))
-        return {row.key: row.value for row in lab_report(result).rows}.get(key, math.nan), 0.0
+        return {row.key: row.value for row in quantity_rows(result)}.get(key, math.nan), 0.0
     save, body = _save(result, asked), result.body(asked.body)
     depth, spacing, name = body.wear_depth[save], result.grid.spacing, asked.quantity
     if name in ("scar_along", "scar_across"):
