@@ -217,7 +217,10 @@ def reloaded(model: Model, state: State) -> State:
     if not effects:
         return state
     snapshot = view(Snapshot(state, measure(model, state), effect_fields(model, state)))
-    state = replace(state, load_factor=prod(each.load_factor(snapshot) for each in effects))
+    factor = prod(each.load_factor(snapshot) for each in effects)
+    if factor == state.load_factor:
+        return state
+    state = replace(state, load_factor=factor)
     return _under(model, state, model.loads(state).before(state.time))
 
 
