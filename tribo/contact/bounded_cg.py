@@ -174,7 +174,7 @@ class _Iterate:
         self.displacement = operator.apply(self.pressure)
         self.full = np.zeros(gap.shape, dtype=bool)
         self.conjugate = True
-        # Written anew in each iteration: new memory costs as much as what is computed in it.
+        # Overwritten in each iteration: new memory costs as much as what is computed in it.
         self.deformed, self.residual, self.gradient, self.direction = np.zeros((4, *gap.shape))
         self.change, self.ahead, self.moved = np.empty((3, *gap.shape))
         self.decrease = np.inf

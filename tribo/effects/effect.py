@@ -85,7 +85,7 @@ class Effect(Component):
         """Return what multiplies the normal load of the step that starts from a state; 1 by itself.
 
         It is more than 0, as of a spring, a lever or a control, and held over the step: of first
-        order in its length. Those of several effects multiply each other.
+        order in its length. The factors of several effects multiply each other.
         """
         return 1.0
 

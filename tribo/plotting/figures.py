@@ -84,8 +84,8 @@ class Plot:
 
     ``plot("folder")`` writes all that say something to files. ``plot.scar("ball", time=200)``
     draws one in the style that is set in matplotlib, and returns its axes, or an array of them;
-    a notebook shows it. ``ax`` are axes to draw on, one for each panel; ``time`` is that of a
-    saved time, in s. `dir` lists the pictures of this result.
+    a notebook shows it. ``ax`` are axes to draw on, one for each panel; ``time`` is a saved time,
+    in s. `dir` lists the pictures of this result.
     """
 
     def __init__(self, result: Result) -> None:
@@ -145,9 +145,9 @@ def save_figures(
 ) -> list[Path]:
     """Write every picture that says something of a result, and return the files.
 
-    They have the names of `KINDS`, and plugins add theirs. Those of worn surfaces are left out
-    where nothing is worn, those over time where there is one moment only, and those of what is
-    uniform: `tell` takes the sentence that stands for it, the log of ``tribo.plotting`` by default.
+    They have the names of `KINDS`, and plugins add theirs. A picture of a worn surface is left out
+    where nothing is worn, one over time where a single moment was saved, and one of a uniform
+    field: `tell` takes the sentence that stands for it, the log of ``tribo.plotting`` by default.
     `suffix` is a format that matplotlib writes.
 
     Raises

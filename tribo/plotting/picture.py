@@ -24,7 +24,7 @@ class NothingToDraw(CaseError):
 
 @dataclass(frozen=True)
 class Picture:
-    """Panels in rows, all of one size; a `height` is that of a row, both in mm."""
+    """Panels in rows, all of one size; `height` is the height of a row, in mm, as is `width`."""
 
     rows: Sequence[Sequence[Panel]]
     height: float

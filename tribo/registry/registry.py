@@ -284,7 +284,7 @@ def _item(hook: str, item: object) -> object:
 
 
 def from_packages(hook: str, own: object = None, **asked: Any) -> list[Any]:
-    """Return what `own`, the imported plugins and those of hooks alone answer; see `ask`."""
+    """Return what `own`, the imported plugins and plugins with hooks alone answer; see `ask`."""
     registry = default_registry()
     for plugin in registry.plugins:
         if plugin.usable and not plugin.names:
@@ -293,7 +293,7 @@ def from_packages(hook: str, own: object = None, **asked: Any) -> list[Any]:
 
 
 def from_plugins_of(result: Result, hook: str) -> list[Any]:
-    """Return what the plugins of a result's models and those of hooks alone answer; see `ask`.
+    """Return what the plugins of a result's models and plugins with hooks alone answer; see `ask`.
 
     Those that are not installed are left out.
     """

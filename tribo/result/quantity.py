@@ -21,7 +21,7 @@ def quantity(
 ) -> tuple[Array, str]:
     """Return the values of a variable, one for each place, and their SI unit.
 
-    `name` is that of a variable of the result; the last save counts if there is no `time` (s), and
+    `name` names a variable of the result; the last save counts if there is no `time` (s), and
     the largest value of a field if there are no `places` (x, y), in m. `CaseError` if there is no
     such variable, body or save.
     """

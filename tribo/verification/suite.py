@@ -1,4 +1,4 @@
-"""All validation cases: those of the kernel, of the installed packages, and of a folder."""
+"""All validation cases: of the kernel, of the installed packages, and of a folder."""
 
 from __future__ import annotations
 

@@ -49,7 +49,7 @@ class Row:
     tolerance: float
     reason: str
     solver: str = ""
-    """The contact solver, if it is not that of the case."""
+    """The contact solver, if the case names another one."""
     unit: str = "1"
     expected: float | None = None
     """At the first place, at the finest level."""
@@ -217,6 +217,6 @@ class ValidationCase:
 
 
 def _each(lists: Mapping[str, tuple[Any, ...]]) -> list[dict[str, Any]]:
-    """Return the settings of each level; those of a case alone, of none."""
+    """Return the settings of each level; none of a case without levels."""
     rows = zip(*lists.values(), strict=True)
     return [dict(zip(lists, row, strict=True)) for row in rows] or [{}]

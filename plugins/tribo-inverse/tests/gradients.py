@@ -18,8 +18,8 @@ from tribo.stepping.implicit import Implicit
 from tribo.stepping.step import distance_until, rested, start_sliding
 from tribo.wear.running_in import RunningIn, Smoothing
 
-from tribo_inverse.adjoint.limits import covered
 from tribo_inverse.adjoint.gradient import gradient
+from tribo_inverse.adjoint.limits import covered
 from tribo_inverse.adjoint.numbers import changed, find
 from tribo_inverse.adjoint.objective import View
 from tribo_inverse.adjoint.parameters import Stops

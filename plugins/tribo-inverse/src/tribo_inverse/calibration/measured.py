@@ -46,7 +46,7 @@ class MeasuredEntry(Table):
     body: str = ""
     """Name of the body in the case; none for what is of the run."""
     quantity: str
-    """Measured quantity: one of `QUANTITIES`, or that of a package."""
+    """Measured quantity: one of `QUANTITIES`, or of a package."""
     value: float | tuple[float, ...] | None = None
     """The value with its unit, or a limit of detection, ``"< 0.1 mg"``; none in a planned test.
 

@@ -49,10 +49,10 @@ class WornQuantity(NamedTuple):
     per_unit: float
     """Printed units in one SI unit."""
     of: Literal["both", "stationary", "swept", "run", "body of a run"] = "both"
-    """The bodies that have it: those that stay in the contact, or are swept through it. That of a
-    package is of a run, or of each body of one, at its end."""
+    """The bodies that have it: bodies that stay in the contact, or are swept through it. A quantity
+    of a package is of a run, or of each body of a run, at its end."""
     label: str = ""
-    """Its name with the unit, of one that a package reads."""
+    """Its name with the unit, where a package reads it."""
 
 
 _DEPTH = WornQuantity("m", "µm", 1e6)
@@ -68,7 +68,7 @@ QUANTITIES = {
     "profile_across": _DEPTH,
     "depth_map": _DEPTH,
 }
-"""By the name in a file of measured values; see `quantity` for those of packages."""
+"""By the name in a file of measured values; see `quantity` for the quantities of packages."""
 AXES = {"scar_along": 0, "scar_across": 1, "profile_along": 0, "profile_across": 1}
 """Axis of a diameter or a profile."""
 PROFILES = ("profile_along", "profile_across")
@@ -79,7 +79,7 @@ FIELDS = (*PROFILES, DEPTH_MAP)
 
 
 def quantity(name: str) -> WornQuantity:
-    """Return a quantity by its name, one that a package reads too; `CaseError` if none has it."""
+    """Return a quantity by its name, also one of a package; `CaseError` if none has the name."""
     if name in QUANTITIES:
         return QUANTITIES[name]
     for ask in (default_registry().ask, from_all_plugins):

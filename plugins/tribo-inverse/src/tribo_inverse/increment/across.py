@@ -1,4 +1,4 @@
-"""Effects that state how their fields follow what they are told: asked once, then held."""
+"""Effects that state how their fields follow their input: asked once, then held."""
 
 from __future__ import annotations
 
