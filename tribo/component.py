@@ -56,6 +56,9 @@ class Component(Table, ABC):
     """What it needs of materials: of that of its body, or of both if it belongs to none. Each is
     the name of a key of `Material`, or of one of its `properties`, which a case then gives."""
 
+    examples: ClassVar[Sequence[Mapping[str, Any]]] = ()
+    """Configurations that its schema shows, and with which the conformance kit tries it."""
+
     columns: ClassVar[Sequence[Column]] = ()
     """Numbers that the result has at each step and save beside its own, read off a `Snapshot`."""
 
@@ -133,6 +136,8 @@ class Component(Table, ABC):
         made = super().__get_pydantic_json_schema__(schema, handler)
         named = {"const": cls.type, "default": cls.type, "title": "Type", "type": "string"}
         made["properties"] = {"type": named, **made.get("properties", {})}
+        if cls.examples:
+            made["examples"] = list(cls.examples)
         return made
 
     def __eq__(self, other: object) -> bool:

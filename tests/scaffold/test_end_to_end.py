@@ -81,10 +81,7 @@ def test_their_own_tests_pass_untouched(fresh: Fresh) -> None:
 
 
 LAW = '''
-    model_config = ConfigDict(
-        json_schema_extra={"examples": [{"wear_rate": 1e-15, "mild": "1 GPa"}]}
-    )
-
+    examples = ({"wear_rate": 1e-15, "mild": "1 GPa"},)
     type = "acme.fretting"
     wear_rate: Annotated[float, Quantity("1/Pa", at_least=0)]
     """Specific wear rate at the mild pressure."""

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
-from pydantic import ConfigDict, Field, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -37,12 +37,7 @@ class Measured(Kinematics):
     of that and the time at rest; in which order they come is not kept.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [{"path": [[0, 0], [1, 1e-3], [2, 1e-3], [4, 0]], "cycles": 100}]
-        }
-    )
-
+    examples = ({"path": [[0, 0], [1, 1e-3], [2, 1e-3], [4, 0]], "cycles": 100},)
     type = "measured"
     turns_back = True
     path: Annotated[tuple[Sample, ...], Field(min_length=2)]

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
-from pydantic import ConfigDict, Field, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
@@ -43,14 +43,9 @@ class Planar(Steady):
     contact and the path together, or broader. Valid for gross sliding without spin.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"path": "circle", "extent": ["1 mm", "1 mm"], "speed": "20 mm/s", "revolutions": 9}
-            ]
-        }
+    examples = (
+        {"path": "circle", "extent": ["1 mm", "1 mm"], "speed": "20 mm/s", "revolutions": 9},
     )
-
     type = "planar"
     path: Literal["circle", "square", "eight"] | tuple[Point, ...]
     """``"circle"``, ``"square"`` or ``"eight"``, with `extent`; or a file of two columns, x and y

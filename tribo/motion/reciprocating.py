@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, Self
 
 import numpy as np
-from pydantic import ConfigDict, Field, Tag, field_validator, model_validator
+from pydantic import Field, Tag, field_validator, model_validator
 
 from tribo.core.errors import CaseError
 from tribo.core.findings import COARSE
@@ -55,10 +55,7 @@ class Reciprocating(Kinematics):
     more, gross slip in fretting among them.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={"examples": [{"stroke": "2 mm", "frequency": "25 Hz", "cycles": 100}]}
-    )
-
+    examples = ({"stroke": "2 mm", "frequency": "25 Hz", "cycles": 100},)
     type = "reciprocating"
     turns_back = True
     stroke: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated
 
 import numpy as np
-from pydantic import ConfigDict
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -27,12 +26,7 @@ class Rotating(ClosedTrack):
     beside R.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [{"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"}]
-        }
-    )
-
+    examples = ({"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"},)
     type = "rotating"
     track_radius: Annotated[float, Quantity("m", above=0, usual=(1e-6, 1.0))]
     """Radius R of the track in the middle of the window; the axis lies towards negative y."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, Self
 
-from pydantic import ConfigDict, Field, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
@@ -31,12 +31,7 @@ class Unidirectional(ClosedTrack):
     it, however long the track is.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [{"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"}]
-        }
-    )
-
+    examples = ({"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"},)
     type = "unidirectional"
     track_length: Annotated[float, Quantity("m", above=0, usual=(1e-6, 10.0))] | None = None
     """Length of the closed track."""

@@ -6,7 +6,6 @@ import math
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import ConfigDict
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
@@ -18,12 +17,7 @@ from tribo.surfaces.surface import Surface
 class Cylinder(Surface):
     """The exact arc z = √(R² − t²) − R, with t across the cylinder's axis."""
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [{"radius": "5 mm"}, {"radius": "5 mm", "axis": "x", "degrees": 30}]
-        }
-    )
-
+    examples = ({"radius": "5 mm"}, {"radius": "5 mm", "axis": "x", "degrees": 30})
     type = "cylinder"
     radius: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
     """Radius of the cylinder."""

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import numpy as np
 import scipy
-from pydantic import ConfigDict, Field, field_validator
+from pydantic import Field, field_validator
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
@@ -24,17 +24,12 @@ Line = Annotated[tuple[Annotated[float, Quantity("m")], ...], Field(min_length=2
 class HeightMap(Laid):
     """Heights at the centres of the cells of a rectangle about the origin, and lines in between."""
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {
-                    "size": ["8 mm", "8 mm"],
-                    "heights": [[0, 1e-7, 0], [1e-7, 2e-7, 1e-7], [0, 1e-7, 0]],
-                }
-            ]
-        }
+    examples = (
+        {
+            "size": ["8 mm", "8 mm"],
+            "heights": [[0, 1e-7, 0], [1e-7, 2e-7, 1e-7], [0, 1e-7, 0]],
+        },
     )
-
     type = "array"
     size: tuple[Length, Length]
     """Edge lengths of the rectangle along x, the sliding direction, and y."""

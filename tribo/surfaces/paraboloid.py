@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Self
 
-from pydantic import ConfigDict, model_validator
+from pydantic import model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -15,12 +15,7 @@ from tribo.surfaces.surface import Surface
 class Paraboloid(Surface):
     """z = −x²/2Rx − y²/2Ry."""
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [{"radius": "5 mm"}, {"radius_x": "5 mm", "radius_y": "10 mm"}]
-        }
-    )
-
+    examples = ({"radius": "5 mm"}, {"radius_x": "5 mm", "radius_y": "10 mm"})
     type = "paraboloid"
     radius: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))] | None = None
     """Radius of curvature at the top, in every direction."""

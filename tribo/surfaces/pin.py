@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Self
 
 import numpy as np
-from pydantic import ConfigDict, model_validator
+from pydantic import model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -28,10 +28,7 @@ class Pin(Surface):
     M. Ciavarella, Int. J. Solids Struct. 36 (1999) 4149-4181.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={"examples": [{"radius": "3 mm", "edge": "0.2 mm"}]}
-    )
-
+    examples = ({"radius": "3 mm", "edge": "0.2 mm"},)
     type = "pin"
     smooth = True
     radius: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]

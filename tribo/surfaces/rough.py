@@ -6,7 +6,7 @@ import math
 from typing import Annotated, Self
 
 import numpy as np
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -35,12 +35,7 @@ class Rough(Laid):
     (2017) 013001.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [{"sq": "50 nm", "cut_off": "0.4 mm", "roll_off": "1 mm", "seed": 1}]
-        }
-    )
-
+    examples = ({"sq": "50 nm", "cut_off": "0.4 mm", "roll_off": "1 mm", "seed": 1},)
     type = "rough"
     sq: Annotated[float, Quantity("m", above=0, usual=(1e-10, 1e-3))]
     """Root mean square height Sq."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
-from pydantic import ConfigDict
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
@@ -17,8 +16,7 @@ from tribo.surfaces.surface import Surface
 class Sphere(Surface):
     """The exact cap z = √(R² − r²) − R of a ball of radius R, highest at the origin."""
 
-    model_config = ConfigDict(json_schema_extra={"examples": [{"radius": "5 mm"}]})
-
+    examples = ({"radius": "5 mm"},)
     type = "sphere"
     radius: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
     """Radius of the ball."""

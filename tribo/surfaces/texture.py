@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal, Self
 
 import numpy as np
-from pydantic import ConfigDict, model_validator
+from pydantic import model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -22,10 +22,7 @@ class Texture(Laid):
     lies at the origin.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={"examples": [{"depth": "2 um", "width": "0.1 mm", "pitch": "0.25 mm"}]}
-    )
-
+    examples = ({"depth": "2 um", "width": "0.1 mm", "pitch": "0.25 mm"},)
     type = "texture"
     depth: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1e-2))]
     """Depth of a hollow d."""

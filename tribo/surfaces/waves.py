@@ -6,7 +6,6 @@ import math
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import ConfigDict
 
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
@@ -17,10 +16,7 @@ from tribo.surfaces.laid import Laid, check_resolved
 class Waves(Laid):
     """z = A cos(2π t/λ), with t along x or y and a crest at the origin."""
 
-    model_config = ConfigDict(
-        json_schema_extra={"examples": [{"amplitude": "0.1 um", "wavelength": "0.4 mm"}]}
-    )
-
+    examples = ({"amplitude": "0.1 um", "wavelength": "0.4 mm"},)
     type = "waves"
     amplitude: Annotated[float, Quantity("m", above=0, usual=(1e-10, 1e-3))]
     """Height of a crest above the mean A."""

@@ -233,9 +233,7 @@ def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
     Returns
     -------
     list of dict
-        The ``examples`` in the JSON schema (``json_schema_extra`` of the
-        model's configuration); else ``{}`` alone if the defaults are valid;
-        else nothing.
+        Its `examples`; else ``{}`` alone if the defaults are valid; else nothing.
 
     Raises
     ------
@@ -265,8 +263,7 @@ def suites(
     if not configs:
         raise ValueError(
             f"nothing would be checked of {cls.__qualname__}: it is not valid without "
-            "configuration, and no example is given; put some in: "
-            "model_config = ConfigDict(json_schema_extra={'examples': [{…}]})"
+            "configuration, and no example is given; put some in: examples = ({…},)"
         )
     made = []
     for number, config in enumerate(configs):

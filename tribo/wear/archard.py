@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Self
 
 import numpy as np
-from pydantic import ConfigDict, model_validator
+from pydantic import model_validator
 
 from tribo.core.errors import CaseError
 from tribo.core.fields import LocalConditions, WearRate
@@ -26,10 +26,7 @@ class Archard(WearLaw):
     24, 981-988. Holm, R. (1958), Electric Contacts Handbook, Springer.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={"examples": [{"k": "3.11e-16 1/Pa"}, {"K": 1e-6, "hardness": "4 GPa"}]}
-    )
-
+    examples = ({"k": "3.11e-16 1/Pa"}, {"K": 1e-6, "hardness": "4 GPa"})
     type = "archard"
     k: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))] | None = None
     """Specific wear rate, volume per load and sliding distance."""

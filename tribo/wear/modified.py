@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Self
 
-from pydantic import ConfigDict, model_validator
+from pydantic import model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.fields import WORN_DEPTH, Field, LocalConditions, WearRate, check_declared
@@ -79,12 +79,7 @@ class Scaled(ModifiedLaw):
     Valid where that is; the factor is a fit, for a lubricant, a coating or another test.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [{"factor": 0.2, "law": {"type": "archard", "k": "3.11e-16 1/Pa"}}]
-        }
-    )
-
+    examples = ({"factor": 0.2, "law": {"type": "archard", "k": "3.11e-16 1/Pa"}},)
     type = "scaled"
     factor: Annotated[float, Quantity("1", at_least=0)]
     """The factor f."""

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import ConfigDict
-
 from tribo.core.fields import LocalConditions, WearRate
 from tribo.core.units import Quantity
 from tribo.wear.law import WearLaw
@@ -22,12 +20,7 @@ class Power(WearLaw):
     surfaces, Wear 16, 431-445.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [{"k": "3.11e-16 1/Pa", "p_exponent": 1.5, "reference_pressure": "1 GPa"}]
-        }
-    )
-
+    examples = ({"k": "3.11e-16 1/Pa", "p_exponent": 1.5, "reference_pressure": "1 GPa"},)
     type = "power"
     k: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))]
     """Specific wear rate at the reference pressure."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Self
 
 import numpy as np
-from pydantic import ConfigDict, model_validator
+from pydantic import model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.fields import Field, LocalConditions, WearRate
@@ -38,14 +38,7 @@ class RunningIn(ModifiedLaw):
     38, 1007-1012.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"law": {"type": "archard", "k": "1e-16 1/Pa"}, "factor": 6, "over": "1 GPa m"}
-            ]
-        }
-    )
-
+    examples = ({"law": {"type": "archard", "k": "1e-16 1/Pa"}, "factor": 6, "over": "1 GPa m"},)
     type = "running_in"
     factor: Annotated[float, Quantity("1", at_least=0)]
     """How many times as fast as later a fresh point wears: f."""
@@ -83,20 +76,15 @@ class Smoothing(ModifiedLaw):
     during lubricated wear, Wear 98, 101-116: roughness as a function of the depth worn.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {
-                    "law": {"type": "archard", "k": "1e-16 1/Pa"},
-                    "factor": 6,
-                    "roughness": "0.4 um",
-                    "settled": "0.1 um",
-                    "depth": "0.5 um",
-                }
-            ]
-        }
+    examples = (
+        {
+            "law": {"type": "archard", "k": "1e-16 1/Pa"},
+            "factor": 6,
+            "roughness": "0.4 um",
+            "settled": "0.1 um",
+            "depth": "0.5 um",
+        },
     )
-
     type = "smoothing"
     factor: Annotated[float, Quantity("1", at_least=0)]
     """How many times as fast as later a surface of the first roughness wears: f."""

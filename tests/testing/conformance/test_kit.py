@@ -7,7 +7,6 @@ from typing import Annotated
 
 import numpy as np
 import pytest
-from pydantic import ConfigDict
 from testing.conformance.honest import Counts, Hill, Law
 from testing.conformance.mistakes import MISTAKES
 
@@ -106,14 +105,14 @@ def test_an_expected_failure_of_no_check_is_refused():
 
 
 class Shown(Law):
-    model_config = ConfigDict(json_schema_extra={"examples": [{"q": 1}, {"q": 2}]})
+    examples = ({"q": 1}, {"q": 2})
     type = "shown.law"
     q: Annotated[float, Quantity("1")]
     """Something."""
 
 
 class OneOfTwo(Archard):
-    model_config = ConfigDict(json_schema_extra=None)
+    examples = ()
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
-from pydantic import ConfigDict
 from tribo import Field, LocalConditions, Quantity, WearLaw, WearRate
 
 ENERGY = Field("dissipated_energy", "J/m^2", "Friction energy dissipated per area so far.")
@@ -30,19 +29,14 @@ class Dissipation(WearLaw):
     Zapfenreibung, Der Civilingenieur 4, 235-255.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"alpha": "3.11e-6 mm^3/J"},
-                {
-                    "alpha": "3.11e-6 mm^3/J",
-                    "threshold_traction": "50 MPa",
-                    "threshold_energy": "10 MJ/m^2",
-                },
-            ]
-        }
+    examples = (
+        {"alpha": "3.11e-6 mm^3/J"},
+        {
+            "alpha": "3.11e-6 mm^3/J",
+            "threshold_traction": "50 MPa",
+            "threshold_energy": "10 MJ/m^2",
+        },
     )
-
     type = "energy.dissipation"
     alpha: Annotated[float, Quantity("m^3/J", at_least=0, usual=(1e-22, 1e-10))]
     """Energy wear coefficient: volume per dissipated energy. k/μ for Archard's k."""

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import ConfigDict
 from scipy.special import pbdv
 from tribo import (
     FRICTION_COEFFICIENT,
@@ -57,8 +56,7 @@ class Mixed(Effect):
     Prediction of traction in elastohydrodynamic lubrication, Proc. IMechE J 212, 321-332.
     """
 
-    model_config = ConfigDict(json_schema_extra={"examples": [{**EXAMPLE, "roughness": "0.2 um"}]})
-
+    examples = ({**EXAMPLE, "roughness": "0.2 um"},)
     type = "film.mixed"
     reach = "contact"
     viscosity: Annotated[float, Quantity("Pa s", at_least=0, usual=(1e-5, 20.0))]

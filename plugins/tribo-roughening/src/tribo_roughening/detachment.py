@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Self
 
-from pydantic import ConfigDict, model_validator
 from pydantic import Field as Bounded
+from pydantic import model_validator
 from tribo import Archard, CaseError, Field, LocalConditions, Quantity, WearLaw, WearRate
 
 from tribo_roughening.resistance import resistance
@@ -37,12 +37,7 @@ class Detachment(WearLaw):
     (1984), Characterization of topographical changes during lubricated wear, Wear 98, 101-116.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [{"k": "3.11e-16 1/Pa", "diameter": "10 um", "thickness": "0.5 um"}]
-        }
-    )
-
+    examples = ({"k": "3.11e-16 1/Pa", "diameter": "10 um", "thickness": "0.5 um"},)
     type = "roughening.detachment"
     k: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))]
     """Specific wear rate, volume per load and sliding distance, on the mean."""

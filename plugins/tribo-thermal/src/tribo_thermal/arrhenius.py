@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
-from pydantic import ConfigDict
 from tribo import LocalConditions, Quantity, WearLaw, WearRate
 
 GAS_CONSTANT = 8.314462618
@@ -25,18 +24,13 @@ class Arrhenius(WearLaw):
     International 16, 257-271.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {
-                    "k": "3.11e-16 1/Pa",
-                    "activation_energy": "50 kJ/mol",
-                    "reference_temperature": "90 degC",
-                }
-            ]
-        }
+    examples = (
+        {
+            "k": "3.11e-16 1/Pa",
+            "activation_energy": "50 kJ/mol",
+            "reference_temperature": "90 degC",
+        },
     )
-
     type = "thermal.arrhenius"
     k: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))]
     """Specific wear rate at the reference temperature."""

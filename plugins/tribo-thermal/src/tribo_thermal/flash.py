@@ -93,15 +93,10 @@ class Flash(Effect):
     frictional heating in dry sliding, Tribology Transactions 34, 577-587.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"ambient": "90 degC"},
-                {"ambient": "20 degC", "source": "parabolic", "rise": "maximum"},
-            ]
-        }
+    examples = (
+        {"ambient": "90 degC"},
+        {"ambient": "20 degC", "source": "parabolic", "rise": "maximum"},
     )
-
     type = "thermal.flash"
     reach = "contact"
     ambient: Annotated[float, Quantity("K", above=0, usual=(150.0, 2000.0))]

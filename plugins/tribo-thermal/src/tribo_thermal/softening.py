@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
-from pydantic import ConfigDict
 from tribo import CaseError, LocalConditions, Material, Quantity, WearLaw, WearRate
 
 
@@ -24,14 +23,7 @@ class Softening(WearLaw):
     (1987), Wear-mechanism maps, Acta Metallurgica 35, 1-24.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [
-                {"K": 1.24e-6, "softening": "0.001 1/K", "reference_temperature": "20 degC"}
-            ]
-        }
-    )
-
+    examples = ({"K": 1.24e-6, "softening": "0.001 1/K", "reference_temperature": "20 degC"},)
     type = "thermal.softening"
     K: Annotated[float, Quantity("1", at_least=0, usual=(1e-12, 1.0))]
     """Archard's dimensionless wear coefficient."""

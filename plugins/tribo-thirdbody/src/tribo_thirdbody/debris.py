@@ -5,7 +5,6 @@ from dataclasses import replace
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import ConfigDict
 from tribo import LOAD_SHARE, Array, ContactConditions, Effect, Field, Quantity
 
 THICKNESS = Field("debris_thickness", "m", "Height of debris, without pores.", at_least=0)
@@ -22,10 +21,7 @@ class Debris(Effect):
     Sources: Godet (1984), Wear 100, 437-452; Fillot et al. (2007), Wear 262, 949-957.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={"examples": [{"ejection_length": "0.5 m", "cover": "1 um"}]}
-    )
-
+    examples = ({"ejection_length": "0.5 m", "cover": "1 um"},)
     type = "thirdbody.debris"
     ejection_length: Annotated[float, Quantity("m", above=0)]
     """Sliding distance λ over which 1/e of the debris stays."""

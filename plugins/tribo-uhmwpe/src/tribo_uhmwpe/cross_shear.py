@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
-from pydantic import ConfigDict
 from tribo import Field, LocalConditions, Quantity, WearLaw, WearRate
 
 FRESH = 1e-9
@@ -38,12 +37,7 @@ class CrossShear(WearLaw):
     molecular weight polyethylene in multi-directional sliding, Wear 248, 38-47.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={
-            "examples": [{"k_along": "1e-6 mm^3/(N m)", "k_across": "6.4e-6 mm^3/(N m)"}]
-        }
-    )
-
+    examples = ({"k_along": "1e-6 mm^3/(N m)", "k_across": "6.4e-6 mm^3/(N m)"},)
     type = "uhmwpe.cross_shear"
     k_along: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))]
     """Specific wear rate along the principal direction, as on a straight path."""
