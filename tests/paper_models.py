@@ -11,18 +11,15 @@ from tribo.contact.winkler import Winkler
 from tribo.core.fields import WearRate
 from tribo.core.grid import Grid
 from tribo.core.material import Material
+from tribo.motion.closed_track import Unidirectional
 from tribo.motion.reciprocating import Reciprocating
-from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.observer import Observer
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin, march
 from tribo.stepping.implicit import Implicit
-from tribo.surfaces.flat import Flat
-from tribo.surfaces.paraboloid import Paraboloid
-from tribo.surfaces.sphere import Sphere
-from tribo.wear.archard import Archard
+from tribo.surfaces.forms import Flat, Paraboloid, Sphere
+from tribo.wear.archard import Archard, Power
 from tribo.wear.law import WearLaw
-from tribo.wear.power import Power
 
 K = 3.11e-16
 FOUNDATION = 1.2973e15  # Pa/m: matches Hertz's contact radius in the paper's case

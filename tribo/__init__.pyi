@@ -71,7 +71,9 @@ from tribo.lab.inferred import InferredVolume as InferredVolume
 from tribo.lab.report import BodyReport as BodyReport
 from tribo.lab.report import FirstContact as FirstContact
 from tribo.lab.report import LabReport as LabReport
+from tribo.motion.closed_track import Rotating as Rotating
 from tribo.motion.closed_track import SpeedStage as SpeedStage
+from tribo.motion.closed_track import Unidirectional as Unidirectional
 from tribo.motion.cycle import Position as Position
 from tribo.motion.cycle import Speeds as Speeds
 from tribo.motion.exposure import Exposure as Exposure
@@ -83,8 +85,6 @@ from tribo.motion.measured import Measured as Measured
 from tribo.motion.planar import Planar as Planar
 from tribo.motion.reciprocating import FrequencyStage as FrequencyStage
 from tribo.motion.reciprocating import Reciprocating as Reciprocating
-from tribo.motion.rotating import Rotating as Rotating
-from tribo.motion.unidirectional import Unidirectional as Unidirectional
 from tribo.observers.observer import Observer as Observer
 from tribo.plotting.figures import Plot as Plot
 from tribo.registry.hookspecs import CaseTemplate as CaseTemplate
@@ -108,16 +108,16 @@ from tribo.study.comparison import compare as compare
 from tribo.study.sweeping.runs_table import Run as Run
 from tribo.study.sweeping.sweep import Sweep as Sweep
 from tribo.study.sweeping.sweep import sweep as sweep
-from tribo.surfaces.cylinder import Cylinder as Cylinder
-from tribo.surfaces.flat import Flat as Flat
+from tribo.surfaces.forms import Cylinder as Cylinder
+from tribo.surfaces.forms import Flat as Flat
+from tribo.surfaces.forms import Paraboloid as Paraboloid
+from tribo.surfaces.forms import Sphere as Sphere
 from tribo.surfaces.height_map import HeightMap as HeightMap
-from tribo.surfaces.paraboloid import Paraboloid as Paraboloid
 from tribo.surfaces.pin import Pin as Pin
+from tribo.surfaces.relief import Texture as Texture
+from tribo.surfaces.relief import Waves as Waves
 from tribo.surfaces.rough import Rough as Rough
-from tribo.surfaces.sphere import Sphere as Sphere
 from tribo.surfaces.surface import Surface as Surface
-from tribo.surfaces.texture import Texture as Texture
-from tribo.surfaces.waves import Waves as Waves
 from tribo.units import GPa as GPa
 from tribo.units import Hz as Hz
 from tribo.units import MPa as MPa
@@ -137,10 +137,10 @@ from tribo.units import ms as ms
 from tribo.units import nm as nm
 from tribo.units import um as um
 from tribo.wear.archard import Archard as Archard
+from tribo.wear.archard import Power as Power
 from tribo.wear.law import WearLaw as WearLaw
 from tribo.wear.modified import ModifiedLaw as ModifiedLaw
 from tribo.wear.modified import Scaled as Scaled
-from tribo.wear.power import Power as Power
 from tribo.wear.running_in import RunningIn as RunningIn
 from tribo.wear.running_in import Smoothing as Smoothing
 

@@ -10,7 +10,7 @@ from tribo.closed_forms.hertz import first_yield_pressure
 from tribo.core.contact import ContactSystem
 from tribo.lab.against_hertz import HertzContact, hertz_contact, yield_words
 from tribo.lab.report import lab_report
-from tribo.surfaces.cylinder import Cylinder
+from tribo.surfaces.forms import Cylinder
 
 H = 4e9
 

@@ -14,9 +14,8 @@ from tribo.lab.roughness import (
     roughness,
     without_form,
 )
-from tribo.surfaces.cylinder import Cylinder
+from tribo.surfaces.forms import Cylinder, Sphere
 from tribo.surfaces.rough import Rough
-from tribo.surfaces.sphere import Sphere
 
 GRID = Grid("1 mm", 100)
 A = 50e-9

@@ -10,7 +10,7 @@ from paper_models import K, archard, case, flat, last, motion, named, steel
 from tribo import Cylinder, Grid, Implicit
 from tribo.core.errors import CaseError
 from tribo.motion.averaging_error import groove_excess
-from tribo.motion.unidirectional import Unidirectional
+from tribo.motion.closed_track import Unidirectional
 from tribo.simulation.positions import composed
 from tribo.simulation.validity import track_average
 

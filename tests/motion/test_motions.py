@@ -7,10 +7,10 @@ from paper_models import motion, small
 from tribo import CaseError
 from tribo.core.grid import Grid
 from tribo.guards.motion import GuardedMotion
+from tribo.motion.closed_track import Unidirectional
 from tribo.motion.exposure import Stationary, Track
 from tribo.motion.measured import Measured
 from tribo.motion.reciprocating import Reciprocating
-from tribo.motion.unidirectional import Unidirectional
 
 GRID = Grid((1e-3, 1e-3), (10, 10))
 

@@ -17,7 +17,7 @@ from tribo.cli.lab_report import print_provenance
 from tribo.core.errors import PluginError
 from tribo.result.provenance import changed_components, origin, provenance, stated_facts
 from tribo.result.read import Result
-from tribo.surfaces.sphere import Sphere
+from tribo.surfaces.forms import Sphere
 
 
 class Stated(Sphere):

@@ -44,7 +44,7 @@ from tribo.simulation.predict import predict
 from tribo.study.check import _facts
 from tribo.study.runs import is_done
 from tribo.surfaces.height_map import HeightMap
-from tribo.surfaces.laid import Laid
+from tribo.surfaces.relief import Laid
 
 GRID = Grid((0.7e-3, 0.7e-3), (32, 32))
 SPEED = 0.1

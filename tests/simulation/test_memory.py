@@ -14,7 +14,7 @@ from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.simulation import memory
 from tribo.simulation.memory import memory_needed
-from tribo.surfaces.sphere import Sphere
+from tribo.surfaces.forms import Sphere
 from tribo.templates import template
 
 TESTS = Path(__file__).parents[1]

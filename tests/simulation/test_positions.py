@@ -24,7 +24,7 @@ from tribo.simulation.predict import predict
 from tribo.simulation.validity import check_stroke
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.first_contact import first_contact
-from tribo.surfaces.waves import Waves
+from tribo.surfaces.relief import Waves
 
 GRID = Grid((1.4e-3, 1.4e-3), (48, 48))
 

@@ -22,7 +22,7 @@ from tribo.simulation.march import begin, march
 from tribo.simulation.predict import predict
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
-from tribo.surfaces.cylinder import Cylinder
+from tribo.surfaces.forms import Cylinder
 
 
 def case(**changes):

@@ -13,10 +13,10 @@ from tribo.case import Stop
 from tribo.config.load import validate_case
 from tribo.contact.periodic import Periodic
 from tribo.core.errors import OutOfWindow, TooWorn
-from tribo.motion.unidirectional import Unidirectional
+from tribo.motion.closed_track import Unidirectional
 from tribo.simulation.predict import predict
 from tribo.simulation.validity import of_case, peak_at_the_edge
-from tribo.surfaces.sphere import Sphere
+from tribo.surfaces.forms import Sphere
 from tribo.templates import TEMPLATES, template
 
 

@@ -8,7 +8,7 @@ from tribo import Field, Grid, WearLaw, WearRate
 from tribo.core.fields import LocalConditions
 from tribo.guards.parts import GuardedLaw
 from tribo.stepping.implicit import Implicit
-from tribo.wear.power import Power
+from tribo.wear.archard import Power
 
 FINE = Implicit(depth_tolerance=2e-4, pressure_tolerance=0.02)
 

@@ -16,7 +16,7 @@ from tribo.core.errors import PluginError
 from tribo.core.fields import LOAD_SHARE
 from tribo.core.words import checked_name
 from tribo.evolution.states import place
-from tribo.motion.unidirectional import Unidirectional
+from tribo.motion.closed_track import Unidirectional
 from tribo.observers.observer import Observer
 from tribo.simulation.assembly import assemble
 from tribo.simulation.march import begin

@@ -30,10 +30,10 @@ from tribo import (
     WearRate,
 )
 from tribo.core.errors import PluginError
-from tribo.motion.unidirectional import Unidirectional
+from tribo.motion.closed_track import Unidirectional
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
-from tribo.wear.power import Power
+from tribo.wear.archard import Power
 from tribo.wear.running_in import RunningIn
 
 

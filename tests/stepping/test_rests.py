@@ -5,7 +5,7 @@ import pytest
 from paper_models import K, archard, foundation, motion, pin, small, states
 
 from tribo import Effect, Field, Load, Simulation, Stage
-from tribo.motion.unidirectional import Unidirectional
+from tribo.motion.closed_track import Unidirectional
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 

@@ -9,10 +9,9 @@ from paper_models import Faster, K, foundation, lost, motion, pair, small
 from tribo import Effect, Field, Grid, WearLaw, WearRate
 from tribo.core.errors import PluginError
 from tribo.evolution.local_fields import effect_fields
+from tribo.motion.closed_track import Rotating, Unidirectional
 from tribo.motion.measured import Measured
 from tribo.motion.reciprocating import Reciprocating
-from tribo.motion.rotating import Rotating
-from tribo.motion.unidirectional import Unidirectional
 from tribo.simulation.march import begin
 from tribo.stepping.explicit import Explicit
 

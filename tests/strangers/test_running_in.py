@@ -8,10 +8,10 @@ from strangers.running_in import RunningIn
 from tribo import Grid
 from tribo.contact.winkler import Winkler
 from tribo.core.material import Material
-from tribo.motion.unidirectional import Unidirectional
+from tribo.motion.closed_track import Unidirectional
 from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Implicit
-from tribo.surfaces.flat import Flat
+from tribo.surfaces.forms import Flat
 
 SIDE, LOAD, TRACK = 2e-3, 40.0, 8e-3
 FIRST, LAST, LENGTH = 8e-15, 1e-15, 0.7

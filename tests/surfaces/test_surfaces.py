@@ -5,10 +5,7 @@ from paper_models import half_space, motion, named, small, steel
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.simulation.march import begin
-from tribo.surfaces.cylinder import Cylinder
-from tribo.surfaces.flat import Flat
-from tribo.surfaces.paraboloid import Paraboloid
-from tribo.surfaces.sphere import Sphere
+from tribo.surfaces.forms import Cylinder, Flat, Paraboloid, Sphere
 
 GRID = Grid((2e-3, 3e-3), (40, 61))
 SURFACES = [

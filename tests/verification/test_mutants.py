@@ -15,8 +15,7 @@ from tribo.motion.stroke import Stroke
 from tribo.simulation import assembly
 from tribo.stepping import plastic_groove, step
 from tribo.verification.suite import installed_cases
-from tribo.wear.archard import Archard
-from tribo.wear.power import Power
+from tribo.wear.archard import Archard, Power
 
 
 def without_poisson(right):

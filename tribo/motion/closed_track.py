@@ -1,19 +1,25 @@
-"""Steady sliding round a closed track, whatever its shape."""
+"""Steady sliding round a closed track: of any shape, straight under the contact, round an axis."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Annotated, Self
+import math
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Literal, Self
 
-from pydantic import Tag, field_validator, model_validator
+import numpy as np
+from pydantic import Field, Tag, field_validator, model_validator
 
+from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity, parse
+from tribo.motion.cycle import Position
+from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
 from tribo.motion.held import Held, held
 from tribo.motion.kinematics import Kinematics
+from tribo.motion.stroke import WHOLE, Stroke, odd
 
 
 class SpeedStage(Table):
@@ -136,3 +142,139 @@ class ClosedTrack(Steady):
             f"length, {2e3 * half_width_x:.3g} mm, or set kinematics.allow_short_track = true",
             f"kinematics.{self._given}",
         )
+
+
+NEAR_AXIS = 0.1
+"""Half-width of a contact over the track's radius, from which on its curvature is spoken of."""
+
+
+class Unidirectional(ClosedTrack):
+    """Speed v round a track of length ℓ; one body swept over the track.
+
+    The curvature of the track inside the contact is neglected: valid for
+    contacts small beside the track radius. A run says so from a tenth of it on.
+
+    Of two bodies that repeat with the window, as nominally flat rough ones do, and so touch all
+    over, the path may be resolved into `positions`: those over the window's length stand for all of
+    it, however long the track is.
+    """
+
+    examples = ({"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"},)
+    type = "unidirectional"
+    track_length: Annotated[float, Quantity("m", above=0, usual=(1e-6, 10.0))] | None = None
+    """Length of the closed track."""
+    track_radius: Annotated[float, Quantity("m", above=0, usual=(1e-6, 1.0))] | None = None
+    """Radius of a circular track; its length is 2πr."""
+    positions: Annotated[int, Field(ge=3)] | Literal["cells", "average"] = "average"
+    """In how many positions over the window's length the contact is solved, an odd number, or
+    ``"cells"`` for every cell, where the contact repeats with the window; ``"average"`` takes the
+    track average for all of them."""
+
+    turns: bool = False
+    """Whether the swept body turns about an axis along y, as a ring does on a block: its points
+    pass, its shape stays."""
+
+    _middle = field_validator("positions")(odd)
+
+    @model_validator(mode="after")
+    def _one_track(self) -> Self:
+        if (self.track_length is None) == (self.track_radius is None):
+            raise ValueError("give exactly one of track_length and track_radius")
+        if self.turns and self.positions != "average":
+            raise ValueError('a body that turns is the same at all positions; use "average"')
+        return self
+
+    @property
+    def track_extent(self) -> float:
+        """Length of the closed track, in m."""
+        if self.track_length is not None:
+            return self.track_length
+        assert self.track_radius is not None
+        return 2 * math.pi * self.track_radius
+
+    def cycle(self, grid: Grid) -> Sequence[Position]:
+        """Return the one position of the average, or those over the window's length."""
+        if self.positions == "average":
+            return super().cycle(grid)
+        return [Position(float(share)) for share in self._stroke(grid).shares]
+
+    def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
+        """Return the closed track for the swept body, or the rows of the window."""
+        if self.track_radius is not None and not self.turns:
+            check_axis(self.track_radius, grid)
+        if self.positions == "average":
+            track = Track(grid, self.track_extent, shape_stays=self.turns)
+            return one_swept_body(grid, bodies, self.swept, track)
+        passing = Passing(grid, self._stroke(grid).starts, self.track_extent)
+        return one_swept_body(grid, bodies, self.swept, passing)
+
+    def limitation(
+        self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
+    ) -> str | None:
+        """Return a warning once the contact is not small beside the track radius."""
+        radius, width = self.track_radius, f"{2e3 * half_width_x:.3g} mm"
+        beyond = super().limitation(half_width_x, depth, approach, volume_ratio, line)
+        if beyond or radius is None or self.turns or half_width_x <= NEAR_AXIS * radius:
+            return beyond
+        return (
+            f"half of the contact's {width} is {half_width_x / radius:.2g} of track_radius = "
+            f"{1e3 * radius:.3g} mm: its outer edge slides by as much further and the inner one "
+            'less, which is left out here; use kinematics.type = "rotating"'
+        )
+
+    def _stroke(self, grid: Grid) -> Stroke:
+        if grid.period is None:
+            raise CaseError(
+                "a track is resolved only where the contact repeats with the window "
+                '(contact.type = "periodic"); use positions = "average"',
+                "kinematics.positions",
+            )
+        if self.track_extent < grid.size[0] * (1 - WHOLE):
+            raise CaseError(
+                f"{1e3 * self.track_extent:.4g} mm is shorter than the window of "
+                f"{1e3 * grid.size[0]:.4g} mm, after which the contact repeats",
+                f"kinematics.{self._given}",
+            )
+        return Stroke(grid.size[0], grid.spacing[0], self.positions, grid.period)
+
+    @property
+    def _given(self) -> str:
+        return "track_radius" if self.track_length is None else "track_length"
+
+
+class Rotating(ClosedTrack):
+    """Speed v round a circle of radius R; one body swept over the track.
+
+    Speed and sliding distance are those in the middle of the window. A point at (x, y) is at the
+    radius ρ = √(x² + (R + y)²) and slides by ρ/R of that distance at as much of that speed. The
+    swept body passes along rows, each a track of length 2π(R + y): its volume is exact, but its
+    groove lies on straight lines in place of arcs, which are x²/2R apart. Valid for contacts short
+    beside R.
+    """
+
+    examples = ({"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"},)
+    type = "rotating"
+    track_radius: Annotated[float, Quantity("m", above=0, usual=(1e-6, 1.0))]
+    """Radius R of the track in the middle of the window; the axis lies towards negative y."""
+
+    @property
+    def track_extent(self) -> float:
+        """Length of the closed track in the middle of the window, in m."""
+        return 2 * math.pi * self.track_radius
+
+    def cycle(self, grid: Grid) -> Sequence[Position]:
+        """Return the one position, in which points slide as far as they are from the axis."""
+        x, out = grid.mesh[0], self._rows(grid)
+        radius = np.hypot(x, out)
+        heading = np.broadcast_to(out / radius, grid.cells), np.asarray(-x / radius)
+        return [Position(reach=radius / self.track_radius, heading=heading)]
+
+    def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
+        """Return a closed track for the swept body, each row of its own length."""
+        track = Track(grid, 2 * math.pi * self._rows(grid))
+        return one_swept_body(grid, bodies, self.swept, track)
+
+    def _rows(self, grid: Grid) -> Array:
+        """Return the distance from the axis of each row, shape (ny,), in m."""
+        check_axis(self.track_radius, grid)
+        return np.asarray(self.track_radius + grid.mesh[1][0])

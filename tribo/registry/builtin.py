@@ -6,25 +6,19 @@ from tribo.component import Component
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
+from tribo.motion.closed_track import Rotating, Unidirectional
 from tribo.motion.measured import Measured
 from tribo.motion.planar import Planar
 from tribo.motion.reciprocating import Reciprocating
-from tribo.motion.rotating import Rotating
-from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.progress import Progress
 from tribo.registry.hookspecs import hookimpl
-from tribo.surfaces.cylinder import Cylinder
-from tribo.surfaces.flat import Flat
+from tribo.surfaces.forms import Cylinder, Flat, Paraboloid, Sphere
 from tribo.surfaces.height_map import HeightMap
-from tribo.surfaces.paraboloid import Paraboloid
 from tribo.surfaces.pin import Pin
+from tribo.surfaces.relief import Texture, Waves
 from tribo.surfaces.rough import Rough
-from tribo.surfaces.sphere import Sphere
-from tribo.surfaces.texture import Texture
-from tribo.surfaces.waves import Waves
-from tribo.wear.archard import Archard
+from tribo.wear.archard import Archard, Power
 from tribo.wear.modified import Scaled
-from tribo.wear.power import Power
 from tribo.wear.running_in import RunningIn, Smoothing
 
 

@@ -32,8 +32,8 @@ from tribo.model.contact_setup import ContactSetup
 from tribo.model.cycle import Cycle
 from tribo.model.laws import Laws
 from tribo.model.model import Model
+from tribo.motion.closed_track import Unidirectional
 from tribo.motion.exposure import Exposure
-from tribo.motion.unidirectional import Unidirectional
 from tribo.registry.plugins import check_requirements
 from tribo.simulation.effects import in_order
 from tribo.simulation.hardness import yielding

@@ -15,7 +15,7 @@ from tribo.core.grid import Grid, Length
 from tribo.core.number_tables import read_numbers
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.units import Quantity
-from tribo.surfaces.laid import Laid
+from tribo.surfaces.relief import Laid
 from tribo.surfaces.surface import Surface
 
 Line = Annotated[tuple[Annotated[float, Quantity("m")], ...], Field(min_length=2)]

@@ -10,7 +10,7 @@ from pydantic import model_validator
 from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.core.units import Quantity
-from tribo.surfaces.laid import check_resolved
+from tribo.surfaces.relief import check_resolved
 from tribo.surfaces.surface import Surface
 
 STEEP = 10.0

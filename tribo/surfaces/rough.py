@@ -12,7 +12,7 @@ from tribo.core.arrays import Array
 from tribo.core.grid import Grid
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.units import Quantity
-from tribo.surfaces.laid import Laid, check_resolved
+from tribo.surfaces.relief import Laid, check_resolved
 
 PERIOD = 8.0
 Wavelength = Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]

@@ -40,9 +40,7 @@ from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 from tribo.simulation.watch import Watch
 from tribo.stepping.implicit import Implicit
-from tribo.surfaces.cylinder import Cylinder
-from tribo.surfaces.flat import Flat
-from tribo.surfaces.sphere import Sphere
+from tribo.surfaces.forms import Cylinder, Flat, Sphere
 from tribo.testing.checks import BODIES, FieldValue, needed_by
 from tribo.testing.compare import first_difference, locked, require
 from tribo.testing.process import process_state

@@ -32,12 +32,11 @@ from tribo.case import Layer, Stop
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.core.grid import Grid
-from tribo.motion.rotating import Rotating
-from tribo.motion.unidirectional import Unidirectional
+from tribo.motion.closed_track import Rotating, Unidirectional
 from tribo.stepping.explicit import Explicit
-from tribo.surfaces.cylinder import Cylinder
+from tribo.surfaces.forms import Cylinder
+from tribo.surfaces.relief import Waves
 from tribo.surfaces.surface import Surface
-from tribo.surfaces.waves import Waves
 from tribo.wear.archard import Archard
 from tribo.wear.modified import times
 

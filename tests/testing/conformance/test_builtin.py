@@ -5,27 +5,21 @@ import pytest
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
+from tribo.motion.closed_track import Rotating, Unidirectional
 from tribo.motion.measured import Measured
 from tribo.motion.planar import Planar
 from tribo.motion.reciprocating import Reciprocating
-from tribo.motion.rotating import Rotating
-from tribo.motion.unidirectional import Unidirectional
 from tribo.observers.progress import Progress
 from tribo.registry.kinds import KINDS
 from tribo.registry.registry import Registry
-from tribo.surfaces.cylinder import Cylinder
-from tribo.surfaces.flat import Flat
+from tribo.surfaces.forms import Cylinder, Flat, Paraboloid, Sphere
 from tribo.surfaces.height_map import HeightMap
-from tribo.surfaces.paraboloid import Paraboloid
 from tribo.surfaces.pin import Pin
+from tribo.surfaces.relief import Texture, Waves
 from tribo.surfaces.rough import Rough
-from tribo.surfaces.sphere import Sphere
-from tribo.surfaces.texture import Texture
-from tribo.surfaces.waves import Waves
 from tribo.testing import check
-from tribo.wear.archard import Archard
+from tribo.wear.archard import Archard, Power
 from tribo.wear.modified import Scaled
-from tribo.wear.power import Power
 from tribo.wear.running_in import RunningIn, Smoothing
 
 REFERENCE = {"k": "3e-16 1/Pa", "reference_pressure": "1 GPa"}
