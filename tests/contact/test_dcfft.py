@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from contact_problems import HARDNESS, MODULUS, ONSET, RADIUS, ball, problem, solver
 
-from tribo.contact import dcfft
 from tribo.contact.bounded_cg import solve_bounded
 from tribo.contact.padded_half_space import HalfSpace
 from tribo.core.box import around
@@ -103,11 +102,3 @@ def test_box_encloses_its_cells_with_the_margin_and_few_sizes() -> None:
         padded[max(i.min() - 4, 0) : i.max() + 5, max(j.min() - 4, 0) : j.max() + 5] = True
         assert inner[padded].all()
     assert len(sizes) < 25
-
-
-@pytest.mark.parametrize("aspect", [10.0, 100.0])
-def test_no_overlap_is_left_outside_the_box_of_a_contact_one_long_cell_wide(aspect: float) -> None:
-    spacing = 1e-6, 1e-6 * aspect
-    bound = dcfft._displacement_bound(np.eye(1, 9).T, spacing, spacing[0] * spacing[1])
-    exact = HalfSpace((9, 1), spacing, 1.0).apply(np.eye(1, 9).T)
-    assert (bound <= exact).all()

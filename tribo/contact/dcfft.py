@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -86,11 +85,20 @@ class DcFft(ElasticSolver):
                 max_iterations=self.max_iterations,
             )
             iterations += solutions[0].iterations
-            missed = _overlapping_outside(system, gap, load, wear, box, solutions)
-            solutions = [_in_window(box, each, iterations) for each in solutions]
+            solutions = [
+                replace(
+                    each,
+                    pressure=box.embed(each.pressure),
+                    overlap=box.embed(each.overlap),
+                    iterations=iterations,
+                )
+                for each in solutions
+            ]
+            guess = np.reshape([each.pressure for each in solutions], gap.shape)
+            approach = over(np.reshape([each.approach for each in solutions], load.shape))
+            missed = _overlapping_outside(system, gap, wear, box, guess, approach)
             if not missed.any():
                 return solutions
-            guess = np.reshape([each.pressure for each in solutions], gap.shape)
             box = _grown(box, around(missed | _anywhere(guess > 0), _MARGIN))
 
     def _guess(self, problem: ContactProblem) -> Array | None:
@@ -123,13 +131,6 @@ def _anywhere(cells: Mask) -> Mask:
     return np.asarray(cells.reshape(-1, *cells.shape[-2:]).any(axis=0))
 
 
-def _in_window(box: Box, solution: ContactSolution, iterations: int) -> ContactSolution:
-    if box.is_window:
-        return replace(solution, iterations=iterations)
-    pressure, overlap = box.embed(solution.pressure), box.embed(solution.overlap)
-    return replace(solution, pressure=pressure, overlap=overlap, iterations=iterations)
-
-
 def _wide_enough(box: Box, cells: float) -> Box:
     # A box that bears the load at the cap, with a quarter to spare to distribute it.
     while not box.is_window and box.shape[0] * box.shape[1] < 1.25 * cells:
@@ -148,46 +149,21 @@ def _grown(box: Box, wanted: Box) -> Box:
 def _overlapping_outside(
     system: ContactSystem,
     gap: Array,
-    load: Array,
     wear: WearCompliance | CycleCompliance | None,
     box: Box,
-    solutions: Sequence[ContactSolution],
+    pressure: Array,
+    approach: Array,
 ) -> Mask:
     """Find cells of the window, outside `box`, at which the bodies overlap at any position."""
-    approach = over(np.reshape([each.approach for each in solutions], load.shape))
     # All displacements are positive: an undeformed gap above the approach stays open. Beside a
     # contact a soft layer may rise, but by less than it sinks below it.
-    coated = bool(system.coatings)
-    highest = 2 * approach - over(gap.min(CELLS)) if coated else approach
-    doubtful: Mask = gap < highest
+    doubtful: Mask = gap < (2 * approach - over(gap.min(CELLS)) if system.coatings else approach)
     doubtful[(..., *box.slices)] = False
-    if box.is_window or not doubtful.any():
-        return _anywhere(doubtful)
-    near = _grown(box, around(_anywhere(doubtful), 0))
-    here = (..., *near.slices)
-    suspects, gap = doubtful[here], gap[here]
-    pressure = np.reshape([box.embed(each.pressure) for each in solutions], doubtful.shape)[here]
-    strength = float(load.min()) / system.modulus
-    bound = _displacement_bound(_anywhere(pressure > 0), system.grid.spacing, strength)
-    if coated or (gap + bound < approach)[suspects].any():
+    if doubtful.any():
+        near = _grown(box, around(_anywhere(doubtful), 0))
+        here = (..., *near.slices)
         operator: Operator = _half_space(near.shape, system)
         if wear is not None:
             operator = WornOperator(operator, wear.on(near))
-        suspects &= gap + operator.apply(pressure) < approach
-    else:
-        suspects[:] = False
+        doubtful[here] &= gap[here] + operator.apply(pressure[here]) < approach
     return _anywhere(doubtful)
-
-
-def _displacement_bound(touching: Mask, spacing: tuple[float, float], strength: float) -> Array:
-    """Return a lower bound of the displacement, of which `strength` is load over modulus."""
-    # As if all of the load stood at the farthest corner of the contact's bounding box. A load
-    # spread over a cell displaces more than a point force at the root mean square of its
-    # distances, since 1/√ is convex.
-    reach = []
-    for axis in (0, 1):
-        line = np.arange(touching.shape[axis]) * spacing[axis]
-        loaded = line[touching.any(axis=1 - axis)]
-        reach.append(np.maximum(np.abs(line - loaded[0]), np.abs(line - loaded[-1])))
-    distance = np.hypot(np.hypot(reach[0][:, None], reach[1]), np.hypot(*spacing) / np.sqrt(12))
-    return np.asarray(strength / (np.pi * distance))
