@@ -17,6 +17,8 @@ from tribo.config.overrides import path_keys as path_keys
 from tribo.config.write import to_toml as to_toml
 from tribo.contact.projection import CELLS as CELLS
 from tribo.contact.projection import over as over
+from tribo.contact.residuals import check_bearable as check_bearable
+from tribo.contact.residuals import check_finite as check_finite
 from tribo.core.arrays import add_from as add_from
 from tribo.core.arrays import bounds as bounds
 from tribo.core.arrays import readonly as readonly

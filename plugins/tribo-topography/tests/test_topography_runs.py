@@ -125,7 +125,7 @@ def test_what_the_file_was_read_as_is_kept_in_the_result_and_what_is_worn_export
         np.testing.assert_allclose(again.heights, height, rtol=1e-12, atol=1e-18)
         assert again.pitch == pytest.approx(result.grid.spacing, rel=1e-6)
     np.savetxt(tmp_path / "no_unit.xyz", np.loadtxt(ball))
-    words = "states no unit for its heights; export the map as .*, whose"
+    words = "states no unit for its heights; export it as .x3p"
     with pytest.raises(CaseError, match=words):
         read_heights(tmp_path / "no_unit.xyz")
     monkeypatch.setattr("tribo.core.number_tables.MOST_PIXELS", 4000)

@@ -7,7 +7,6 @@ from importlib.util import find_spec
 from typing import Annotated, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 from tribo import (
     Array,
@@ -17,15 +16,15 @@ from tribo import (
     ContactSolver,
     ContactSystem,
     HalfSpace,
+    Mask,
     NumericalError,
     Quantity,
     nyquist_compliance,
     residuals,
 )
+from tribo.kernel_api import check_bearable, check_finite
 
 from tribo_tamaas.drive import pressure
-
-Mask = NDArray[np.bool_]
 
 # tamaas's error is not quite tribo's residual; where it stops too soon, it goes on.
 _ATTEMPTS = 4
@@ -64,7 +63,7 @@ class Tamaas(ContactSolver):
                 f"{self.type!r} needs tamaas, which is not installed: pip install tamaas "
                 "(there are wheels for Linux on x86-64 only), or use type = 'dcfft'"
             )
-        _check_bearable(system, system.load, system.cap)
+        _check_bearable(system, system.load)
 
     def solve(
         self, problem: ContactProblem, start: ContactSolution | None = None
@@ -75,9 +74,8 @@ class Tamaas(ContactSolver):
                 f"{self.type!r} takes no wear compliance; use stepping.type = 'explicit'"
             )
         cap = problem.system.cap
-        _check_bearable(problem.system, problem.load, cap)
-        if not np.isfinite(problem.gap).all():
-            raise NumericalError("the gap has values that are not finite")
+        _check_bearable(problem.system, problem.load)
+        check_finite(problem.gap)
         guess = None if start is None else start.pressure
         if cap is not None and guess is not None and float(np.max(guess)) >= cap:
             return self._reach(problem, cap, guess)
@@ -122,9 +120,7 @@ class Tamaas(ContactSolver):
         )
 
 
-@lru_cache(maxsize=4)
-def _half_space(shape: tuple[int, int], spacing: tuple[float, float], modulus: float) -> HalfSpace:
-    return HalfSpace(shape, spacing, modulus)
+_half_space = lru_cache(maxsize=4)(HalfSpace)
 
 
 def _judged(
@@ -154,11 +150,6 @@ def _approach(gap: Array, zero: Mask, full: Mask) -> float:
     return 0.5 * (highest + float(np.min(gap[zero]))) if zero.any() else highest
 
 
-def _check_bearable(system: ContactSystem, load: float, cap: float | None) -> None:
-    bears = np.inf if cap is None else cap * system.grid.size[0] * system.grid.size[1]
-    if not 0 < load <= bears:
-        raise CaseError(
-            f"the load is {load:g} N; a positive load is needed"
-            + ("" if cap is None else f", of which the window bears at most {bears:g} N at {cap:g}")
-            + ("" if cap is None else " Pa. Enlarge the window, or lower the load")
-        )
+def _check_bearable(system: ContactSystem, load: float) -> None:
+    area = system.grid.size[0] * system.grid.size[1]
+    check_bearable(load, area, np.inf if system.cap is None else system.cap)

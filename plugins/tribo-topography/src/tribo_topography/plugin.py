@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tribo import CaseError, Component, ExportFormat, HeightFormat, Heights, hookimpl
+from tribo import Component, ExportFormat, HeightFormat, Heights, hookimpl
 
 from tribo_topography.config import MeasuredFile
 from tribo_topography.export import export_xyz
-from tribo_topography.read import Unreadable, read
+from tribo_topography.read import read
 from tribo_topography.surface import MeasuredSurface
 
 
@@ -37,16 +37,6 @@ def tribo_height_formats() -> list[HeightFormat]:
 
 
 def _heights(path: Path) -> Heights:
-    try:
-        found = read(MeasuredFile(path=path))
-    except CaseError as error:
-        if not path.is_file():
-            raise
-        # Its advice is for a surface of a case, which has settings.
-        reason = error.reason if isinstance(error, Unreadable) else error
-        raise CaseError(
-            f"{reason}; export the map as .x3p, or as a .npy or .csv table of heights in m, whose "
-            "pitch is given"
-        ) from None
+    found = read(MeasuredFile(path=path))
     (sx, sy), (nx, ny) = found.size, found.heights.shape
     return Heights(found.heights, (sx / nx, sy / ny))

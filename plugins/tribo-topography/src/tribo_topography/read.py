@@ -8,7 +8,6 @@ import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -21,19 +20,6 @@ from tribo_topography.config import MeasuredFile
 
 MAX_BYTES = 2**30
 """Size of the largest file that is read, also when unpacked."""
-
-
-class Unreadable(CaseError):
-    """A file that is read with other settings, as the message says after its `reason`."""
-
-    reason = ""
-
-    @classmethod
-    def of(cls, reason: str, advice: str) -> Unreadable:
-        """Return the error of a reason, with advice."""
-        error = cls(f"{reason}; {advice}")
-        error.reason = reason
-        return error
 
 
 @dataclass(frozen=True)
@@ -146,42 +132,24 @@ def _open(path: Path, file: BinaryIO, name: str | None) -> Any:
     )
 
     if name is not None and name not in lookup_reader_by_format:
-        near = get_close_matches(name, lookup_reader_by_format, n=1)
         known = ", ".join(sorted(lookup_reader_by_format))
-        raise CaseError(
-            f"no file format is called {name!r}"
-            + (f"; did you mean {near[0]!r}?" if near else f"; there are {known}")
-        )
-    suffix = path.suffix.lstrip(".").lower()
-    usual = [reader for reader in readers if suffix and suffix in (reader.file_extensions() or ())]
+        raise CaseError(f"no file format is called {name!r}; there are {known}")
     try:
         reader = open_topography(file, format=name)
     except CannotDetectFileFormat:
-        raise _not_recognised(path, file, usual) from None
+        raise CaseError(
+            f"{path} is broken, or in no format that is known; export it again, as .x3p"
+        ) from None
     except Exception as error:
         raise CaseError(f"{path} cannot be read as {name!r}: {_said(error)}") from error
-    if name is None and usual and reader.format() not in {each.format() for each in usual}:
-        found = reader.format()
-        raise Unreadable.of(
-            f"{path} is named as {usual[0].name()}, but looks like {found!r} inside",
-            f"if it is that, set format = {found!r}",
+    suffix, found = path.suffix.lstrip(".").lower(), reader.format()
+    usual = [each.format() for each in readers if suffix in (each.file_extensions() or ())]
+    if name is None and usual and found not in usual:
+        raise CaseError(
+            f"{path} is named as {usual[0]!r}, but looks like {found!r} inside; if it is that, "
+            f"rename it, or set format = {found!r} in a case"
         )
     return reader
-
-
-def _not_recognised(path: Path, file: BinaryIO, usual: list[Any]) -> CaseError:
-    for reader in usual:
-        try:
-            file.seek(0)
-            reader(file)
-        except Exception as error:
-            return CaseError(
-                f"{path} is named as {reader.name()}, but cannot be read as such: {_said(error)}"
-            )
-    return Unreadable.of(
-        f"{path} is in none of the formats that are known",
-        "export it as .x3p, or set format if you know it",
-    )
 
 
 def _channel(path: Path, reader: Any, wanted: int | str | None) -> int:
@@ -210,9 +178,9 @@ def _checked_channel(path: Path, channel: Any, config: MeasuredFile) -> tuple[fl
     if config.size is not None:
         return 1.0, 1.0
     if channel.physical_sizes is None:
-        raise Unreadable.of(
-            f"{path} does not say how large the measured area is",
-            'add size, as size = ["1.24 mm", "0.94 mm"]',
+        raise CaseError(
+            f"{path} does not say how large the measured area is; export it as .x3p or, in a case, "
+            'add size = ["1.24 mm", "0.94 mm"]'
         )
     sx, sy = channel.physical_sizes
     return float(sx), float(sy)
@@ -224,8 +192,9 @@ def _metre(path: Path, stated: str | None, config: MeasuredFile) -> float:
 
     if stated is None:
         if config.unit is None:
-            raise Unreadable.of(
-                f"{path} states no unit for its heights", "add unit, as unit = '1 um'"
+            raise CaseError(
+                f"{path} states no unit for its heights; export it as .x3p or, in a case, add "
+                "unit = '1 um'"
             )
         return config.unit
     if config.unit is not None:
