@@ -10,7 +10,6 @@ from contact_problems import HARDNESS, MODULUS, ONSET, ball, dense
 
 from tribo.contact.bounded_cg import solve_bounded
 from tribo.contact.padded_half_space import HalfSpace
-from tribo.contact.projection import project
 from tribo.contact.residuals import residuals
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
@@ -137,15 +136,6 @@ def test_one_spike_carries_a_small_load_alone() -> None:
     assert solution.approach == pytest.approx(1e9 * own, rel=1e-12, abs=0)
 
 
-def test_two_flats_touch_everywhere() -> None:
-    operator = HalfSpace((32, 24), (1e-6, 1e-6), MODULUS)
-    solution = solve_bounded(operator, np.full((32, 24), 3.0), 1.0)
-    displacement = operator.apply(solution.pressure)
-    assert (solution.pressure > 0).all()
-    assert displacement == pytest.approx(np.full((32, 24), displacement[0, 0]), rel=1e-6, abs=0)
-    assert solution.approach - 3.0 == pytest.approx(displacement[0, 0], rel=1e-6, abs=0)
-
-
 def test_not_converging_says_how_far_it_came_and_what_to_do() -> None:
     case = ball(64)
     operator = HalfSpace((64, 64), case.system.grid.spacing, MODULUS)
@@ -173,17 +163,3 @@ def test_a_load_that_no_cell_bears_in_rounding_is_said_to_be_too_small() -> None
     case = ball(32)
     with pytest.raises(NumericalError, match="no cell is in contact: the load is so small"):
         _on_window(replace(case, load=1e-50))
-
-
-@pytest.mark.parametrize("limit", [2.0, np.inf])
-def test_projection_is_the_nearest_point_that_carries_the_load(limit: float) -> None:
-    rng = np.random.default_rng(0)
-    values, total = 3 * rng.standard_normal((6, 7)), np.asarray(30.0)
-    cells = np.ones((6, 7), dtype=bool)
-    nearest = project(values, total, limit, cells)
-    assert nearest.sum() == pytest.approx(total, rel=1e-15, abs=0)
-    assert nearest.min() >= 0
-    assert nearest.max() <= limit
-    for _ in range(50):
-        other = project(nearest + 0.1 * rng.standard_normal((6, 7)), total, limit, cells)
-        assert ((nearest - values) * (other - nearest)).sum() >= -1e-12

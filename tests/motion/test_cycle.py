@@ -36,34 +36,6 @@ def test_every_cell_of_the_stroke_is_a_position():
     np.testing.assert_array_equal(Stroke(6e-4, 1e-4, 99).cells, np.arange(-3, 4))
 
 
-@pytest.mark.parametrize("length", [2e-3, 1.93e-3])
-def test_integrals_over_the_stroke_converge_in_second_order(length):
-    def error(cells):
-        stroke = Stroke(length, 1e-3 / cells)
-        x = stroke.cells * stroke.dx
-        exact = np.sin(0.5e3 * length) / (0.5e3 * length)
-        return abs(float(np.sum(stroke.shares * np.cos(1e3 * x))) - exact)
-
-    # A stroke of no whole number of cells makes the error jump about its order.
-    assert error(40) < 1.5e-4
-    assert np.log2(error(20) / error(160)) / 3 == pytest.approx(2, abs=0.15)
-
-
-def test_a_sine_spends_its_path_at_its_speeds():
-    motion = Reciprocating(
-        stroke="2 mm", frequency="25 Hz", cycles=10, waveform="sinusoidal", positions=41
-    )
-    cycle = motion.cycle(Grid(1e-3, 64))
-    speeds = np.array([np.mean([v for v, _ in position.speeds]) for position in cycle])
-    fastest = np.pi * 2e-3 * 25
-    assert max(speeds) == pytest.approx(fastest, rel=1e-3)
-    assert min(speeds) == pytest.approx(speeds[0], rel=1e-12, abs=0)
-    assert speeds[0] < 0.25 * max(speeds)
-    # Over the path, v = v₀ √(1 - x²) has the mean π/4 v₀.
-    mean = sum(position.share * v for position, v in zip(cycle, speeds, strict=True))
-    assert mean == pytest.approx(np.pi / 4 * fastest, rel=1e-4)
-
-
 @pytest.mark.parametrize(
     ("stroke", "positions"),
     # With the last two positions a cell apart, and 1.5e-9 cells over a whole number of them.

@@ -1,17 +1,10 @@
 import numpy as np
-import pytest
 
 from tribo.core.grid import Grid
-from tribo.motion.exposure import Stationary, Track
+from tribo.motion.exposure import Track
 
 GRID = Grid((1e-3, 2e-3), (8, 12))
 RATE = np.random.default_rng(1).random(GRID.cells)
-
-
-def test_stationary_points_see_their_own_rate():
-    body = Stationary(GRID)
-    assert body.average(RATE) is RATE
-    assert body.volume(RATE) == pytest.approx(RATE.sum() * GRID.cell_area)
 
 
 def test_track_average_is_over_the_track_not_the_window():

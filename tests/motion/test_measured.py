@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 from paper_models import case, foundation, last, motion, small
 
-from tribo import CaseError, Effect, Field, Grid, Measured, Reciprocating, Simulation
+from tribo import CaseError, Effect, Field, Grid, Measured, Reciprocating
 from tribo.config.load import validate_case
 from tribo.core.grid import RepeatingGrid
-from tribo.motion.stroke import near
 
 PATH = [(1, 0.0), (2, 0.0), (3, 4e-4), (5, 4e-4), (6, 2e-4), (8, 8e-4), (9, 0.0), (12, 0.0)]
 """It rests thrice and turns round thrice: 2 mm in 11 s."""
@@ -38,15 +37,6 @@ def test_a_whole_pass_ends_before_the_rest_with_which_the_next_begins(cycles):
     measured = Measured(path=path, cycles=cycles)
     for distance in (2e-3 * cycles, 2e-3 * cycles * (1 + 4e-16)):
         assert measured.time_at(distance) == pytest.approx(3 * cycles)
-
-
-def test_lengths_near_nodes_integrate_straight_lines_along_a_path():
-    nodes, path = np.array([-2.0, -0.5, 1.0, 3.0]), np.array([0.3, -1.7, 2.9, 2.9, 1.1])
-    lengths = near(nodes, path)
-    assert sum(lengths) == pytest.approx(np.sum(np.abs(np.diff(path))))
-    # Of the position itself: the sum of the means of its parts.
-    moments = np.abs(np.diff(path)) * 0.5 * (path[1:] + path[:-1])
-    assert np.sum(lengths * nodes) == pytest.approx(np.sum(moments))
 
 
 @pytest.mark.parametrize("positions", [9, "cells"])
@@ -100,8 +90,7 @@ class Warms(Effect):
         return {"warmth": 1000 * contact.speed - contact.state["warmth"] / 10}
 
 
-@pytest.mark.parametrize("save_times", [(), (0.5, 10.5, 20.7, 39.3)], ids=["no saves", "saves"])
-def test_what_relaxes_in_time_goes_on_in_rests(save_times):
+def test_what_relaxes_in_time_goes_on_in_rests():
     cells = 4 * GRID.spacing[0]
     # It slides for a tenth of the time; the first and the last save are in a rest.
     path = [(0, 0), (0.9, 0), (0.95, cells), (1, 0)]
@@ -109,7 +98,7 @@ def test_what_relaxes_in_time_goes_on_in_rests(save_times):
         grid=GRID,
         contact=foundation(),
         effects=[Warms()],
-        save_times=save_times,
+        save_times=(0.5, 10.5, 20.7, 39.3),
         kinematics=Measured(positions="cells", path=path, cycles=40),
     )
     speed = 2 * cells
@@ -158,41 +147,4 @@ def test_a_path_that_is_none_is_refused(changes, words):
         validate_case(case().model_dump() | {"kinematics": kinematics})
 
 
-@pytest.mark.parametrize("rows", ["0,0,1\n1,2,3\n", "0,0\n1,x\n", "0,0\n1\n"])
-def test_a_file_of_other_columns_is_refused(tmp_path, rows):
-    file = tmp_path / "path.csv"
-    file.write_text(rows, encoding="utf-8")
-    with pytest.raises(ValueError, match="numbers"):
-        Measured(path=file)
-
-
 GRID = Grid((1.2e-3, 0.75e-3), (32, 20))
-
-
-def run(**path):
-    kinematics = Measured(positions="cells", **path)
-    return small(grid=GRID, contact=foundation(), kinematics=kinematics)
-
-
-def test_a_body_wears_more_where_it_is_passed_more_often():
-    cells = 4 * GRID.spacing[0]
-    # Twice as often over one half of the stroke as over the other.
-    often = [(0, 0), (1, cells), (3, 3 * cells), (4, 2 * cells), (5, 3 * cells), (6, 0)]
-    state = last(run(path=often, cycles=100))
-    disk = state.bodies["disk"].wear
-    assert len(disk) == 32 + 12
-    for body in state.bodies.values():
-        volume = np.sum(body.wear) * GRID.cell_area
-        assert volume == pytest.approx(3.11e-16 * 100 * state.distance, rel=1e-12, abs=0)
-    # As the disk moves to positive x, the window lies further to negative x of it.
-    assert disk[:22].sum() > 1.1 * disk[22:].sum()
-
-
-def test_saves_may_fall_into_rests():
-    case = small(
-        grid=GRID, contact=foundation(), kinematics=Measured(path=PATH, cycles=10, positions=13),
-        save_times=(0.5, 2.5, 55.5, 109.5),
-    ).case  # fmt: skip
-    with Simulation(case).run() as result:
-        assert list(result.times) == [0, 0.5, 2.5, 55.5, 109.5, 110]
-        np.testing.assert_allclose(result.distances, [0, 0, 4e-4, 0.01, 0.02, 0.02], atol=1e-15)

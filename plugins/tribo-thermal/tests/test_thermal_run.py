@@ -1,17 +1,12 @@
 """Temperature and wear in runs of the whole program: implicit steps, stroke averages."""
 
-import json
 import math
 import runpy
 import tomllib
 from pathlib import Path
 
-import numpy as np
 import pytest
-import xarray as xr
-from click.testing import CliRunner
-from tribo import CaseError, ContactConditions, Simulation
-from tribo.cli.main import tribo
+from tribo import CaseError, Simulation
 from tribo.lab.report import lab_report
 
 from tribo_thermal.flash import Flash
@@ -38,54 +33,6 @@ def case(energy="50 kJ/mol", duration=300, **effect):
 def lost(data):
     last = Simulation(data).run().saves()[-1]
     return {name: body["wear_volume_m3"] for name, body in last["bodies"].items()}
-
-
-def test_bodies_that_share_a_temperature_lose_the_same_volume():
-    volumes = lost(case())
-    assert volumes["ball"] == pytest.approx(volumes["disk"], rel=1e-9, abs=0)
-
-
-def faster(data, save):
-    """By what Arrhenius multiplies the rate at a save, for the ball."""
-    with Simulation(data).run() as result:
-        pressure = result.field("pressure", save)
-    model = Simulation(data).model
-    conditions = ContactConditions(
-        system=model.contact.system,
-        pressure=pressure,
-        speed=0.1,
-        time=300.0,
-        distance=30.0,
-        swept=frozenset({"disk"}),
-        track=2e-3,
-        turns_back=True,
-        fields={"friction_coefficient": {"ball": np.full(model.grid.cells, 0.1)}},
-    )
-    paths = {"ball": {"length": "5 mm", "area": "78.5 mm^2"}}
-    rise = Flash(ambient="90 degC", heat_paths=paths).rises(conditions)["ball"]
-    return math.exp(50e3 / 8.314462618 * (1 / 363.15 - 1 / (363.15 + rise)))
-
-
-def test_a_warm_contact_wears_faster_than_archard():
-    # More than k F s, by what Arrhenius makes of the rise at the end, when it is least.
-    least = faster(case(), -1)
-    ratio = lost(case())["ball"] / (3.11e-16 * 100 * 30)
-    assert 1 < least < ratio < least**2
-
-
-def largest_step(energy):
-    """The longest stable explicit step at first, in s."""
-    data = case(energy)
-    data["stepping"] = {"type": "explicit", "time_step": "300 s"}
-    with pytest.raises(CaseError, match="largest stable step") as refused:
-        Simulation(data).run()
-    return float(str(refused.value).split("stable step is ")[1].split(" s")[0])
-
-
-def test_one_temperature_shortens_the_stable_step_as_it_raises_the_rate():
-    # It follows the load and the size of the contact, not single cells.
-    ratio = largest_step("0 J/mol") / largest_step("50 kJ/mol")
-    assert ratio == pytest.approx(faster(case(), 0), rel=2e-3)
 
 
 def test_the_body_that_takes_the_heat_wears_more():
@@ -146,21 +93,3 @@ def test_the_lab_is_told_the_temperature_that_the_wear_followed():
     assert max(first.get_ydata()) == ball.value
     # Both are seen where they coincide.
     assert first.get_markersize() > second.get_markersize()
-
-
-def test_the_temperature_is_shown_drawn_exported_and_in_the_dataset(tmp_path, monkeypatch):
-    drawn = []
-    monkeypatch.setattr("tribo.plotting.figures.write_figures", lambda p, *_: drawn.extend(p) or [])
-    file = tmp_path / "warm.h5"
-    Simulation(case(duration=20)).run(file).close()
-    for command in ("export", "plot"):
-        done = CliRunner().invoke(tribo, [command, str(file)], catch_exceptions=False)
-        assert done.exit_code == 0, done.output
-    shown = CliRunner().invoke(tribo, ["show", str(file), "--json"], catch_exceptions=False)
-    told = json.loads(shown.stdout)["saves"][-1]["bodies"]["ball"]["effects"]["temperature_K"]
-    with xr.open_dataset(file) as dataset:
-        stored = dataset.temperature.sel(body="ball").isel(time=-1)
-        assert told["max"] == pytest.approx(float(stored.max()))
-    assert any("temperature" in name for name in drawn)
-    tables = "".join(p.read_text() for p in tmp_path.rglob("*.csv"))
-    assert "temperature_K" in tables

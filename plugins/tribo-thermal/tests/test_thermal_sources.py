@@ -5,9 +5,8 @@ import math
 import numpy as np
 import pytest
 from greens_function import moved_on, round_a_circle, steady_cycle, to_and_fro
-from tribo import Grid, HalfSpace
 
-from tribo_thermal.sources import LIMITS, kept_per_power, rise_per_power, source_radius
+from tribo_thermal.sources import LIMITS, kept_per_power, rise_per_power
 
 PROFILES = {
     "uniform": np.ones_like,
@@ -70,36 +69,9 @@ def test_a_fast_source_heats_as_jaegers_limit(profile, rise):
     assert scaled(300.0, profile, rise) == pytest.approx(exact(300.0, profile, rise), rel=0.01)
 
 
-@pytest.mark.parametrize(("peclet", "published"), [(0.0, 1.1785), (0.584, 0.9711), (50.0, 0.1829)])
-def test_the_parabolic_maximum_is_tian_and_kennedys(peclet, published):
-    assert published == pytest.approx(2.32 / math.sqrt(math.pi * (1.234 + peclet)), rel=1e-3)
-    assert scaled(peclet, "parabolic", "maximum") == pytest.approx(published, rel=1e-3)
-
-
-@pytest.mark.parametrize("profile", PROFILES)
-def test_a_resting_source_heats_as_pressure_dents(profile):
-    # ΔT = ∬ q/(2πKr) and u = ∬ p/(πE* r) are the same integral where E* = 2K.
-    cells, conductivity = 96, 46.0
-    grid = Grid((2.5, 2.5), (cells, cells))
-    x, y = grid.mesh
-    r2 = x**2 + y**2
-    inside = r2 < 1
-    flux = np.where(inside, PROFILES[profile](np.minimum(r2, 1.0)), 0.0)
-    rise = HalfSpace(grid.cells, grid.spacing, 2 * conductivity).apply(flux)
-    power = float(np.sum(flux)) * grid.cell_area
-    # A disc of 77 cells across has its area to 0.1 %, and its edge in steps.
-    assert rise[inside].mean() / power == pytest.approx(
-        rise_per_power(1.0, conductivity, 0.0, profile, "mean"), rel=5e-3
-    )
-    assert rise.max() / power == pytest.approx(
-        rise_per_power(1.0, conductivity, 0.0, profile, "maximum"), rel=5e-3
-    )
-    assert source_radius(flux, grid.cell_area, profile) == pytest.approx(1.0, rel=2e-3)
-
-
 @pytest.mark.parametrize("way", [to_and_fro, round_a_circle])
-@pytest.mark.parametrize("length", [2.0, 4.0, 10.0, 40.0, 100.0])
-@pytest.mark.parametrize("peclet", [0.2, 0.6, 2.0, 5.0, 20.0, 50.0])
+@pytest.mark.parametrize("length", [2.0, 10.0, 100.0])
+@pytest.mark.parametrize("peclet", [0.2, 2.0, 50.0])
 def test_heat_stays_on_the_track_as_by_greens_function(way, length, peclet):
     once = moved_on(peclet)
     kept = kept_per_power(1.0, 1.0, peclet, length, way is to_and_fro)
@@ -107,10 +79,6 @@ def test_heat_stays_on_the_track_as_by_greens_function(way, length, peclet):
     tolerance = 0.015 if length >= 10 else 0.045
     assert whole > once
     assert once + kept == pytest.approx(whole, rel=tolerance)
-
-
-def test_a_square_source_that_moves_on_is_as_hot_as_jaegers_disc():
-    assert math.pi * moved_on(2.0) == pytest.approx(exact(2.0, "uniform", "mean"), rel=0.015)
 
 
 @pytest.mark.parametrize("turns_back", [True, False])

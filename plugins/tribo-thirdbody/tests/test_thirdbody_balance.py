@@ -100,26 +100,6 @@ def test_a_gap_that_fills_faster_than_it_opens_is_refused(on):
         Simulation(pin(length=1e9, on=on, fills=True, cover=1e-3)).run()
 
 
-def test_debris_that_stays_ends_wear_as_a_logarithm():
-    # Nothing leaves: dt/ds = K p exp(−t/t₀), so that t = t₀ ln(1 + K p s/t₀).
-    thickness, worn = end(pin(length=1e9))
-    exact = COVER * math.log1p(2 * K * P * END / COVER)
-    assert thickness == pytest.approx(exact, rel=1e-4, abs=0)
-    assert worn == pytest.approx(exact, rel=1e-4, abs=0)
-
-
-def test_debris_that_leaves_at_once_is_as_if_there_were_none():
-    _, worn = end(pin(length=1e-9))
-    assert worn == pytest.approx(2 * K * P * END, rel=1e-4, abs=0)
-
-
-def test_the_result_has_its_share_of_the_load():
-    with Simulation(pin()).run() as result:
-        thickness = result.field("debris_thickness", -1)
-        share = result.body("disk").effects["load_share"][-1]
-    np.testing.assert_allclose(share, -np.expm1(-thickness / COVER), rtol=1e-12)
-
-
 @pytest.mark.slow
 def test_a_check_and_a_study_of_errors_say_what_a_run_gives():
     # A state that is left out of their runs gives the dry depth, without an error.
@@ -135,27 +115,6 @@ def test_a_check_and_a_study_of_errors_say_what_a_run_gives():
     foreseen = predict(simulation.model).last.bodies["pin"].max_wear_depth
     assert foreseen == pytest.approx(worn, rel=1e-3, abs=0)
     assert worn < 0.8 * K * P * 0.5
-
-
-def ball(effects):
-    """A ball on a disk over 1 m, both wearing: how many contacts are solved."""
-    case = pin()
-    case["grid"], case["load"] = {"size": "0.4 mm", "cells": 16}, {"normal": 5}
-    case["bodies"] = {name: {**body} for name, body in case["bodies"].items()}
-    case["bodies"]["pin"]["surface"] = {"type": "sphere", "radius": "5 mm"}
-    for body in case["bodies"].values():
-        body["wear"] = {"type": "archard", "k": 3.11e-16}
-    case |= {"contact": "dcfft", "effects": effects}
-    case["kinematics"]["distance"] = 1
-    with Simulation(case).run() as result:
-        return result.totals()["contact_solves"]
-
-
-@pytest.mark.slow
-@pytest.mark.filterwarnings("ignore::tribo.TriboWarning")
-def test_it_takes_no_more_than_twice_the_solves_of_archards_law():
-    bare, debris = ball([]), {"type": "thirdbody.debris", "cover": "50 nm"}
-    assert ball([{**debris, "ejection_length": "50 mm"}]) <= 2 * bare
 
 
 @pytest.mark.slow

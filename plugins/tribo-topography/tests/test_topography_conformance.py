@@ -4,7 +4,7 @@ from pathlib import Path
 
 from tribo.testing import parametrize_checks
 
-from tribo_topography import MeasuredSurface, describe
+from tribo_topography import MeasuredSurface
 
 WAVES = Path(__file__).parent / "data" / "waves.asc"  # 30 × 30 pixels on 1.5 × 1.5 mm
 KNOWN = {"path": WAVES, "expect_size": ["1.5 mm", "1.5 mm"]}
@@ -44,9 +44,3 @@ test_averaged_over_cells = parametrize_checks(
         "finer_cells_sample_the_same_surface": "a cell larger than the pixels holds their mean"
     },
 )
-
-
-def test_the_map_is_what_it_says():
-    facts = describe(WAVES)
-    assert facts.size == (1.5e-3, 1.5e-3)
-    assert facts.pixels == (30, 30)

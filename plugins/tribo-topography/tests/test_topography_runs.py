@@ -1,6 +1,5 @@
 """Measured bodies in contact, and what a case is told."""
 
-import json
 import subprocess
 import sys
 from hashlib import sha256
@@ -8,9 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
-from tribo import CaseError, ContactProblem, Simulation, TriboWarning, read_heights
-from tribo.cli.main import tribo
+from tribo import CaseError, Simulation, read_heights
 from tribo.simulation.predict import predict
 
 from tribo_topography.export import export_xyz
@@ -19,7 +16,6 @@ from tribo_topography.export import export_xyz
 pytestmark = pytest.mark.filterwarnings("ignore:Could not import mpi4py:ImportWarning")
 
 ROOT = Path(__file__).parents[1]
-SIZE = 0.6e-3
 
 
 def namespace(name, code):
@@ -40,49 +36,6 @@ def case(tmp_path):
     return making
 
 
-def test_smooth_ball_from_a_file_has_the_contact_of_a_paraboloid(case):
-    measured = case(sq=0.0)
-    exact = case(sq=0.0)
-    exact["bodies"]["ball"]["surface"] = {"type": "paraboloid", "radius": "5 mm"}
-    first, second = (Simulation(each).model.contact for each in (measured, exact))
-    # The spline through the pixels is a parabola too, but for what x3p rounds.
-    np.testing.assert_allclose(first.gap, second.gap, rtol=0, atol=1e-14)
-
-
-def test_rough_contact_is_smaller_and_harder_and_runs_in(case):
-    model = Simulation(case()).model
-    solution = model.case.contact.solve(
-        ContactProblem(model.contact.system, model.contact.gap, model.contact.system.load)
-    )
-    assert solution.residuals.worst <= 1e-8
-    smooth, rough = Simulation(case(sq=0.0)).run().saves(), Simulation(case()).run().saves()
-    assert rough[0]["contact_area_m2"] < 0.8 * smooth[0]["contact_area_m2"]
-    assert rough[0]["max_pressure_Pa"] == solution.pressure.max()
-    assert rough[0]["max_pressure_Pa"] > 1.5 * smooth[0]["max_pressure_Pa"]
-    assert rough[-1]["distance_m"] == pytest.approx(5.0)
-    assert rough[-1]["max_pressure_Pa"] < 0.8 * rough[0]["max_pressure_Pa"]
-    # Archard: the same load and path remove the same volume, however rough.
-    volumes = [
-        sum(save["bodies"][name]["wear_volume_m3"] for name in ("ball", "disk"))
-        for save in (smooth[-1], rough[-1])
-    ]
-    assert volumes == pytest.approx(2 * [2 * 3.11e-16 * 40 * 5.0], rel=1e-6, abs=0)
-
-
-def test_swept_rough_body_is_refused_with_a_remedy(case):
-    swept = case()
-    swept["kinematics"]["swept"] = "ball"
-    with pytest.raises(CaseError, match=r"'ball' is swept .*'topography\.file' does; resolve"):
-        Simulation(swept)
-
-
-def test_window_beyond_the_measurement_names_both_sizes(case):
-    wide = case()
-    wide["grid"]["size"] = ["0.7 mm", "0.7 mm"]
-    with pytest.raises(CaseError, match=r"bodies\.ball\.surface: the window of 0\.7 × 0\.7 mm"):
-        Simulation(wide)
-
-
 def test_mistake_in_the_case_is_told_at_its_place(case):
     wrong = case()
     wrong["bodies"]["ball"]["surface"]["expect_size"] = ["1 N", "2 mm"]
@@ -92,13 +45,6 @@ def test_mistake_in_the_case_is_told_at_its_place(case):
     zero["bodies"]["ball"]["surface"]["height_scale"] = 0
     with pytest.raises(CaseError, match="height_scale is 0"):
         Simulation(zero)
-
-
-def test_scale_that_nobody_confirmed_is_told_by_the_run(case):
-    unconfirmed = case()
-    del unconfirmed["bodies"]["ball"]["surface"]["expect_range"]
-    with pytest.warns(TriboWarning, match=r"96 × 96 pixels on 0\.6 × 0\.6 mm, heights over 1"):
-        Simulation(unconfirmed)
 
 
 def test_what_the_file_was_read_as_is_kept_in_the_result_and_what_is_worn_exported(
@@ -131,44 +77,6 @@ def test_what_the_file_was_read_as_is_kept_in_the_result_and_what_is_worn_export
     monkeypatch.setattr("tribo.core.number_tables.MOST_PIXELS", 4000)
     with pytest.raises(CaseError, match=r"96 × 96 pixels: .*4,000"):
         read_heights(path)
-
-
-def test_check_prints_it(case, tmp_path):
-    surface = case()["bodies"]["ball"]["surface"]
-    quoted = {key: json.dumps(value, default=str) for key, value in surface.items()}
-    path = tmp_path / "case.toml"
-    text = CASE.format(surface=", ".join(f"{key} = {value}" for key, value in quoted.items()))
-    path.write_text(text)
-    done = CliRunner().invoke(tribo, ["check", str(path)])
-    assert done.exit_code == 0, done.output
-    assert "96 × 96" in done.output
-    assert sha256(Path(surface["path"]).read_bytes()).hexdigest() in done.output
-
-
-CASE = """
-[grid]
-size = "0.5 mm"
-cells = 40
-
-[load]
-normal = "40 N"
-
-[bodies.ball]
-surface = {{ {surface} }}
-material = {{ young = "207 GPa", poisson = 0.3 }}
-wear = {{ type = "archard", k = "3.11e-16 1/Pa" }}
-
-[bodies.disk]
-surface = "flat"
-material = {{ young = "207 GPa", poisson = 0.3 }}
-
-[kinematics]
-type = "reciprocating"
-stroke = "2 mm"
-frequency = "25 Hz"
-distance = "0.2 m"
-positions = "average"
-"""
 
 
 def test_offering_the_surface_does_not_import_surfacetopography():
