@@ -32,16 +32,48 @@ def solve_bounded(
 ) -> ContactSolution:
     """Minimise ½ pᵀA p + gapᵀp over 0 <= p <= cap with sum(p) * cell area = load.
 
-    A is `operator` with `compliance` added, on the same box. The gap, shape (nx, ny), is in m, up
-    to a constant, the load in N, the cap and the pressure `start` in Pa. Each of the `Residuals`
-    must fall to `tolerance`; an iteration costs one call of the operator.
+    Preconditioned conjugate gradients on the cells strictly within the bounds,
+    which are left and entered as the iteration goes: a step as long as the last
+    one is projected onto the bounds, and the minimum sought along what is left
+    of it. Where that stalls, as it does when nearly all cells are at a bound,
+    projected Barzilai-Borwein steps take over until they stall in turn.
+
+    Parameters
+    ----------
+    operator : Operator
+        K, from pressure to displacement; its cells give the area and Δx.
+    gap : ndarray, shape (nx, ny)
+        Undeformed gap, up to a constant, in m.
+    load : float
+        Normal load, in N; positive.
+    cap : float or ndarray, shape (nx, ny), optional
+        Largest pressure, in Pa; unlimited when None.
+    compliance : WearCompliance, optional
+        Added to K, on the same box, which makes A of it.
+    start : ndarray, shape (nx, ny), optional
+        A pressure to start from, in Pa; brought to the load and the bounds.
+    tolerance : float, default 1e-8
+        What each of the `Residuals` must fall to. Their ``scale`` is the largest
+        displacement A p under pressure, or the range of the gap there if that
+        is more. Cells at the cap whose gap is open count as violations of
+        complementarity too.
+    max_iterations : int, default 500
+        Each costs one call of the operator; the start costs one too.
 
     Raises
     ------
     CaseError
         If the load is not positive, or more than the box bears at the cap.
     NumericalError
-        If the gap is not finite, or the residuals did not fall to the tolerance.
+        If the gap is not finite, the load is lost in rounding, or the residuals
+        did not fall to the tolerance; the message says how far they came.
+
+    References
+    ----------
+    I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206-219; E. A. H. Vollebregt,
+    J. Optim. Theory Appl. 162 (2014) 931-953; V. Rey, G. Anciaux,
+    J.-F. Molinari, Comput. Mech. 60 (2017) 69-81; J. Barzilai, J. M. Borwein,
+    IMA J. Numer. Anal. 8 (1988) 141-148.
     """
     return solve_together(
         operator,
@@ -66,56 +98,11 @@ def solve_together(
     tolerance: float = 1e-8,
     max_iterations: int = 500,
 ) -> list[ContactSolution]:
-    """Minimise ½ pᵀA p + gapᵀp over 0 <= p <= cap with sum(p) * cell area = load.
+    """Solve one position, or those of a cycle stacked, as one problem; see `solve_bounded`.
 
-    Preconditioned conjugate gradients on the cells strictly within the bounds,
-    which are left and entered as the iteration goes: a step as long as the last
-    one is projected onto the bounds, and the minimum sought along what is left
-    of it. Where that stalls, as it does when nearly all cells are at a bound,
-    projected Barzilai-Borwein steps take over until they stall in turn.
-
-    Parameters
-    ----------
-    operator : Operator
-        K, from pressure to displacement; its cells give the area and Δx.
-    gap : ndarray, shape (nx, ny) or (positions, nx, ny)
-        Undeformed gap, up to a constant at each position, in m.
-    load : ndarray, shape () or (positions,)
-        Normal load, in N; positive.
-    cap : float or ndarray, of the shape of the gap, optional
-        Largest pressure, in Pa; unlimited when None.
-    compliance : WearCompliance or CycleCompliance, optional
-        Added to K, on the same box. Where it couples the positions of a cycle they are
-        weighted with their shares of the path, which keeps A symmetric; else alike.
-    start : ndarray, of the shape of the gap, optional
-        A pressure to start from, in Pa; brought to the load and the bounds.
-    tolerance : float, default 1e-8
-        What each of the `Residuals` must fall to. Their ``scale`` is the largest
-        displacement A p under pressure, or the range of the gap there if that
-        is more. Cells at the cap whose gap is open count as violations of
-        complementarity too.
-    max_iterations : int, default 500
-        Each costs one call of the operator; the start costs one too.
-
-    Returns
-    -------
-    list of ContactSolution
-        By position, on the box of the operator.
-
-    Raises
-    ------
-    CaseError
-        If the load is not positive, or more than the box bears at the cap.
-    NumericalError
-        If the gap is not finite, the load is lost in rounding, or the residuals
-        did not fall to the tolerance; the message says how far they came.
-
-    References
-    ----------
-    I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206-219; E. A. H. Vollebregt,
-    J. Optim. Theory Appl. 162 (2014) 931-953; V. Rey, G. Anciaux,
-    J.-F. Molinari, Comput. Mech. 60 (2017) 69-81; J. Barzilai, J. M. Borwein,
-    IMA J. Numer. Anal. 8 (1988) 141-148.
+    Gap, cap and start have the shape (nx, ny) or (positions, nx, ny), the load () or (positions,).
+    Positions that a compliance couples are weighted with their shares of the path, which keeps A
+    symmetric; else alike.
     """
     if compliance is not None:
         operator = WornOperator(operator, compliance)
