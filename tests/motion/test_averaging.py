@@ -117,7 +117,7 @@ def test_a_groove_that_the_average_makes_too_deep_is_said_with_a_number(length, 
 def test_a_stroke_under_one_half_width_is_refused_with_a_remedy():
     with pytest.raises(CaseError, match=r"^kinematics\.stroke: 0\.1 mm is shorter") as refused:
         stroke("0.1 mm").check_contact(0.15e-3)
-    assert "at least 0.15 mm to run at all" in str(refused.value)
+    assert "at least 0.15 mm" in str(refused.value)
     assert "kinematics.allow_short_stroke = true" in str(refused.value)
     stroke("0.16 mm").check_contact(0.15e-3)
     stroke("0.1 mm", allow_short_stroke=True).check_contact(0.15e-3)

@@ -55,6 +55,8 @@ def test_the_part_of_the_path_across_its_main_direction_is_exact(path, extent, a
 def test_the_body_goes_where_it_heads(path):
     extent = (4e-4, 3e-4) if isinstance(path, str) else None
     model = Simulation(case(path=path, extent=extent, positions=48)).model
+    extent = model.motion.component.track_extent
+    assert model.cycle.maps["plate"].track(GRID) == pytest.approx(extent, rel=1e-12, abs=0)
     steps = np.diff(model.cycle.offsets, axis=0)
     ways = np.array([position.heading for position in model.cycle])
     between = ways[1:] + ways[:-1]

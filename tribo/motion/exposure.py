@@ -248,6 +248,10 @@ class Passing(Stationary):
         self.rows = grid.period or grid.cells[0] + max(*starts, 2 * starts[len(starts) // 2])
         self._length = length if grid.period is None else min(length, grid.size[0])
 
+    def track(self, window: Grid) -> float:
+        """Return the length of the path, in m, or of the window that repeats if that is less."""
+        return self._length
+
     def see(self, field: Array, position: int) -> Array:
         """Return the rows of the window, from the start of the position on."""
         count = self._grid.cells[0], field.shape[1]

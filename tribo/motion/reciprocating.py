@@ -230,12 +230,10 @@ class Reciprocating(Kinematics):
             return
         if self.stroke >= half_width_x or self.allow_short_stroke:
             return
-        excess = groove_excess(self.stroke, half_width_x, 0.0, 0.0)
         raise CaseError(
             f"{1e3 * self.stroke:.3g} mm is shorter than the half-width of the first contact, "
-            f"{1e3 * half_width_x:.3g} mm: averaged over the stroke, even a shallow groove would "
-            f"be {too_deep(excess)}; give a stroke of at least {1e3 * half_width_x:.3g} mm to run "
-            "at all (tribo check then says how much too deep), resolve the cycle by "
-            'kinematics.positions = "auto", or set kinematics.allow_short_stroke = true',
+            f"{1e3 * half_width_x:.3g} mm, too short for an average over the stroke; give at least "
+            f'{1e3 * half_width_x:.3g} mm, resolve it by kinematics.positions = "auto", or set '
+            "kinematics.allow_short_stroke = true",
             "kinematics.stroke",
         )
