@@ -6,7 +6,7 @@ from made_results import made
 
 from tribo.lab.running_in import reliefs
 from tribo.plotting.history import history
-from tribo.plotting.relief import height_map, material_ratio_curves
+from tribo.plotting.profiles import height_map, material_ratio_curves
 
 
 @pytest.fixture(scope="module")
