@@ -29,7 +29,7 @@ from tribo.plotting.sections import (
     through_centre,
     varying,
 )
-from tribo.plotting.style import DEPTHS, OVER, PRESSURES, UNDER, Look, save_looks, ticks
+from tribo.plotting.style import OVER, PRESSURES, UNDER, Look, save_looks, ticks
 from tribo.result.read import Result
 
 WORN: Look = {"color": "black", "linewidth": 1.0}
@@ -50,8 +50,7 @@ def scar_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture
     varies along one axis only is drawn as its profile.
     """
     grid, gone = _gone(result, name, saves[-1:])
-    unit = height_unit(float(np.max(gone)))
-    scale = Scale("Depth", unit, size(unit), DEPTHS)
+    scale = Scale.of(name, float(np.max(gone)))._replace(what="Depth")
     title = f"{name}, t = {time_labels(result.times)[saves[-1]]}"
     return field_picture(gone[0], scar_mask(gone[0]), grid, scale, title)
 
