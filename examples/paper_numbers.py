@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tribo.closed_forms.ball_on_track import BallOnTrack, ball_on_track
-from tribo.lab.ball import ball_cap_depth, cap_diameter
+from tribo.lab.formulas import ball_cap_depth, cap_diameter
 
 LOAD = 100.0  # N
 RADIUS = 5e-3  # m, of the ball

@@ -81,6 +81,8 @@ from tribo.integration.kept import Kept as Kept
 from tribo.integration.kept import Sum as Sum
 from tribo.integration.kept import Values as Values
 from tribo.integration.step_to_break import Stretch as Stretch
+from tribo.lab.formulas import circular_groove_area as circular_groove_area
+from tribo.lab.formulas import reciprocating_track_volume as reciprocating_track_volume
 from tribo.lab.heights import BLUR as BLUR
 from tribo.lab.heights import interpolated as interpolated
 from tribo.lab.heights import nearest_filled as nearest_filled
@@ -104,8 +106,6 @@ from tribo.lab.scar import layer_ends as layer_ends
 from tribo.lab.scar import removed as removed
 from tribo.lab.scar import scar_mask as scar_mask
 from tribo.lab.tables import inferred_table as inferred_table
-from tribo.lab.track import circular_groove_area as circular_groove_area
-from tribo.lab.track import reciprocating_track_volume as reciprocating_track_volume
 from tribo.lab.units import axis_units as axis_units
 from tribo.lab.units import height_unit as height_unit
 from tribo.lab.units import shown_in as shown_in

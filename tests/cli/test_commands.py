@@ -1,6 +1,5 @@
 """The commands, as a user meets them."""
 
-import csv
 import json
 import re
 from pathlib import Path
@@ -65,14 +64,9 @@ def test_show_json_has_the_documented_shape(ran):
     assert last["bodies"].keys() == {"ball", "disk"} == data["lab"]["bodies"].keys()
     worn = "max_wear_depth_m centre_wear_depth_m wear_volume_m3 max_plastic_depth_m"
     assert {*worn.split()} <= {*last["bodies"]["ball"]}
-    volume = last["bodies"]["ball"]["wear_volume_m3"]
-    assert volume == pytest.approx(3.11e-16 * 100 * 6, rel=1e-6, abs=0)
-    ball = data["lab"]["bodies"]["ball"]
-    assert ball["specific_wear_rate_mm3_per_Nm"] == pytest.approx(3.11e-7, rel=1e-6, abs=0)
-    assert {"mass_kg", "scar_along_m", "scar_across_m"} <= {*ball}
-    first = data["lab"]["first_contact"]
-    assert first["max_pressure_Pa"] == data["saves"][0]["max_pressure_Pa"]
-    assert {"hertz_peak_pressure_Pa", "yield_ratio", "load_ratio"} <= {*first}
+    assert {"mass_kg", "scar_along_m", "scar_across_m"} <= {*data["lab"]["bodies"]["ball"]}
+    first = {"hertz_peak_pressure_Pa", "yield_ratio", "load_ratio"}
+    assert first <= {*data["lab"]["first_contact"]}
 
 
 def test_show_prints_the_table_again(ran):
@@ -80,19 +74,6 @@ def test_show_prints_the_table_again(ran):
     table, provenance = tribo("show", "my.h5", cwd=folder).stdout.split("\nMade with ")
     assert table in done.stdout
     assert "bodies.ball.wear: archard, tribo.wear.archard.Archard of tribo" in provenance
-
-
-def test_export_writes_csv_with_units_in_the_column_names(ran):
-    folder, _ = ran
-    assert tribo("export", "my.h5", "-d", "csv", cwd=folder).returncode == 0
-    history, profiles = (
-        list(csv.DictReader((folder / "csv" / f"{name}.csv").read_text().splitlines()))
-        for name in ("history", "profiles_x")
-    )
-    assert float(history[-1]["time_s"]) == 60
-    assert "bodies.ball.wear_volume_m3" in history[0]
-    assert len(profiles) == 3 * 32
-    assert {"time_s", "x_m", "pressure_Pa", "bodies.ball.wear_depth_m"} <= {*profiles[0]}
 
 
 @pytest.mark.parametrize("name", list(TEMPLATES))
@@ -123,61 +104,44 @@ def test_a_template_is_printed_for_a_dash_and_an_unknown_one_is_told_before_the_
     assert tribo("new", "duty_cycle", cwd=tmp_path).returncode == 2
 
 
-@pytest.mark.parametrize("name", ["ball_on_disk", "pin_on_disk"])
-def test_a_template_is_predicted(tmp_path, name):
-    assert tribo("new", name, "case.toml", cwd=tmp_path).returncode == 0
-    done = tribo("check", "case.toml", *setting("grid.cells=64"), cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
-    for words in (
-        "Hertz half-widths",
-        "p0/H",
-        "cells across",
-        "window",
-        "run time",
-        "memory",
-        "result file",
-    ):
-        assert words in done.stdout
-    assert "holds it" in done.stdout
-    assert ("averages over the stroke" in " ".join(done.stdout.split())) == (name != "pin_on_disk")
-
-
 def test_check_foretells_the_depth_of_rough_bodies_but_for_their_roughness(tmp_path):
     assert tribo("new", "rough_flats", "case.toml", cwd=tmp_path).returncode == 0
     done = tribo("check", "case.toml", *setting("grid.cells=32"), cwd=tmp_path)
     assert done.stdout.count("µm, but for roughness, ") == 2
 
 
-def test_check_begins_with_its_verdict(case):
-    done = tribo("check", "my.toml", *LARGE_STROKE)
+@pytest.mark.parametrize(
+    ("changes", "foretold"),
+    [
+        ([], r"bodies.ball.wear.k depth of ball \+0\.\d\d ± 0\.\d\d %"),
+        (["stop.depth=0.5 um"], r"0.5 µm, about reached after [\d.]+ s"),
+        (["stop={depth='1 mm', body='disk'}"], r"1000 µm, about not reached, [\d.]+ µm at"),
+    ],
+)
+def test_check_begins_with_its_verdict_and_foretells_the_end(case, changes, foretold):
+    done = tribo("check", "my.toml", *LARGE_STROKE, *setting(*changes))
     assert done.stdout.startswith("my.toml is valid.\n")
-    # As the report of the run words it.
-    assert "94 % of the pressure at which the softer body first" in done.stdout
     assert max(map(len, done.stdout.splitlines())) <= 80
-    assert re.search(r"bodies.ball.wear.k +depth of ball \+0\.\d\d ± 0\.\d\d %", done.stdout)
-    ends = tribo("check", "my.toml", *LARGE_STROKE, *setting("stop.depth=0.5 um"))
-    assert "time until ball reaches stop.depth" in " ".join(ends.stdout.split())
-    assert re.search(r"stop.depth of 0.5 µm, about +reached after [\d.]+ s\n", ends.stdout)
-    ends = tribo("check", "my.toml", *LARGE_STROKE, *setting("stop={depth='1 mm', body='disk'}"))
-    assert re.search(r"1000 µm, about +not reached, [\d.]+ µm at the end\n", ends.stdout)
+    words = " ".join(done.stdout.split())
+    assert re.search(foretold, words)
+    # As the report of the run words it.
+    assert "94 % of the pressure at which the softer body first" in words
+
+
+def test_check_names_what_would_stop_a_run(case):
     hard = (
         'bodies.disk.layers=[{thickness="1 um", wear={type="archard", k=1e-16}, hardness="9 GPa"}]'
     )
     small = [*LARGE_STROKE, *setting("grid.size=0.9 mm", "grid.cells=64", hard)]
     done = tribo("check", "my.toml", *small)
-    verdict, first, *_ = done.stdout.splitlines()
     assert done.returncode == 3
-    # A slow machine says first what it computes.
     assert "error: a run of my.toml would stop on its way: the contact outg" in done.stderr
-    assert verdict == "my.toml would stop on its way:"
-    assert first.startswith("  - the contact outgrows the window of 0.9 × 0.9 mm")
     data, told = json.loads(tribo("check", "my.toml", *small, "--json").stdout), done.stdout.split()
-    (problem,) = data["problems"]
-    assert problem in " ".join(told)
     window, sensitivity = data["findings"]
-    assert (window["kind"], window["words"]) == ("window", problem)
-    assert (sensitivity["kind"], sensitivity["value"]) == ("sensitivity", None)
-    assert sensitivity["words"] in " ".join(told)
+    assert data["problems"] == [window["words"]]
+    assert (window["kind"], sensitivity["kind"]) == ("window", "sensitivity")
+    for finding in data["findings"]:
+        assert finding["words"] in " ".join(told)
 
 
 @pytest.mark.slow
@@ -200,21 +164,13 @@ def test_check_ends_with_the_exit_code_of_the_run(case, settings, code):
 def test_check_predicts_what_the_stroke_average_costs_and_the_run_ends_with(case):
     coarse = setting("grid.size=1.3 mm", "grid.cells=48")
     (problem,) = json.loads(tribo("check", "my.toml", *coarse, "--json").stdout)["problems"]
-    ran = tribo("run", "my.toml", *coarse).stderr.splitlines()
-    end = [line for line in ran if "averaging: at 3600 s" in line]
+    ran = tribo("run", "my.toml", *coarse)
+    end = [line for line in ran.stderr.splitlines() if "averaging: at 3600 s" in line]
+    # What was printed as it ran is not printed again.
+    assert "averaging" not in ran.stdout
     foreseen, found = (re.search(r"about (\d+) % too deep", text)[1] for text in (problem, *end))
     assert int(foreseen) == pytest.approx(17.7, abs=1.5)
     assert int(found) == pytest.approx(17.7, abs=1.5)
-
-
-@pytest.mark.slow
-def test_a_stroke_under_one_half_width_is_refused_unless_asked_for(case):
-    short = [*QUICK, *setting("kinematics.stroke=0.1 mm")]
-    done = tribo("run", "my.toml", *short)
-    assert done.returncode == 2
-    assert "error: kinematics.stroke: 0.1 mm is shorter than the half-width" in done.stderr
-    allowed = setting("kinematics.allow_short_stroke=true")
-    assert tribo("run", "my.toml", *short, *allowed).returncode == 0
 
 
 @pytest.mark.parametrize("command", ["", *OWN])
@@ -227,11 +183,8 @@ def test_every_command_has_help_with_an_example(command):
 # What is wrong, where it is said to be, and a word of the remedy.
 BAD = {
     "unknown key": ("young = ", "yuong = ", "bodies.ball.material.yuong", "young"),
-    "unknown type": ('"archard"', '"archrad"', "bodies.ball.wear.type", "archard"),
     "window too small": ('["2 mm", "2 mm"]', '"0.2 mm"', "grid.size", "larger"),
     "swept ball": ('swept = "disk"', 'swept = "ball"', "bodies.ball.surface", "kinematics.swept"),
-    "unknown body": ('swept = "disk"', 'swept = "dsik"', "kinematics.swept", "disk"),
-    "save times out of order": ("500, 1500", "1500, 500", "output.save_times", "increase"),
     "save times beyond the end": ("1500, 3600", "1500, 3601", "output.save_times", "end"),
     "not TOML": ("[grid]", "[grid", "line", "TOML"),
 }
@@ -272,13 +225,6 @@ def test_a_contact_that_outgrows_the_window_exits_with_3_and_keeps_what_was_save
     again = tribo("run", "my.toml", *settings)
     assert again.returncode == 2
     assert "tribo resume my.h5" in again.stderr
-
-
-def test_a_solve_that_does_not_converge_exits_with_3(case):
-    done = tribo("run", "my.toml", *QUICK, *setting("contact.max_iterations=2"))
-    assert done.returncode == 3
-    assert "max_iterations" in done.stderr
-    assert "residual" in done.stderr
 
 
 def test_a_line_contact_is_checked_in_its_own_window_and_told_in_plain_json(case):

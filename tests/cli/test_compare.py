@@ -1,7 +1,6 @@
 """`tribo compare`, as a user meets it."""
 
 import json
-import shutil
 
 import pytest
 from click.testing import CliRunner
@@ -40,12 +39,8 @@ def row(text, label):
     return next(line for line in text.splitlines() if label in line).split(label)[1].split()
 
 
-def times_written(folder):
-    return {path.name: path.stat().st_mtime_ns for path in folder.iterdir()}
-
-
 @pytest.mark.slow
-def test_the_table_has_a_column_a_variant(compared):
+def test_the_table_has_a_column_a_variant(folder, compared):
     assert compared.exit_code == 0
     text = compared.stdout
     assert "Varied: contact.type" in text
@@ -55,6 +50,8 @@ def test_the_table_has_a_column_a_variant(compared):
     half_space, springs, *percent = row(text, "largest pressure, MPa")
     assert float(springs) / float(half_space) == pytest.approx(4 / 3, rel=0.05)
     assert percent == [f"+{100 * (float(springs) / float(half_space) - 1):.1f}", "%"]
+    names = {path.name for path in (folder / "my-compare").iterdir()}
+    assert {"contact.type=dcfft.h5", "contact.type=winkler.h5", "comparison_60s.png"} <= names
 
 
 @pytest.mark.slow
@@ -69,14 +66,6 @@ def test_a_width_is_good_to_a_cell_and_its_percentage_to_what_a_cell_of_both_mak
         else:
             assert float(off[0]) == pytest.approx(100 * (ratio - 1), abs=0.5)
             assert float(off[2]) == pytest.approx(100 * 29.2 * (1 + ratio) / float(first), abs=0.6)
-
-
-@pytest.mark.slow
-def test_results_and_pictures_stand_beside_the_case(folder, compared):
-    names = {path.name for path in (folder / "my-compare").iterdir()}
-    assert {"contact.type=dcfft.h5", "contact.type=winkler.h5", "comparison_60s.png"} <= names
-    assert "comparison_60s.png" in compared.stdout
-    assert "1 of 2, contact.type=dcfft" in compared.stderr
 
 
 def test_json_is_one_object_and_files_compare_alike(folder, compared):
@@ -159,23 +148,3 @@ def test_names_of_files_are_shown_as_they_are_and_go_below_each_other(made):
     assert f"Note: {names[1]}: not on the grid of [m]," in text.replace("\n", " ")
     assert row(text, "pressure sections")[0] == "–"
     assert "pressure map" in text
-
-
-@pytest.mark.slow
-def test_another_comparison_does_not_overwrite_the_first_and_one_may_grow(folder, compared):
-    before = times_written(folder / "my-compare")
-    with pytest.raises(CaseError, match=r"my-compare holds another comparison, contact\.type"):
-        invoke(folder / "my.toml", "--vary", "load.normal=50,100", *QUICK)
-    assert times_written(folder / "my-compare") == before
-    more = ["--vary", "contact.type=dcfft,winkler,periodic", "--no-plots"]
-    assert invoke(folder / "my.toml", *more, *QUICK).stderr.count("done already") == 2
-
-
-@pytest.mark.slow
-def test_pictures_of_other_files_go_to_another_folder(made, monkeypatch, tmp_path):
-    empty_pictures(monkeypatch)
-    files = [shutil.copy(made["[m]"], tmp_path / f"{name}.h5") for name in "abc"]
-    for other in files[1:]:
-        assert invoke(files[0], other, "--at", "0").exit_code == 0
-    folders = {path.name for path in tmp_path.iterdir() if path.is_dir()}
-    assert folders == {"a-b-compare", "a-c-compare"}

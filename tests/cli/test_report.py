@@ -71,7 +71,6 @@ def test_a_load_that_changes_along_the_stroke_is_told():
     ) as result:
         text = printed(result, 100)
     assert "changes along the stroke, from 0.5 to 1.25 of the normal load" in text
-    assert " load " in text.splitlines()[2]
 
 
 class Warmth(Effect):
@@ -88,35 +87,17 @@ def test_what_effects_provide_is_shown():
     assert text.count("warmth") == 1
 
 
-def test_what_lies_between_the_bodies_is_shown_in_a_unit_that_fits():
-    result = made(film=1e-11)
-    film = 1e9 * result.field("film", -1)
-    mean = np.mean(film[result.field("pressure", -1) > 0])
-    assert row(printed(result), "film, nm") == [f"{x:.4g}" for x in (film.min(), mean, film.max())]
-    assert len(row(printed(result), "load share")) == 3
-
-
 def test_yield_is_judged_by_the_pressure_that_was_computed():
     # On these springs it is beyond 1.6 H/2.8 = 2286 MPa, where Hertz's 2155 MPa is not.
     result = brief(contact=foundation())
     first = 1e-6 * result.saves()[0]["max_pressure_Pa"]
     text = " ".join(printed(result).split())
     assert first > 2285.7
+    # Hertz's theory is no smooth limit of springs.
+    assert "Hertz 2155.4 MPa;" in text
+    assert "Hertz 2155.4 MPa (" in " ".join(printed(brief()).split())
     assert "; the softer body yields beneath the surface at first" in text
     assert f"{100 * first / 2285.7:.0f} % of 1.6 H/2.8" in text
     assert "94 % of the pressure at which the softer body first yields" in printed(
         brief(), width=200
     )
-
-
-def test_hertz_is_compared_in_percent_only_where_it_should_agree():
-    assert "Hertz 2155.4 MPa (" in " ".join(printed(brief()).split())
-    assert "Hertz 2155.4 MPa;" in " ".join(printed(brief(contact=foundation())).split())
-    cut = brief(grid=Grid((0.25e-3, 0.25e-3), (24, 24)), ends_at_window=True)
-    assert "Hertz 2155.4 MPa;" in " ".join(printed(cut).split())
-
-
-def test_depths_of_some_nanometres_and_pressures_of_some_megapascals_keep_their_digits():
-    text = printed(brief(grid=Grid(size=50e-6, cells=32), load=Load(normal=0.01)))
-    last = next(line for line in text.splitlines() if line.split()[:1] == ["1"])
-    assert len(last.split()[-2].lstrip("0.")) == 4

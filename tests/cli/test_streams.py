@@ -53,14 +53,6 @@ def tribo(folder, *arguments, code=TALKATIVE, **options):
     return subprocess.run(command, cwd=folder, check=False, timeout=300, **options)
 
 
-@needs_full
-@pytest.mark.slow
-def test_a_full_standard_output_is_one_line_and_exit_code_3(folder, full):
-    done = tribo(folder, "show", "my.h5", stdout=full, stderr=subprocess.PIPE)
-    assert done.returncode == 3
-    assert done.stderr == b"error: cannot write to standard output: No space left on device\n"
-
-
 @pytest.mark.slow
 def test_a_pipe_that_nobody_reads_ends_quietly(folder, unread):
     done = tribo(folder, "show", "my.h5", "--json", stdout=unread, stderr=subprocess.PIPE)

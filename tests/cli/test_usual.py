@@ -4,8 +4,6 @@ import pytest
 from command_line import tribo
 
 from tribo.config.load import validate_case
-from tribo.core.errors import NumericalError
-from tribo.core.units import parse, stated
 from tribo.simulation.doubt import unusual
 
 FORGOTTEN = {
@@ -71,47 +69,6 @@ def test_a_material_and_a_friction_unlike_any_are_asked_about(changes, friction,
     assert [asked.place for asked in unusual(validate_case(case))] == places
 
 
-@pytest.mark.parametrize(
-    ("value", "unit", "said"),
-    [
-        (2e12, "Pa", "2 TPa"),
-        (1e-9, "m", "1 nm"),
-        (1e-12, "m/s", "1 pm/s"),
-        (3e4, "kg/m^3", "30000 "),
-    ],
-)
-def test_a_range_is_told_in_units_that_a_case_takes(value, unit, said):
-    text = stated(value, unit)
-    assert text.startswith(said)
-    assert parse(text, unit) == pytest.approx(value, rel=1e-9, abs=0)
-
-
-def test_a_check_that_finds_nothing_else_still_asks(folder):
-    coarse = ["--set", "grid.cells=64", "--set", "bodies.ball.material.density=7.85"]
-    asked = tribo("check", "my.toml", *coarse, cwd=folder)
-    assert asked.returncode == 0
-    _, first, *_ = asked.stdout.splitlines()
-    assert first.startswith("  - bodies.ball.material.density is 7.85 kg/m^3, usual are")
-    assert asked.stdout.count("usual are") == 1
-
-
-def test_an_unusual_value_is_told_before_anything_is_computed(folder, monkeypatch):
-    def computed(case):
-        raise NumericalError("began to compute")
-
-    monkeypatch.setattr("tribo.simulation.run.composed", computed)
-    wear = ["--set", "bodies.ball.wear.k=1e-6", "--set", "bodies.ball.material.poisson=-0.3"]
-    told = tribo("run", "my.toml", *wear, cwd=folder).stderr.partition("error: ")[0]
-    assert "bodies.ball.wear.k is 1e-06 1/Pa" in told
-    assert "bodies.ball.material.poisson is -0.3" in told
-
-
-@pytest.mark.parametrize("k", ["0", "'1e-6 mm^3/(N m)'"])
-def test_what_is_usual_is_not_asked_about(folder, k):
-    settings = ["--set", f"bodies.ball.wear.k={k}", "--set", "grid.cells=64"]
-    assert "usual are" not in tribo("check", "my.toml", *settings, cwd=folder).stdout
-
-
 FLASH = {"type": "thermal.flash", "ambient": "23 degC"}
 FILM = {
     "type": "film.mixed",
@@ -126,12 +83,8 @@ PATH = {"length": "5 mm", "area": "28 mm^2"}
 @pytest.mark.parametrize(
     ("effect", "forgotten", "asked"),
     [
-        (FILM, {"viscosity": 100}, "viscosity is 100 Pa s"),
-        (FILM, {"pressure_viscosity": 20}, "pressure_viscosity is 20 1/Pa"),
-        (FILM, {"radius": 5}, "radius is 5 m"),
         (FILM, {"roughness": 0.2}, "roughness is 200 mm"),
         (FLASH, {"ambient": 23}, "ambient is 23 K"),
-        (FLASH, {"heat_paths": {"ball": {**PATH, "length": 5}}}, "heat_paths.ball.length is 5 m"),
         (FLASH, {"heat_paths": {"ball": {**PATH, "area": 28}}}, "heat_paths.ball.area is 28 m^2"),
         ({"type": "thirdbody.debris", "ejection_length": "0.5 m"}, {"cover": 1}, "cover is 1 m"),
     ],

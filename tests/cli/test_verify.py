@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 from tribo.cli.main import tribo
-from tribo.core.errors import CaseError, NumericalError
+from tribo.core.errors import NumericalError
 from tribo.templates import template
 from tribo.verification import refinement, suite
 from tribo.verification.suite import cases_in
@@ -47,7 +47,7 @@ def test_the_table_has_every_column_and_a_verdict():
     assert done.exit_code == 0, done.output
     for word in ("quantity", "expected", "got", "error", "order", "verdict"):
         assert word in done.stdout
-    assert "tribo.closed_forms.sinusoid" in done.stdout
+    assert "exp(-k K s)" in done.stdout
     assert "1.01 (1)" in done.stdout
     assert "2 hold, 0 fail, 0 need" in done.stdout
     assert max(map(len, done.stdout.splitlines())) <= 120
@@ -65,34 +65,18 @@ def test_json_has_the_environment_and_a_row_for_each_quantity():
     assert "Westergaard (1939)" in row["source"]
 
 
-@pytest.mark.parametrize("form", [[], ["--json"]])
-def test_a_row_that_fails_is_told_in_a_line_and_the_exit_code_is_3(tmp_path, form):
+def test_a_row_that_fails_is_told_in_a_line_and_the_exit_code_is_3(tmp_path):
     folder = shutil.copytree(cases_in(CASES / "archard_k")[0].folder, tmp_path / "mine")
     expected = folder / "expected.toml"
     expected.write_text(expected.read_text().replace("6.22e-07", "6.3e-07"))
-    done = invoke(tmp_path, *form)
+    done = invoke(tmp_path, "--json")
     assert isinstance(done.exception, NumericalError)
     assert done.exception.exit_code == 3
     (line,) = str(done.exception).splitlines()
     for part in ("mine", "wear depth of pin", "6.3e-07 m", "6.22e-07", "Archard (1953)"):
         assert part in line
-    # The table is printed all the same.
-    assert "mine" in done.stdout
-    if form:
-        assert json.loads(done.stdout)["rows"][0]["verdict"] == "fails"
-
-
-def test_a_place_outside_of_the_window_is_refused(tmp_path):
-    folder = shutil.copytree(cases_in(CASES / "archard_k")[0].folder, tmp_path / "mine")
-    expected = folder / "expected.toml"
-    expected.write_text(expected.read_text().replace("[0, 0]", "[0.2, 0]"))
-    assert "outside of the window along x" in str(invoke(tmp_path).exception)
-
-
-def test_no_such_case_says_which_there_are():
-    done = invoke("hertz_bal1")
-    assert isinstance(done.exception, CaseError)
-    assert "did you mean 'hertz_ball'?" in str(done.exception)
+    # The rows are printed all the same.
+    assert json.loads(done.stdout)["rows"][0]["verdict"] == "fails"
 
 
 def test_quick_takes_the_cases_that_say_so():
@@ -115,38 +99,9 @@ def test_a_case_gets_an_uncertainty_for_each_result(case, studied_once):
     data = json.loads(done.stdout)
     assert [level["cells"] for level in data["grids"]] == [[10, 10], [16, 16], [24, 24]]
     names = [estimate["name"] for estimate in data["estimates"]]
-    assert names[:4] == [
-        "peak pressure",
-        "pressure at the centre",
-        "half-width along",
-        "half-width across",
-    ]
-    assert "ball: largest depth" in names
-    assert "disk: volume" in names
+    assert {"peak pressure", "half-width across", "ball: largest depth", "disk: volume"} <= {*names}
     for estimate in data["estimates"]:
         assert 0 <= estimate["uncertainty"] < estimate["value"]
     shown = " ".join(invoke(case, *SMALL).stdout.split())
     for word in ("quantity", "±", "GCI %", "10, 16, 24 cells along x", *names[:1]):
         assert word in shown
-
-
-@pytest.mark.slow
-def test_where_values_diverge_nothing_is_quoted(case, studied_once):
-    # Only the own cells resolve a peak at which the bodies yield.
-    yields = [*SMALL, "--set", "grid.cells=48", "--set", "grid.size=0.6 mm"]
-    for body in ("ball", "disk"):
-        yields += ["--set", f"bodies.{body}.material.hardness=2.15 GPa"]
-    data = json.loads(invoke(case, *yields, "--json").stdout)
-    (yielded,) = (e for e in data["estimates"] if e["name"] == "ball: largest plastic depth")
-    assert yielded["grid"]["behaviour"] == "diverges"
-    assert yielded["grid"]["values"][0] == 0 < yielded["value"]
-    assert yielded["uncertainty"] is yielded["grid"]["uncertainty"] is None
-    shown = invoke(case, *yields).stdout
-    row = next(line for line in shown.splitlines() if line.startswith(" ball: largest plastic"))
-    assert row.split()[6:] == ["–", "–", "diverges", "–", "exact"]
-    assert "Where values diverge no uncertainty can be quoted" in shown
-
-
-def test_options_that_do_not_go_together_are_refused(case):
-    assert invoke(case, "--quick").exit_code == 2
-    assert invoke("--set", "grid.cells=8").exit_code == 2

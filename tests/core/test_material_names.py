@@ -113,3 +113,5 @@ def test_the_command_prints_ranges_and_sources():
     assert "  wear: 4.03e-6 mm^3/(N m) to 5.04e-5 mm^3/(N m)\n" in shown
     data = json.loads(CliRunner().invoke(command, ["52100", "--json"]).output)
     assert data["100Cr6"]["young"]["range"] == ["190 GPa", "210 GPa"]
+    steels = json.loads(CliRunner().invoke(command, ["Steel", "--json"]).output)
+    assert {"100Cr6", "C45", "304"} <= steels.keys() < KNOWN.keys()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tribo.closed_forms.ball_on_track import ball_on_track
-from tribo.lab import ball, track
+from tribo.lab import formulas
 
 R = 5e-3
 
@@ -17,10 +17,10 @@ def test_volume_of_a_scar_flat_along_the_track_in_the_rigid_limit(k_flat, low, w
     coefficients = {"ball_wear_coefficient": 3.11e-16, "flat_wear_coefficient": k_flat}
     worn = ball_on_track([360.0], load=100.0, radius=R, track_length=2e-3, **coefficients)
     along, across = 2 * worn.half_width_along[0], 2 * worn.half_width_across[0]
-    volume = ball.flat_along_ball_volume(along, across, R)
+    volume = formulas.flat_along_ball_volume(along, across, R)
     assert 1 - volume / worn.ball_volume[0] == pytest.approx(low, abs=within)
 
 
 def test_a_section_is_the_mean_of_its_profiles_and_leaves_piled_up_material_out():
     profiles = [[-1e-6, 2e-6, 1e-6], [-9e-6, 3e-6, 0.0]]
-    assert track.planimetric_area(profiles, 1e-5) == pytest.approx(3e-11, rel=1e-6, abs=0)
+    assert formulas.planimetric_area(profiles, 1e-5) == pytest.approx(3e-11, rel=1e-6, abs=0)

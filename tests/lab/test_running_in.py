@@ -120,15 +120,8 @@ def test_json_has_the_roughness_and_the_track_of_each_body_at_each_save(path):
             measured = body["roughness"]
             assert 0 < measured["Sa_m"] < measured["Sq_m"] < measured["Sz_m"]
             assert {"Ssk", "Sku", "Ra_along_m", "Rq_across_m"} <= set(measured)
-            assert (
-                set(measured["beside"])
-                == set(measured["unworn"])
-                == set(measured)
-                - {
-                    "beside",
-                    "unworn",
-                }
-            )
+            for place in ("beside", "unworn"):
+                assert {*measured} == {*measured[place], "beside", "unworn"}
     ball, disk = (saves[-1]["bodies"][name] for name in ("ball", "disk"))
     assert "track_x_m" not in ball
     x, depth = disk["track_x_m"], disk["track_depth_m"]
@@ -145,12 +138,4 @@ def test_the_table_has_roughness_of_rough_bodies_only(path, tmp_path):
 
 def test_the_part_of_the_contact_at_the_hardness_is_told(tmp_path):
     assert "At the hardness" not in shown(written(tmp_path / "elastic.h5"))
-    soft = "grid.cells=48", "grid.size='0.6 mm'", "bodies.ball.material.hardness='1 GPa'"
-    path = tmp_path / "soft.h5"
-    with run(path, *soft, "kinematics.duration='1 s'", "output.save_times=[0, 1]") as result:
-        first = result.saves()[0]
-        assert first["max_pressure_Pa"] == 1e9
-        pressure = result.field("pressure", 0)
-        at_hardness = np.count_nonzero(pressure == 1e9) * result.grid.cell_area
-        assert first["plastic_area_m2"] == pytest.approx(at_hardness, rel=1e-12, abs=0)
-    assert "At the hardness" in shown(path)
+    assert "At the hardness" in shown(written(tmp_path / "soft.h5", cap=4e8, relief=2e-7))

@@ -13,7 +13,6 @@ from tribo.plotting.curves import (
 )
 from tribo.plotting.history import history
 from tribo.plotting.profiles import field_map
-from tribo.result.read import Result
 from tribo.study.sweeping.summary import curves_by, sweep_pictures
 
 
@@ -48,10 +47,6 @@ def test_runs_of_a_sweep_are_curves_in_the_order_of_what_varies():
     np.testing.assert_allclose(second.get_xydata(), [[20, 200], [40, 500]])
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["dcfft", "winkler"]
     assert figure.legends[0].get_title().get_text() == "contact type"
-    # One is seen inside the other where they coincide.
-    assert (first.get_fillstyle(), second.get_fillstyle()) == ("full", "none")
-    assert first.get_markersize() < second.get_markersize()
-    assert first.get_marker() != second.get_marker()
     radii = runs.assign(**{"bodies.ball.surface.radius_m": [5e-3, 5e-3, 5e-3, 1e-2, 1e-2]})
     figure = sweep_curves(radii, "load_N", "max_pressure_Pa", ["bodies.ball.surface.radius_m"])
     assert figure.legends[0].get_title().get_text() == "radius of ball (mm)"
@@ -107,15 +102,3 @@ def test_rounding_of_a_field_that_stays_the_same_is_not_drawn(monkeypatch):
         (line,) = axes.lines
         assert line.get_marker() == "o"
         assert len(line.get_xdata()) == len(result.times)
-
-
-def test_a_field_is_there_once_where_the_bodies_differ_by_rounding(monkeypatch):
-    result, read = made(film=1e-11), Result.field
-    monkeypatch.setattr(
-        Result,
-        "field",
-        lambda self, name, save, body=None: (
-            read(self, name, save, body) * (1 + 1e-13 * (body == "disk"))
-        ),
-    )
-    assert [each.name for each in kept_fields(result)] == ["film", "load share"]

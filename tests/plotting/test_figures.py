@@ -4,13 +4,9 @@ import re
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 
-import matplotlib
 import numpy as np
 import pytest
 from made_results import SHAPES, TIMES, made
-from matplotlib.figure import Figure
-from matplotlib.image import imread
-from tribo_report.page import stills
 
 from tribo.core.errors import CaseError, OutputError
 from tribo.core.grid import Grid
@@ -40,23 +36,6 @@ MANY = {
 }
 EVEN = {**SHAPES["flat pin"], "worn": (False, False)}
 INDENTED = {"worn": (False, False), "plastic": 2e-7, "cap": 2e9, "times": (0.0,)}
-
-
-@pytest.mark.slow
-def test_the_pictures_are_images_of_the_width_of_a_column(tmp_path):
-    all_of_them, some = figures.result_pictures(made()), ("pressure_map", "worn_section")
-    pictures = {name: all_of_them[name] for name in some}
-    paths = figures.write_figures(pictures, tmp_path / "new" / "folder")
-    assert [path.stem for path in paths] == [*some]
-    for path in paths:
-        image = imread(path)
-        wide = path.stem == "worn_section"
-        assert image.shape[1] == pytest.approx((130 if wide else 85) / 25.4 * 200, abs=1)
-        grey = image[..., :3].mean(axis=2)
-        # Paper, ink, and neither everywhere.
-        assert grey.min() < 0.2
-        assert grey.max() == 1.0
-        assert 0.02 < np.mean(grey < 0.95) < 0.9
 
 
 @pytest.mark.parametrize(
@@ -146,13 +125,3 @@ def test_threads_can_draw_at_the_same_time():
         drawn = list(pool.map(lambda _: pressure_sections(result).figure(), range(4)))
     assert {figure.axes[0].xaxis.label.get_fontsize() for figure in drawn} == {8.0}
     assert {len(figure.axes[3].lines) for figure in drawn} == {len(TIMES) - 1}
-
-
-def test_a_plugins_picture_is_drawn_in_the_house_style(tmp_path):
-    def draw():
-        assert matplotlib.rcParams["font.size"] == 8.0
-        return Figure(figsize=(3.35, 2.5))
-
-    (path,) = figures.write_figures({"mine": draw}, tmp_path)
-    assert imread(path).shape[:2] == (500, 670)
-    assert len(stills({"mine": draw})) == 1

@@ -5,7 +5,7 @@ import pytest
 from made_results import GRID, TIMES, half_width, made
 
 from tribo.lab.against_hertz import hertz_contact
-from tribo.plotting.history import history, history_names
+from tribo.plotting.history import history
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import body_profiles, worn_section
 from tribo.result.export import profile
@@ -46,14 +46,6 @@ def test_the_stated_enlargement_is_that_on_paper(result):
     per_mm, per_um = box.width / (right - left), box.height / (high - low)
     stated = float(axes.get_title(loc="right").removeprefix("height × "))
     assert stated == pytest.approx(1e3 * per_um / per_mm, rel=0.05)
-
-
-def test_a_groove_is_the_swept_bodys_section(result):
-    (axes,) = body_profiles(result, "disk").figure().axes
-    worn = result.body("disk").wear_depth
-    for save, (_, y) in enumerate(curves(axes).values()):
-        factor = 1e6 if worn.max() >= 1e-6 else 1e9
-        np.testing.assert_allclose(y[1:-1], -factor * worn[save, 0], atol=1e-12)
 
 
 def test_sections_hold_every_save_and_hertz_beside_the_first(result):
@@ -104,13 +96,6 @@ def test_the_map_is_the_pressure_from_zero_to_a_percentile_that_it_states(result
     assert float(largest) == pytest.approx(result.saves()[1]["max_pressure_Pa"] / 1e6, rel=1e-3)
 
 
-def test_the_edge_of_the_contact_runs_between_cells_with_and_without_pressure(result):
-    (axes,) = pressure_map(result).figure().axes
-    (edge,) = axes.collections[0].get_paths()
-    r = np.hypot(edge.vertices[:, 0], edge.vertices[:, 1] / 1.1)
-    assert np.max(np.abs(r - 1e3 * half_width(3600.0))) < 1.5e3 * max(GRID.spacing)
-
-
 def test_the_map_marks_the_ellipse_of_hertz(result):
     figure = pressure_map(result).figure()
     ((x, y),) = curves(figure.axes[0]).values()
@@ -155,20 +140,6 @@ def test_volume_and_mass_are_the_histories_over_time_and_distance(result):
     (above,) = (axes for axes in volume.child_axes if axes.get_xlabel() == "Distance (m)")
     volume.figure.draw_without_rendering()
     np.testing.assert_allclose(above.get_xlim(), 0.1 * np.array(volume.get_xlim()))
-
-
-def test_two_moments_are_not_joined():
-    for times, style in (((0.0,), "None"), ((0.0, 200.0), "-")):
-        if "wear" in history_names(result := made(times)):
-            lines = history(result, "wear").figure().axes[0].lines
-            assert lines[0].get_linestyle() == style
-            assert not any(line.get_clip_on() for line in lines)
-
-
-def test_only_a_body_with_a_density_has_a_mass():
-    assert len(history(made(densities=(None, None)), "wear").rows) == 1
-    _, mass = history(made(densities=(7850.0, None)), "wear").figure().axes
-    assert set(curves(mass)) == {"ball"}
 
 
 def test_the_history_of_the_contact_is_that_of_the_table_with_a_cell_on_either_side(result):

@@ -6,7 +6,7 @@ from made_results import made
 
 from tribo.lab.running_in import reliefs
 from tribo.plotting.history import history
-from tribo.plotting.relief import height_map, material_ratio_curves
+from tribo.plotting.profiles import height_map, material_ratio_curves
 
 
 @pytest.fixture(scope="module")
@@ -45,11 +45,3 @@ def test_the_contact_area_is_drawn_with_its_part_at_the_hardness():
     for line, column in zip(axes.lines, ("contact_area_m2", "plastic_area_m2"), strict=True):
         np.testing.assert_allclose(line.get_ydata(), 1e6 * table[column])
     assert axes.get_ylabel() == "Contact area (mm²)"
-
-
-def test_the_roughness_in_the_contact_is_drawn_of_rough_bodies_alone(rough):
-    (axes,) = history(rough, "roughness").figure().axes
-    (line,) = axes.lines
-    assert line.get_label() == "ball"
-    table = rough.table("history")
-    np.testing.assert_allclose(line.get_ydata(), 1e9 * table["bodies.ball.Sq_m"])

@@ -5,7 +5,6 @@ import pytest
 from made_results import SHAPES, half_width, made
 
 from tribo.core.grid import Grid
-from tribo.plotting.history import history
 from tribo.plotting.picture import NothingToDraw
 from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import body_profiles, scar_map, worn_section
@@ -122,35 +121,3 @@ def test_the_end_peaks_of_a_line_that_ends_at_the_window_are_seen_to_end_there()
     assert x[-1] < high
     assert p.max() == pytest.approx(1e-6 * profile(peaks, 1).max())
     assert across.get_ylim()[1] > p.max()
-
-
-def test_a_picometre_is_not_a_thousandth_of_a_nanometre():
-    (axes,) = body_profiles(made((0.0, 1e-2)), "disk").figure().axes
-    axes.figure.draw_without_rendering()
-    assert axes.get_ylabel() == "Height (pm)"
-    assert not axes.yaxis.get_offset_text().get_text()
-
-
-def test_half_widths_of_a_long_contact_both_show():
-    result = made(**SHAPES["1:1000"])
-    _, lower, _ = history(result, "contact").figure().axes
-    for line in lower.lines:
-        y = lower.transAxes.inverted().transform(lower.transData.transform(line.get_xydata()))[:, 1]
-        assert np.all((y > 0.02) & (y < 0.98))
-
-
-def test_a_scar_from_above_is_what_is_gone_whatever_its_shape(case):
-    figure = scar_map(case, "ball").figure()
-    figure.draw_without_rendering()
-    (image,) = figure.axes[0].images
-    deepest = 1e6 * np.max(case.body("ball").wear_depth[-1])
-    assert figure.axes[0].child_axes[0].get_ylabel().startswith("Depth (µm)\n")
-    assert np.max(image.get_array()) == pytest.approx(deepest, rel=1e-12)
-    assert image.get_array().shape == case.grid.cells[::-1]
-
-
-def test_profiles_along_and_across_have_one_scale_of_heights(case):
-    along, across = body_profiles(case, "ball").figure().axes
-    assert along.get_ylim() == across.get_ylim()
-    assert along.get_xlabel().startswith("Along sliding")
-    assert across.get_xlabel().startswith("Across sliding")

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from tribo.plotting.history import BODIES, LARGEST
-from tribo.plotting.profiles import UNWORN, WORN
-from tribo.plotting.style import OVER, PRESSURES, house_style, legend_below, new_figure, save_looks
+from tribo.plotting.style import OVER, house_style, legend_below, new_figure, save_looks
 
 
 def lightness(colour):
@@ -16,13 +15,6 @@ def lightness(colour):
     rgb = np.asarray(matplotlib.colors.to_rgb(colour))
     linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
     return float(np.sum(linear * [0.2126, 0.7152, 0.0722]))
-
-
-def test_higher_pressure_is_lighter_and_no_contact_white():
-    colours = matplotlib.colormaps[PRESSURES](np.linspace(0, 1, 64))
-    shades = [lightness(colour[:3]) for colour in colours]
-    assert np.all(np.diff(shades) > 0)
-    assert shades[-1] + 0.1 < 1.0
 
 
 @pytest.mark.parametrize("count", [1, 2, 5, 17])
@@ -34,11 +26,6 @@ def test_saves_show_on_white_and_differ_from_the_next_in_dashes_and_lightness(co
         assert lightness(one["color"]) < lightness(other["color"])
     # A contrast of 2 to 1 with the paper, (1 + 0.05) / (L + 0.05).
     assert all(lightness(look["color"]) < 0.475 for look in looks)
-
-
-def test_lines_of_one_picture_differ_in_dashes():
-    dashes = [look.get("linestyle") for look in (WORN, *UNWORN)]
-    assert len(set(dashes)) == 3
 
 
 @pytest.mark.parametrize("pair", [(LARGEST, OVER), BODIES])

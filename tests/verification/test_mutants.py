@@ -9,7 +9,7 @@ from tribo.contact import dcfft, love, padded_half_space, periodic
 from tribo.core.fields import WearRate
 from tribo.evolution import rates
 from tribo.guards.parts import GuardedSolver
-from tribo.lab import ball, track
+from tribo.lab import formulas
 from tribo.motion.exposure import Track
 from tribo.motion.stroke import Stroke
 from tribo.simulation import assembly
@@ -135,14 +135,13 @@ MUTANTS = {
         lambda right: property(lambda self: np.full(len(self.cells), 1 / len(self.cells))),
         "stroke_long",
     ),
-    "groove radius by 16": ((track, "groove_radius"), times(12 / 16), FORMULAS),
-    "section too large": ((track, "planimetric_area"), times(1.1), FORMULAS),
-    "groove too large": ((track, "circular_groove_area"), times(1.1), FORMULAS),
-    "straight track too large": ((track, "reciprocating_track_volume"), times(1.1), FORMULAS),
-    "block on ring doubled": ((track, "block_on_ring_volume"), times(2), FORMULAS),
-    "conforming scar doubled": ((ball, "conforming_ball_volume"), times(2), FORMULAS),
-    "flat scar doubled": ((ball, "flat_along_ball_volume"), times(2), FORMULAS),
-    "cap doubled": ((ball, "ball_cap_volume"), times(2), FORMULAS),
+    "groove radius by 16": ((formulas, "groove_radius"), times(12 / 16), FORMULAS),
+    "section too large": ((formulas, "planimetric_area"), times(1.1), FORMULAS),
+    "groove too large": ((formulas, "circular_groove_area"), times(1.1), FORMULAS),
+    "straight track too large": ((formulas, "reciprocating_track_volume"), times(1.1), FORMULAS),
+    "conforming scar doubled": ((formulas, "conforming_ball_volume"), times(2), FORMULAS),
+    "flat scar doubled": ((formulas, "flat_along_ball_volume"), times(2), FORMULAS),
+    "cap doubled": ((formulas, "ball_cap_volume"), times(2), FORMULAS),
 }
 
 

@@ -3,13 +3,11 @@
 import pytest
 from paper_models import archard, flat, foundation, motion, named, paraboloid, small, steel
 
-from tribo import Grid, Simulation
+from tribo import Grid
 from tribo.case import Stop
-from tribo.config.load import load_case
 from tribo.core.errors import CaseError, NumericalError
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
-from tribo.templates import template
 from tribo.verification import refinement
 from tribo.verification.refinement import refine
 
@@ -61,29 +59,6 @@ def test_stated_uncertainties_cover_a_much_finer_run(implicit):
     assert width.uncertainty >= width.floor == pytest.approx(0.5 * 0.7e-3 / 49)
 
 
-def ball_on_disk(path, cells):
-    path.write_text(template("ball_on_disk"), encoding="utf-8")
-    overrides = ["grid.size='1.3 mm'", f"grid.cells={cells}"]
-    return Simulation(load_case(path, overrides=overrides)).model
-
-
-@pytest.fixture(scope="module")
-def exact(tmp_path_factory):
-    """On cells half the size of those that are held against it."""
-    model = ball_on_disk(tmp_path_factory.mktemp("exact") / "case.toml", 80)
-    level = refinement._run(model, model.grid.cells, model.case.stepping)
-    return refinement._quantities(model, level.end)
-
-
-@pytest.mark.slow
-def test_an_order_by_chance_does_not_hide_an_error(tmp_path, exact):
-    found = by_name(refine(ball_on_disk(tmp_path / "case.toml", 40)))["peak pressure"]
-    assert found.grid.behaviour == "not asymptotic"
-    assert found.grid.order > 6
-    error = abs(found.value - exact["peak pressure"][1])
-    assert 0 < error <= found.uncertainty < 0.2 * found.value
-
-
 @pytest.mark.slow
 def test_explicit_steps_are_made_shorter_and_show_first_order():
     study = refine(worn(stepping=Explicit(time_step=2.0)))
@@ -100,12 +75,6 @@ def test_explicit_steps_are_made_shorter_and_show_first_order():
 def test_saves_do_not_keep_steps_from_being_refined(implicit):
     # One every half second would leave all three levels the same steps, and so no error at all.
     assert refine(worn(save_times=tuple(0.5 * i for i in range(400)))) == implicit
-
-
-def test_as_many_steps_at_looser_tolerances_are_no_refinement(monkeypatch):
-    monkeypatch.setattr(refinement, "_changed", lambda config, factor: config)
-    study = refine(worn(kinematics=motion(duration=2)))
-    assert {estimate.steps.behaviour for estimate in study.estimates} == {"unrefined"}
 
 
 def test_of_a_run_that_ends_at_a_depth_the_path_is_what_is_uncertain(implicit):

@@ -10,11 +10,10 @@ from PIL import Image
 
 from tribo.core.writing import make_folder, write_file
 from tribo.lab.scar import removed, scar_mask
-from tribo.lab.units import fitting, height_unit, size, time_labels
+from tribo.lab.units import time_labels
 from tribo.plotting.maps import Scale, field_picture
 from tribo.plotting.picture import NothingToDraw, Picture, below_each_other
 from tribo.plotting.sections import varying
-from tribo.plotting.style import DEPTHS, PRESSURES
 from tribo.result.read import Result
 
 FRAME = 500
@@ -36,9 +35,7 @@ def save_animation(result: Result, path: Path) -> Path:
             fields = np.array([result.field("pressure", save) for save in range(len(labels))])
         marked = np.any([scar_mask(field) for field in fields], axis=0)
         most = float(np.max(fields[-len(labels) + 1 :]))
-        unit = height_unit(most) if name else fitting("Pa", most)
-        what, colours = (f"Depth of {name}", DEPTHS) if name else ("Pressure", PRESSURES)
-        scale = Scale(what, unit, size(unit), colours, most=most)
+        scale = Scale.of(name, most)._replace(most=most)
         if vary := varying(list(fields), marked):
             for frame, field, label in zip(frames, fields, labels, strict=True):
                 given = field, marked, result.grid, scale, f"t = {label}"

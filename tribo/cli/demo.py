@@ -70,7 +70,7 @@ def demo(directory: Path, force: bool) -> None:
     averaged = Simulation(load_case(case))
     resolved = Simulation(load_case(case, overrides=RESOLVED))
     with averaged.run(output, observers=[Progress()], overwrite=force) as average:
-        print_report(average)
+        print_report(average, warned=True)
         pictures = save_figures(average, directory)
         click.echo(AVERAGE)
         with resolved.run(followed, observers=[Progress()], overwrite=force) as cycle:

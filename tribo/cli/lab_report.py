@@ -17,10 +17,10 @@ from tribo.lab.tables import lab_tables
 from tribo.result.read import Result
 
 
-def print_report(result: Result, console: Console | None = None, *, but: str = "") -> None:
+def print_report(result: Result, console: Console | None = None, *, warned: bool = False) -> None:
     """Print the saves, the worn bodies and the first contact of `result`.
 
-    Findings of the kind `but` are left out.
+    The warnings of its run are left out if they were printed while it ran, `warned`.
     """
     console, lab = console or Console(), lab_report(result)
     for block in report_blocks(result, lab):
@@ -30,8 +30,9 @@ def print_report(result: Result, console: Console | None = None, *, but: str = "
             console.print(block, markup=False)
     if words := status_words(result):
         console.print(f"[yellow]{escape(words)}[/]")
+    told = [each for each in result.findings if warned and each.is_warning]
     for finding in lab.findings:
-        if finding.kind != but:
+        if finding not in told:
             console.print(f"[yellow]Note:[/] {escape(str(finding))}")
 
 

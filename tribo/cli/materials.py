@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import click
 
 from tribo.cli.options import echo_json
+from tribo.core.errors import CaseError
 
 
 @click.command()
@@ -13,6 +16,7 @@ from tribo.cli.options import echo_json
 def materials(name: str | None, as_json: bool) -> None:
     """List the materials that a case may name, or the numbers of NAME with their sources.
 
+    What is no NAME lists the materials that have it in their name or description.
     Of a range a case takes the middle, if no value is said to be taken. Wear rates
     are shown for comparison; a case takes none of them.
 
@@ -20,15 +24,29 @@ def materials(name: str | None, as_json: bool) -> None:
     Example:
       tribo materials
       tribo materials 100Cr6
+      tribo materials steel
     """
     from tribo.core.material import in_words, materials
 
-    known = dict([materials.known(name)]) if name else materials.tables()
+    known = _named(name) if name else materials.tables()
     if as_json:
         echo_json(known)
         return
     for called, table in known.items():
         click.echo(f"{called:14} {table['summary']}")
-        for key, number in table.items() if name else ():
+        for key, number in table.items() if name and len(known) == 1 else ():
             if isinstance(number, dict):
                 click.echo(f"  {key}: {in_words(number)}\n    {'; '.join(number['sources'])}")
+
+
+def _named(name: str) -> dict[str, dict[str, Any]]:
+    from tribo.core.material import materials
+
+    try:
+        return dict([materials.known(name)])
+    except CaseError:
+        every, part = materials.tables(), name.casefold()
+        found = {n: t for n, t in every.items() if part in f"{n} {t['summary']}".casefold()}
+        if not found:
+            raise
+        return found

@@ -45,18 +45,19 @@ def plot(
     from tribo.result.read import Result
 
     folder = directory or output.with_name(output.stem + "-plots")
+    paths: list[Path] = []
     with Result.open(output) as result:
         if columns:
             drawn = {"history": partial(history_curves, result, columns, against)}
-            paths = write_figures(drawn, folder, suffix)
-        elif animate:
+            paths += write_figures(drawn, folder, suffix)
+        if animate:
             from tribo.cli.animation import save_animation
 
-            paths = [save_animation(result, folder / "animation.gif")]
-        elif names:
+            paths.append(save_animation(result, folder / "animation.gif"))
+        if names:
             chosen = {name: partial(result_picture, result, name) for name in names}
-            paths = write_figures(chosen, folder, suffix)
-        else:
+            paths += write_figures(chosen, folder, suffix)
+        if not (columns or animate or names):
             paths = save_figures(result, folder, suffix, click.echo)
     for path in paths:
         click.echo(f"Wrote {path}")

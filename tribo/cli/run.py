@@ -47,6 +47,5 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     if force and (aside := RunFolder(path).set_aside()):
         click.echo(f"The run that was stopped is now {aside}, and can be resumed.", err=True)
     with simulation.run(path, observers=[Progress()], overwrite=force) as result, printing(path):
-        # The choice of positions was printed as the run began.
-        print_report(result, but="positions")
+        print_report(result, warned=True)
         click.echo(f"Saved {path}; see it with: tribo plot {path}")

@@ -1,6 +1,6 @@
-"""Closed-form solutions, as small pure functions: oracles for tests, and of use by themselves.
+"""Closed-form solutions that runs, examples and pages compare with, as small pure functions.
 
-One subject a file: Hertz contact in `hertz`, rigid indenters in `punch` and `cone`, waves in
-`sinusoid`, an elastic foundation in `winkler`; worn bodies in `ball_wear`, `punch_wear` and
-`ball_on_track`.
+Hertz contact in `hertz`, a worn ball and its track in `ball_on_track`, and the rates at which
+punches wear to an even pressure in `punch_wear`. Those that only a validation case compares with
+stand as equations in its `expected.toml`.
 """

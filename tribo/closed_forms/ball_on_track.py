@@ -71,21 +71,6 @@ class BallOnTrack:
     """Volumes worn off the ball and off the flat's whole track, in m³."""
 
 
-@dataclass(frozen=True)
-class TrackProfile:
-    """The contact as a function of the position across the track."""
-
-    y: Array
-    """Position across the track, in m; all others have its shape."""
-    half_length: Array
-    """Half-length b of the contact along the sliding direction, in m."""
-    ball_depth: Array
-    flat_depth: Array
-    """Worn depth of the ball at x = 0, and of the flat, in m."""
-    pressure: Array
-    """Pressure, uniform along x, in Pa; 0 outside the contact."""
-
-
 def ball_on_track(
     distance: ArrayLike,
     *,
@@ -109,7 +94,7 @@ def ball_on_track(
         Archard's k_b and k_f, in 1/Pa; k_b is positive, and 0 leaves the flat unworn.
     """
     s = np.atleast_1d(np.asarray(distance, dtype=float))
-    q = _groove_rate(track_length, ball_wear_coefficient, flat_wear_coefficient)
+    q = 2.0 * flat_wear_coefficient / (ball_wear_coefficient * track_length)
     ball_volume = ball_wear_coefficient * load * s
     a = np.array([_half_width_along(volume, radius, q) for volume in ball_volume])
     peak = np.array([_peak_pressure(width, q, load) for width in a])
@@ -126,46 +111,6 @@ def ball_on_track(
     )
 
 
-def track_profile(
-    y: ArrayLike,
-    distance: float,
-    *,
-    load: float,
-    radius: float,
-    track_length: float,
-    ball_wear_coefficient: float,
-    flat_wear_coefficient: float,
-) -> TrackProfile:
-    """Profile of the contact across the track after one sliding distance.
-
-    Parameters
-    ----------
-    y : array_like
-        Positions across the track, in m.
-    distance : float
-        Sliding distance s, in m; positive.
-    load, radius, track_length, ball_wear_coefficient, flat_wear_coefficient : float
-        As for `ball_on_track`.
-    """
-    positions = np.asarray(y, dtype=float)
-    q = _groove_rate(track_length, ball_wear_coefficient, flat_wear_coefficient)
-    a = _half_width_along(ball_wear_coefficient * load * distance, radius, q)
-    outline = a**2 + 2.0 / 3.0 * q * a**3 - positions**2
-    b = np.reshape([_half_length(value, a, q) for value in outline.ravel()], outline.shape)
-    pressure = np.where(outline > 0.0, _peak_pressure(a, q, load) / (1.0 + q * b), 0.0)
-    return TrackProfile(
-        y=positions,
-        half_length=b,
-        ball_depth=b**2 / (2.0 * radius),
-        flat_depth=q * b**3 / (3.0 * radius),
-        pressure=pressure,
-    )
-
-
-def _groove_rate(track_length: float, ball: float, flat: float) -> float:
-    return 2.0 * flat / (ball * track_length)
-
-
 def _half_width_along(ball_volume: float, radius: float, q: float) -> float:
     # The ball alone would wear to `alone`; a groove makes the contact shorter.
     alone = (4.0 * radius * ball_volume / np.pi) ** 0.25
@@ -175,16 +120,6 @@ def _half_width_along(ball_volume: float, radius: float, q: float) -> float:
         lambda t: _ball_volume(t * alone, radius, q) / ball_volume - 1.0, 0.0, 1.0 + 1e-12
     )
     return float(root) * float(alone)
-
-
-def _half_length(outline: float, a: float, q: float) -> float:
-    if outline <= 0.0:
-        return 0.0
-    upper = min(np.sqrt(outline), a * (1.0 + 1e-12))
-    root = brentq(
-        lambda t: (t * upper) ** 2 * (1.0 + 2.0 / 3.0 * q * t * upper) - outline, 0.0, 2.0
-    )
-    return float(root) * float(upper)
 
 
 # Integrals across the track are taken over b instead of y, by parts, and b = a(1 − t²) takes

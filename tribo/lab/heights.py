@@ -57,7 +57,7 @@ class Heights:
         if min(shape) < FEWEST:
             raise CaseError(
                 f"heights of shape {shape} are no map: {FEWEST} × {FEWEST} at least are needed, a "
-                "row for each x with a height for each y"
+                "row for each x with a height for each y; a list of x, y, z is no map"
             )
         if not np.any(np.isfinite(self.heights)):
             raise CaseError("every height of the map is missing; measure again, or mask less")
@@ -126,9 +126,7 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
     try:
         return Heights(heights, pitch)
     except CaseError as error:
-        text = path.suffix.lower() in (".csv", ".txt") and min(heights.shape) < FEWEST
-        hint = "; a list of x, y, z is no map"
-        raise CaseError(f"{path}: {error}{hint if text else ''}") from None
+        raise CaseError(f"{path}: {error}") from None
 
 
 def _by_plugin(path: Path) -> Heights:

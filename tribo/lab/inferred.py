@@ -9,9 +9,15 @@ import numpy as np
 from tribo.core.arrays import middle_rows
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.words import signed
-from tribo.lab.ball import ball_cap_volume, conforming_ball_volume, flat_along_ball_volume
+from tribo.lab.formulas import (
+    ball_cap_volume,
+    circular_groove_area,
+    conforming_ball_volume,
+    flat_along_ball_volume,
+    groove_radius,
+    planimetric_area,
+)
 from tribo.lab.scar import Scar, scar
-from tribo.lab.track import circular_groove_area, groove_radius, planimetric_area
 from tribo.result.body import BodyResult
 from tribo.result.read import Result
 

@@ -12,10 +12,10 @@ from matplotlib.ticker import MaxNLocator
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
-from tribo.lab.units import axis_units, size
+from tribo.lab.units import axis_units, fitting, height_unit, size
 from tribo.plotting.picture import NothingToDraw, Picture
 from tribo.plotting.sections import MOST_CELLS, Limits, limits, through_centre, varying
-from tribo.plotting.style import AXIS_LABELS, PRESSURES, ticks, times
+from tribo.plotting.style import AXIS_LABELS, DEPTHS, PRESSURES, ticks, times
 
 _AROUND = 19.0
 """Height of the title and of the labels, in mm."""
@@ -98,6 +98,15 @@ class Scale(NamedTuple):
     """Where the colours begin; at a percentile of the cells if None."""
     most: float | None = None
     """Where the colours end; at a percentile of the cells if None."""
+
+    @classmethod
+    def of(cls, body: str, largest: float) -> Scale:
+        """Return the scale of a body's depths up to `largest`, or of pressures for ""."""
+        if body:
+            unit = height_unit(largest)
+            return cls(f"Depth of {body}", unit, size(unit), DEPTHS)
+        unit = fitting("Pa", largest)
+        return cls("Pressure", unit, size(unit))
 
     @property
     def label(self) -> str:

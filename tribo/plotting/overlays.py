@@ -113,9 +113,7 @@ def _difference(results: Results, label: str, time: float) -> Picture:
         if len(vary := varying([apart], marked)) < 2:
             continue
         most = float(np.percentile(np.abs(apart[marked]), MOST_CELLS))
-        unit = height_unit(most) if name else fitting("Pa", most)
-        what = f"Depth of {name}" if name else "Pressure"
-        scale = Scale(what, unit, size(unit), DIFFERENCES, -most, most)
+        scale = Scale.of(name, most)._replace(colours=DIFFERENCES, least=-most, most=most)
         title = "" if pictures else f"{label} less {first_label}, t = {time:g} s"
         pictures.append(field_picture(apart, marked, grid, scale, title, vary=vary))
     if not pictures:
@@ -132,14 +130,12 @@ def save_overlays(
     it is on the first one's grid and differs from it along both axes.
     """
     pictures: dict[str, Callable[[], Figure]] = {}
-    first = next(iter(results.values()))
     for time in times:
         pictures[f"comparison_{time:g}s"] = partial(comparison_picture, results, time)
-        for number, (label, result) in enumerate(results.items(), start=1):
-            if (result.grid.size, result.grid.cells) == (first.grid.size, first.grid.cells):
-                with suppress(NothingToDraw):
-                    drawn = _difference(results, label, time)
-                    pictures[f"difference_{number}_{time:g}s"] = drawn.figure
+        for number, label in enumerate(results, start=1):
+            with suppress(CaseError):
+                drawn = _difference(results, label, time)
+                pictures[f"difference_{number}_{time:g}s"] = drawn.figure
     return write_figures(pictures, folder, suffix)
 
 

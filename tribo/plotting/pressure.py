@@ -38,7 +38,6 @@ def pressure_map(result: Result, saves: Sequence[int] = (-1,)) -> Picture:
     save, hertz = saves[-1], _hertz(result)
     pressure = result.field("pressure", save)
     touching = pressure > 0
-    unit = fitting("Pa", float(np.max(pressure)))
 
     def more(axes: Axes, shown: Layout) -> Sequence[Artist]:
         if touching.any() and not touching.all():
@@ -48,10 +47,8 @@ def pressure_map(result: Result, saves: Sequence[int] = (-1,)) -> Picture:
         return () if hertz is None else [_draw_first_contact(axes, shown, hertz)]
 
     title = f"t = {time_labels(result.times)[save]}"
-    scale = Scale("Pressure", unit, size(unit))
-    return field_picture(
-        pressure, touching, result.grid, scale, title, hertz.reach if hertz else NOWHERE, more
-    )
+    scale, reach = Scale.of("", float(np.max(pressure))), hertz.reach if hertz else NOWHERE
+    return field_picture(pressure, touching, result.grid, scale, title, reach, more)
 
 
 def pressure_sections(

@@ -1,4 +1,4 @@
-"""Pictures of worn surfaces: from above, in section at every save, and both bodies together.
+"""Pictures of worn surfaces: from above, in section, both bodies together, and of their relief.
 
 Each raises CaseError if the result holds no such body.
 """
@@ -16,12 +16,20 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.lab.kept import kept_fields
+from tribo.lab.roughness import material_ratio
+from tribo.lab.running_in import reliefs
 from tribo.lab.scar import layer_ends, removed, scar_mask
 from tribo.lab.units import height_unit, shown_in, size, time_labels
 from tribo.plotting.maps import Scale, field_picture
-from tribo.plotting.picture import NothingToDraw, Picture
-from tribo.plotting.sections import bodies_end, profiles_picture, through_centre, varying
-from tribo.plotting.style import DEPTHS, Look, save_looks
+from tribo.plotting.picture import NothingToDraw, Picture, below_each_other
+from tribo.plotting.sections import (
+    MOST_CELLS,
+    bodies_end,
+    profiles_picture,
+    through_centre,
+    varying,
+)
+from tribo.plotting.style import OVER, PRESSURES, UNDER, Look, save_looks, ticks
 from tribo.result.read import Result
 
 WORN: Look = {"color": "black", "linewidth": 1.0}
@@ -32,6 +40,7 @@ UNWORN: tuple[Look, Look] = (
 """Of the upper and of the lower body."""
 LAYER: Look = {"color": "black", "linewidth": 0.6, "linestyle": (0.0, (6.0, 1.5, 1.0, 1.5))}
 UPPER, LOWER = "#e4e4e4", "#b4b4b4"
+BESIDE: Look = {"color": "#b05a00", "linewidth": 1.2, "linestyle": (0.0, (1.2, 1.2))}
 
 
 def scar_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
@@ -41,8 +50,7 @@ def scar_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture
     varies along one axis only is drawn as its profile.
     """
     grid, gone = _gone(result, name, saves[-1:])
-    unit = height_unit(float(np.max(gone)))
-    scale = Scale("Depth", unit, size(unit), DEPTHS)
+    scale = Scale.of(name, float(np.max(gone)))._replace(what="Depth")
     title = f"{name}, t = {time_labels(result.times)[saves[-1]]}"
     return field_picture(gone[0], scar_mask(gone[0]), grid, scale, title)
 
@@ -163,3 +171,44 @@ def field_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Pictur
     scale = Scale(kept.name.capitalize(), *shown_in(kept.unit, values), least=None)
     title = f"t = {time_labels(result.times)[saves[-1]]}"
     return field_picture(values, result.field("pressure", saves[-1]) > 0, result.grid, scale, title)
+
+
+def height_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
+    """Draw the heights of a body in its scar, unworn and at a save, form removed."""
+    scar, unworn, _ = reliefs(result, result.body(name), saves[-1] % len(result.times))
+    known = np.isfinite(scar)
+    low, high = np.percentile(unworn[np.isfinite(unworn)], (100.0 - MOST_CELLS, MOST_CELLS))
+    unit = height_unit(max(abs(low), abs(high)))
+    scale = Scale("Height", unit, size(unit), PRESSURES, low, high)
+    moments = {"unworn": unworn, f"t = {time_labels(result.times)[saves[-1]]}": scar}
+    pictures = [
+        field_picture(relief, known, result.grid, scale, f"{name}, {moment}", vary=(0, 1))
+        for moment, relief in moments.items()
+    ]
+    return below_each_other(pictures)
+
+
+def material_ratio_curves(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
+    """Draw the material ratio (Abbott) curves of a body, form removed.
+
+    That of its scar at a save, of what was there at first, and of the surface beside.
+    """
+    worn = reliefs(result, result.body(name), saves[-1] % len(result.times))
+    labels = f"scar, {time_labels(result.times)[saves[-1]]}", "unworn", "beside"
+    looks = OVER, UNDER, BESIDE
+    unit = height_unit(max(float(np.nanmax(np.abs(part))) for part in (worn.scar, worn.unworn)))
+
+    def panel(axes: Axes) -> Sequence[Artist]:
+        curves: list[Artist] = []
+        for relief, label, look in zip(worn, labels, looks, strict=True):
+            ratio, height = material_ratio(relief)
+            if ratio.size:
+                curves += axes.plot(100 * ratio, height / size(unit), label=label, **look)
+        axes.set_xlim(0.0, 100.0)
+        axes.set_xlabel("Material ratio (%)")
+        axes.set_ylabel(f"Height ({unit})")
+        axes.set_title(f"{name}, form removed", loc="left")
+        axes.yaxis.set_major_locator(ticks(6))
+        return curves
+
+    return Picture([[panel]], 60.0)

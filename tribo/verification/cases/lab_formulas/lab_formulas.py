@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tribo.lab import ball, track
+from tribo.lab import formulas
 
 RADIUS, GROOVE, WIDTH, LENGTH = 5e-3, 8e-3, 1e-3, 10e-3
 
@@ -10,17 +10,19 @@ RADIUS, GROOVE, WIDTH, LENGTH = 5e-3, 8e-3, 1e-3, 10e-3
 def found(part: float) -> dict[str, float]:
     """Return volumes and sections, in SI units."""
     y = (np.arange(500) - 249.5) * WIDTH / 500
-    section = track.planimetric_area((0.25 * WIDTH**2 - y**2) / (2 * GROOVE), WIDTH / 500)
-    cap = ball.ball_cap_volume(WIDTH, RADIUS)
+    section = formulas.planimetric_area((0.25 * WIDTH**2 - y**2) / (2 * GROOVE), WIDTH / 500)
+    cap = formulas.ball_cap_volume(WIDTH, RADIUS)
     return {
         "ball: flat scar, G99": cap,
-        "ball: diameter of a flat scar": ball.cap_diameter(cap, RADIUS),
-        "ball: scar in a groove, D7755": ball.conforming_ball_volume(WIDTH, WIDTH, RADIUS, GROOVE),
-        "ball: scar flat along sliding": ball.flat_along_ball_volume(0.5 * WIDTH, WIDTH, RADIUS),
+        "ball: diameter of a flat scar": formulas.cap_diameter(cap, RADIUS),
+        "ball: scar in a groove, D7755": formulas.conforming_ball_volume(
+            WIDTH, WIDTH, RADIUS, GROOVE
+        ),
+        "ball: scar flat along sliding": formulas.flat_along_ball_volume(
+            0.5 * WIDTH, WIDTH, RADIUS
+        ),
         "track: section of a parabola": section,
-        "track: radius of a groove, D7755": track.groove_radius(WIDTH, WIDTH**3 / (12 * GROOVE)),
-        "track: groove of an unworn ball, G99": track.circular_groove_area(WIDTH, RADIUS),
-        "track: round, G99": track.disk_track_volume(WIDTH, RADIUS, LENGTH),
-        "track: straight, G133": track.reciprocating_track_volume(WIDTH, RADIUS, LENGTH),
-        "block on ring, G77": track.block_on_ring_volume(WIDTH, 7 * RADIUS, LENGTH),
+        "track: radius of a groove, D7755": formulas.groove_radius(WIDTH, WIDTH**3 / (12 * GROOVE)),
+        "track: groove of an unworn ball, G99": formulas.circular_groove_area(WIDTH, RADIUS),
+        "track: straight, G133": formulas.reciprocating_track_volume(WIDTH, RADIUS, LENGTH),
     }
