@@ -8,7 +8,6 @@ import subprocess
 import tempfile
 import time
 import urllib.request
-from base64 import b64decode
 from contextlib import ExitStack, contextmanager
 from itertools import count
 
@@ -82,14 +81,6 @@ class Page:
         strokes = [{"type": kind, "value": key} for kind in ("keyDown", "keyUp")] * times
         keys = {"type": "key", "id": "keys", "actions": strokes}
         self.ask("input.performActions", context=self.context, actions=[keys])
-
-    def screenshot(self, whole=True):
-        origin = "document" if whole else "viewport"
-        shot = self.ask("browsingContext.captureScreenshot", context=self.context, origin=origin)
-        return b64decode(shot["data"])
-
-    def pdf(self):
-        return b64decode(self.ask("browsingContext.print", context=self.context)["data"])
 
 
 def _free_port():
