@@ -68,16 +68,6 @@ def test_with_both_components_points_slip_across_too():
         assert two.iterations <= 42
 
 
-def test_cattaneos_ball_is_met():
-    # G 200, ν 0.42, R 50, F 9.1954, μ 0.4 and Fx 0.875 μF, in units of one's own.
-    soft = ball(64, poisson=0.42, young=2 * 1.42 * 200, load=9.1954, radius=50.0)
-    drag = soft.dragged(8.172e-3, mu=0.4)
-    assert shift(0.875, 0.4 * 9.1954, soft.contact_radius, soft.compliance) == pytest.approx(
-        8.172e-3, rel=1e-4, abs=0
-    )
-    assert soft.force(drag) == pytest.approx(0.875 * 0.4 * 9.1954, rel=2e-4, abs=0)
-
-
 def test_ciavarella_and_jaeger_are_met_without_poissons_ratio():
     # For ν = 0 the traction is μ (p − p′), with p′ the pressure at a lesser approach.
     whole, lesser = (ball(64, poisson=0.0, load=load, window=5.5e-4) for load in (LOAD, 0.5 * LOAD))

@@ -8,7 +8,6 @@ import subprocess
 import tempfile
 import time
 import urllib.request
-from base64 import b64decode
 from contextlib import ExitStack, contextmanager
 from itertools import count
 
@@ -31,9 +30,11 @@ PATIENCE = 60.0
 class Page:
     """A tab, with what its console said and what it asked the network for."""
 
-    def __init__(self, connection):
+    def __init__(self, connection, begins):
         self._connection, self._numbers = connection, count(1)
         self.console, self.requests = [], []
+        if begins:
+            self.ask("session.new", capabilities={})
         self.context = self.ask("browsingContext.getTree")["contexts"][0]["context"]
         self.ask("session.subscribe", events=["log.entryAdded", "network.beforeRequestSent"])
 
@@ -83,14 +84,6 @@ class Page:
         keys = {"type": "key", "id": "keys", "actions": strokes}
         self.ask("input.performActions", context=self.context, actions=[keys])
 
-    def screenshot(self, whole=True):
-        origin = "document" if whole else "viewport"
-        shot = self.ask("browsingContext.captureScreenshot", context=self.context, origin=origin)
-        return b64decode(shot["data"])
-
-    def pdf(self):
-        return b64decode(self.ask("browsingContext.print", context=self.context)["data"])
-
 
 def _free_port():
     with socket.socket() as probe:
@@ -128,12 +121,7 @@ def browser(name):
         stack.callback(process.terminate)
         connection = _connected(name, port, profile)
         stack.callback(connection.close)
-        page = Page.__new__(Page)
-        page._connection, page._numbers = connection, count(1)
-        if name == "firefox":
-            page.console, page.requests = [], []
-            page.ask("session.new", capabilities={})
-        page.__init__(connection)
+        page = Page(connection, begins=name == "firefox")
         yield page
         page.ask("browser.close")
 

@@ -60,5 +60,5 @@ def test_a_folder_without_results_is_told_and_none_is_made(tmp_path):
 def test_a_force_that_is_one_number_for_all_is_left_out():
     path = {"distance_m": np.arange(2.0), "time_s": np.arange(2.0), "load_N": np.full(2, 5.0)}
     tables = {name: path | {"friction_force_N": np.full(2, len(name))} for name in ("a", "bb")}
-    panels = _panels(tables, {"a": [0, 1], "bb": [0, 1]}, ())
+    panels = _panels(tables, ())
     assert [name for name, *_ in panels] == ["Friction force"]

@@ -125,14 +125,6 @@ def test_where_data_and_model_disagree_the_report_begins_with_that(tmp_path):
     assert first.startswith("Data and model disagree, p &lt; 1e-6: the values below are not to be ")
 
 
-def test_a_narrow_interval_is_told_with_digits_enough(tmp_path):
-    narrow = ESTIMATE | {"lower": 7.0795e-15, "upper": 7.0805e-15}
-    (tmp_path / "fit.json").write_text(json.dumps(FIT | {"parameters": [narrow]}))
-    tribo_report.write_report(tmp_path / "fit.json", tmp_path / "report.html")
-    (told,) = answers(tmp_path / "report.html")
-    assert "between 7.0795e-15 and 7.0805e-15 with" in told
-
-
 def test_another_json_file_is_refused(tmp_path):
     (tmp_path / "other.json").write_text("{}")
     with pytest.raises(tribo.CaseError, match="is not what 'tribo calibrate --json' prints"):

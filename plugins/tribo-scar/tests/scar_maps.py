@@ -2,11 +2,7 @@
 
 import numpy as np
 import scipy.ndimage as ndimage
-from tribo import (
-    Grid,
-    Heights,
-    Rough,
-)
+from tribo import Grid, Heights, Rough
 
 PITCH = 1e-6
 SHIFT, TURN = (3.37, -2.21), 0.01

@@ -4,13 +4,7 @@ import numpy as np
 import pytest
 import scipy.ndimage as ndimage
 from scar_maps import PITCH, RADIUS, SHIFT, TURN, WIDE, pair, seen, track
-from tribo import (
-    CaseError,
-    Grid,
-    Heights,
-    Sphere,
-    TriboWarning,
-)
+from tribo import CaseError, Grid, Heights, Sphere, TriboWarning
 
 from tribo_scar import measured_scar
 from tribo_scar.registration import register
@@ -33,16 +27,6 @@ def test_maps_are_laid_on_each_other_within_a_tenth_of_a_pixel(changes):
     volume = np.sum(lost) * PITCH**2
     assert found.volume == pytest.approx(volume, rel=0.01, abs=0)
     assert abs(found.volume - volume) < 3 * found.volume_uncertainty < 0.05 * volume
-
-
-def test_maps_of_two_bodies_are_refused():
-    """A flat before, a ball after."""
-    grid = Grid(160 * 15e-6, 160)
-    ball = Sphere(radius=3e-3).height(grid)
-    flat = np.random.default_rng(0).normal(0, 3e-8, ball.shape)
-    pitch = (15e-6, 15e-6)
-    with pytest.raises(CaseError, match="check that both maps are of one body"):
-        measured_scar(Heights(flat, pitch), Heights(np.minimum(ball, -1e-4) + flat[::-1], pitch))
 
 
 def test_shift_and_volume_are_known_as_well_as_they_say_in_correlated_noise():
@@ -74,18 +58,6 @@ def test_the_border_of_a_ball_tells_no_shift():
     assert abs(found.volume - np.sum(lost) * grid.cell_area) < 2 * found.volume_uncertainty
 
 
-@pytest.mark.slow
-def test_smooth_balls_tell_no_shift_but_a_volume():
-    smooth = {"sq": 1e-12, "shift": (0, 0), "turn": 0, "on": RADIUS}
-    before, after, lost = pair(**smooth)
-    volume = np.sum(lost) * PITCH**2
-    for first in (before, Sphere(radius=RADIUS)):
-        found = measured_scar(first, after)
-        assert found.volume == pytest.approx(volume, rel=0.01, abs=0)
-        assert np.all(np.isinf(found.registration.shift_uncertainty))
-        assert found.registration.shift == (0, 0)
-
-
 @pytest.mark.parametrize("along", [0, 1])
 def test_an_arc_of_the_track_of_a_pin_on_a_disk_is_as_wide(along):
     before, after, _ = pair(depth=0, shift=(0, 0), turn=0)
@@ -96,7 +68,7 @@ def test_an_arc_of_the_track_of_a_pin_on_a_disk_is_as_wide(along):
     assert (found.along, found.across)[1 - along] == pytest.approx(2 * WIDE, rel=0.05, abs=0)
 
 
-@pytest.mark.parametrize("turn", [0.0, 0.02, 0.04])
+@pytest.mark.parametrize("turn", [0.0, 0.04])
 def test_a_direction_that_grooves_do_not_tell_adds_to_the_other_where_they_are_turned(turn):
     """They run along x, in which the map is moved by 5.4 pixels."""
     n, shift, random = 128, (5.4, 1.5), np.random.default_rng(0)
@@ -132,49 +104,54 @@ def test_rounding_of_smooth_balls_tells_no_shift():
     assert found.volume == pytest.approx(np.sum(lost) * pitch**2, rel=1e-3, abs=0)
 
 
-def test_maps_that_do_not_fit_are_refused(standard):
-    before, after, *_ = standard
-    with pytest.raises(
-        CaseError, match=r"a pixel every 1 × 1 µm, and that after every 1\.1 × 1 µm"
-    ):
-        register(before, Heights(after.heights, (1.1e-6, 1e-6)))
-    with pytest.raises(CaseError, match="before and after are the same"):
-        measured_scar(before, before)
-    flat = Heights(np.zeros((96, 96)), before.pitch)
-    with pytest.raises(CaseError, match="every height of the map after is 0 m: nothing was meas"):
-        measured_scar(before, flat)
-    with pytest.warns(TriboWarning, match="map before is 0 m, an ideal flat; if it was measured"):
-        measured_scar(flat, after)
-    with pytest.raises(
-        CaseError, match=r"shape before does not cover the map after .*or the pitch"
-    ):
-        measured_scar(Sphere(radius=1e-6), after)
-    part = np.full(before.heights.shape, np.nan)
-    part[:20] = before.heights[:20]
-    rest = np.where(np.arange(96)[:, None] < 70, np.nan, after.heights)
-    with pytest.raises(CaseError, match=r"only \d+ % of the pixels in common; 20 % at least"):
-        register(Heights(part, before.pitch), Heights(rest, after.pitch))
-    with pytest.raises(CaseError, match="every height of the map is missing"):
-        Heights(np.full((32, 32), np.nan), (PITCH, PITCH))
-    with pytest.raises(CaseError, match=r"shape \(4, 32\) are no map: 16 × 16 at least"):
-        Heights(np.zeros((4, 32)), (PITCH, PITCH))
-    with pytest.raises(
-        CaseError, match=r"shape \(3, 32, 32\) .* two dimensions; save one map alone"
-    ):
-        Heights(np.zeros((3, 32, 32)), (PITCH, PITCH))
-    with pytest.raises(CaseError, match=r"1 of its 1024 heights .* the first is inf m"):
-        Heights(np.where(np.arange(1024) == 5, np.inf, 0.0).reshape(32, 32), (PITCH, PITCH))
-    with pytest.raises(CaseError, match=r"worn deeper than .* 4 times .*measure a larger area"):
-        measured_scar(*pair(depth=0)[:2])
-    with pytest.raises(CaseError, match=r"nothing is worn .*is the map after the test given first"):
-        measured_scar(after, before)
-    with pytest.raises(
-        CaseError, match=r"% of the 96 × 96 pixels differ|if over half of the map is worn"
-    ):
-        measured_scar(*track(wide=29 * PITCH)[:2])
-    with pytest.raises(
-        CaseError, match=r"radius: a ball of 0\.01 mm radius cannot have .* radius or pitch"
-    ):
-        measured_scar(before, after, radius=1e-5)
-    with pytest.raises(CaseError, match="form: form is 1"):
-        measured_scar(before, after, form=3)
+def filled(shape, value=np.nan):
+    return Heights(np.full(shape, value), (PITCH, PITCH))
+
+
+def rows(heights, first, last):
+    inside = (np.arange(96) >= first) & (np.arange(96) < last)
+    return Heights(np.where(inside[:, None], heights.heights, np.nan), heights.pitch)
+
+
+REFUSED = {
+    r"a pixel every 1 × 1 µm, and that after every 1\.1 × 1 µm": lambda before, after: register(
+        before, Heights(after.heights, (1.1e-6, 1e-6))
+    ),
+    "before and after are the same": lambda before, _: measured_scar(before, before),
+    "one map has 2 times as many pixels": lambda before, after: measured_scar(
+        before, Heights(after.heights[::2, ::2], after.pitch)
+    ),
+    "map after is 0 m: nothing": lambda before, _: measured_scar(before, filled((96, 96), 0.0)),
+    r"shape before does not cover the map after .*pitch": lambda _, after: measured_scar(
+        Sphere(radius=1e-6), after
+    ),
+    r"only \d+ % of the pixels in common; 20 % at least": lambda before, after: register(
+        rows(before, 0, 20), rows(after, 70, 96)
+    ),
+    "every height of the map is missing": lambda *_: filled((32, 32)),
+    r"shape \(4, 32\) are no map: 16 × 16 at least": lambda *_: filled((4, 32), 0.0),
+    r"shape \(3, 32, 32\) .* two dimensions": lambda *_: filled((3, 32, 32), 0.0),
+    r"1 of its 1024 heights .* first is inf m": lambda *_: Heights(
+        np.where(np.arange(1024) == 5, np.inf, 0.0).reshape(32, 32), (PITCH, PITCH)
+    ),
+    r"worn deeper than .* 4 times .*larger area": lambda *_: measured_scar(*pair(depth=0)[:2]),
+    r"nothing is worn .*given first": lambda before, after: measured_scar(after, before),
+    r"% of the 96 × 96 pixels differ|if over half of the map is worn": lambda *_: measured_scar(
+        *track(wide=29 * PITCH)[:2]
+    ),
+    r"radius: a ball of 0\.01 mm radius cannot have": lambda before, after: measured_scar(
+        before, after, radius=1e-5
+    ),
+    "form: form is 1": lambda before, after: measured_scar(before, after, form=3),
+}
+
+
+@pytest.mark.parametrize("words", REFUSED)
+def test_maps_that_do_not_fit_are_refused(standard, words):
+    with pytest.raises(CaseError, match=words):
+        REFUSED[words](*standard[:2])
+
+
+def test_a_map_before_that_is_flat_is_taken_for_ideal_with_a_warning(standard):
+    with pytest.warns(TriboWarning, match="map before is 0 m, an ideal flat"):
+        measured_scar(filled((96, 96), 0.0), standard[1])

@@ -6,14 +6,7 @@ import numpy as np
 import pytest
 import scipy.ndimage as ndimage
 from scar_maps import PITCH, RADIUS, WIDE, pair
-from tribo import (
-    CaseError,
-    Flat,
-    Grid,
-    Heights,
-    Sphere,
-    TriboWarning,
-)
+from tribo import CaseError, Flat, Grid, Heights, Sphere, TriboWarning
 from tribo.lab import heights
 
 from tribo_scar import measured_scar
@@ -66,14 +59,6 @@ def test_pixels_that_are_missing_here_and_there_are_no_gap_however_many():
     assert abs(found.volume / (PITCH**2 * np.sum(lost)) - 1) < 0.02
 
 
-@pytest.mark.parametrize("radius", [5e-3, 300e-3])
-def test_a_radius_far_above_the_ball_s_is_told(radius):
-    before, after, _ = pair(on=3e-3, sq=5e-9, noise=1e-9)
-    words = rf"radius of [23]\.\d+ mm, and the ball one of {1e3 * radius:g} mm"
-    with pytest.warns(TriboWarning, match=words):
-        assert measured_scar(before, after, radius=radius).inferred == ()
-
-
 @pytest.mark.parametrize("powers", [(4, 0), (2, 2)])
 def test_a_form_of_fourth_order_is_told(powers):
     """Legendre's, of which a curvature takes nothing off: volumes are off by 12 to 14 %."""
@@ -85,8 +70,7 @@ def test_a_form_of_fourth_order_is_told(powers):
         measured_scar(before, Heights(after.heights + 80e-9 * bent, after.pitch))
 
 
-@pytest.mark.parametrize("height", [1e-6, 2e-5])
-def test_spikes_are_left_out_and_counted(height):
+def test_spikes_are_left_out_and_counted():
     """In 0.4 % of the pixels, of a ball's scar."""
     before, after, lost = pair(on=RADIUS)
     volume, maps = np.sum(lost) * PITCH**2, []
@@ -94,7 +78,7 @@ def test_spikes_are_left_out_and_counted(height):
     for each in (before, after):
         spiked = random.random(lost.shape) < 0.004
         spikes += np.count_nonzero(spiked & np.isfinite(each.heights))
-        maps.append(Heights(each.heights + height * spiked, each.pitch))
+        maps.append(Heights(each.heights + 1e-6 * spiked, each.pitch))
     with pytest.warns(TriboWarning, match="pixels of the map (before|after) are outliers"):
         found = measured_scar(*maps)
     assert found.as_json()["outliers"] == found.outliers
@@ -142,24 +126,11 @@ def test_a_steep_ball_has_its_radius():
         measured_scar(Sphere(radius=3.05e-3), maps[1], form=2)
 
 
-def test_a_wrong_radius_is_told_under_the_relief_of_a_ball():
-    """Though the curvature that is left is less than the relief."""
-    _, after, _ = pair(on=RADIUS, shift=(0, 0), turn=0, n=160)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        measured_scar(Sphere(radius=RADIUS), after)
-    for factor in (0.85, 1.15):
-        with pytest.warns(TriboWarning, match="differ by more than a tilt: check the shape given"):
-            measured_scar(Sphere(radius=factor * RADIUS), after)
-
-
-@pytest.mark.parametrize("wide", [16, 24])
-def test_a_map_twice_as_wide_as_its_scar_is_large_enough(wide):
+def test_a_map_twice_as_wide_as_its_scar_is_large_enough():
     """With few pixels too, though smoothing widens the scar by some."""
-    y, random = np.arange(2 * wide) - wide + 0.5, np.random.default_rng(0)
-    shape = 2 * (2 * wide,)
+    y, random, shape = np.arange(32) - 15.5, np.random.default_rng(0), (32, 32)
     relief = ndimage.gaussian_filter(random.normal(size=shape), 2, mode="wrap") * 0.7e-6
-    lost = 2e-6 * np.maximum(1 - (y[:, None] ** 2 + y**2) / (wide / 2) ** 2, 0)
+    lost = 2e-6 * np.maximum(1 - (y[:, None] ** 2 + y**2) / 8**2, 0)
     before, after = (
         Heights(relief - each + 20e-9 * random.normal(size=shape), (PITCH, PITCH))
         for each in (0, lost)

@@ -58,9 +58,8 @@ def coefficients(
     i, j = (np.arange(n) for n in shape)
     near = np.ix_(np.minimum(i, shape[0] - i), np.minimum(j, shape[1] - j))
     wrapped = np.array([quarter[near] for quarter in quarters])
-    for axis, (at, count) in enumerate(zip((i, j), shape, strict=True)):
-        odd = np.sign(count - 2 * at) * (at > 0)
-        wrapped[2] *= np.expand_dims(odd, 1 - axis)
+    odd = (np.sign(n - 2 * at) * (at > 0) for n, at in zip(shape, (i, j), strict=True))
+    wrapped[2] *= np.outer(*odd)
     return wrapped
 
 
@@ -70,7 +69,6 @@ class Cerruti:
     The convolution is padded with zeros (DC-FFT), as that of the normal contact. Parameters are
     those of `coefficients`, on a box; the components: 1 for tractions along x alone, 2 for both;
     and by how much a rig in series gives way along x under a traction of 1 on one cell, in m/Pa.
-    With one component an object is an `Operator` of `tribo.solve_bounded`.
     """
 
     def __init__(
@@ -81,7 +79,7 @@ class Cerruti:
         components: int = 2,
         rig: float = 0.0,
     ) -> None:
-        self.shape, self.spacing, self.components, self.rig = shape, spacing, components, rig
+        self.shape, self.components, self.rig = shape, components, rig
         self._padded = tuple(scipy.fft.next_fast_len(2 * n - 1, real=True) for n in shape)
         kernels = coefficients((self._padded[0], self._padded[1]), spacing, compliances)
         # Even in both, or odd in both: the spectra are real.
@@ -96,22 +94,17 @@ class Cerruti:
         self._symbols[0, 0, 0] += rig * nx * ny
 
     def apply(self, traction: Array) -> Array:
-        """Return the displacement (m) under a traction (Pa), (components, nx, ny) or (nx, ny)."""
+        """Return the displacement (m) under a traction (Pa), both (components, nx, ny)."""
         (nx, ny), (uxx, uyy, uxy) = self.shape, self._spectra
-        parts = traction.reshape(-1, nx, ny)
-        modes = scipy.fft.rfft2(parts, self._padded)
-        if len(parts) == 1:
+        modes = scipy.fft.rfft2(traction, self._padded)
+        if self.components == 1:
             modes *= uxx
         else:
             one, other = modes
             modes = np.array([uxx * one + uxy * other, uxy * one + uyy * other])
         moved = scipy.fft.irfft2(modes, self._padded)[:, :nx, :ny]
-        moved[0] += self.rig * np.sum(parts[0])
-        return np.asarray(moved.reshape(traction.shape))
-
-    def symbol(self) -> Array:
-        """Return the eigenvalues of the periodic operator with the same near field, along x."""
-        return np.asarray(self._symbols[0].copy())
+        moved[0] += self.rig * np.sum(traction[0])
+        return np.asarray(moved)
 
     def preconditioned(self, slip: Array) -> Array:
         """Return about the traction that gives a displacement, both (components, nx, ny)."""

@@ -25,7 +25,7 @@ def first_loading(
     by less, if Q reaches it. Answers are kept while the same contact is asked for again.
 
     The limit μp (Pa) has the shape of the grid, the amplitude δ is in m. The answer has both
-    components of the traction.
+    components of the traction, and beyond the contact the slip of a point that comes to touch.
     """
     compliances = tangential_compliances(materials.values())
     return _loading(drive, grid, compliances, limit.tobytes(), amplitude)
@@ -45,7 +45,6 @@ def _loading(
     traction = np.zeros((2, *cells))
     traction[: drive.components] = box.embed(inside.traction)
     displacement = inside.displacement - rig * float(np.sum(traction[0]))
-    # Beyond the contact, as a point that comes to be touched would slip.
     moved = cerruti(cells, spacing, compliances, 2).apply(traction)
     beyond = np.hypot(displacement - moved[0], moved[1] * (drive.components - 1))
     slip = np.where(pressed, box.embed(inside.slip), beyond)

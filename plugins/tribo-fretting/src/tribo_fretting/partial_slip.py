@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from pydantic import ConfigDict
@@ -82,7 +83,8 @@ class PartialSlip(Effect, Drive):
         """Return the slip per metre of the motion and the traction at the end of a stroke."""
         _, drag, amplitude = self._loaded(contact)
         if contact.distance == 0:
-            _check_first_contact(contact, drag, self.allow_narrow_ring)
+            for end in self.held.ends:
+                self._check_first_contact(replace(contact, time=end))
         slip = np.clip(drag.slip / amplitude, 0.0, 1.0)
         answers = zip(self.provides, (slip, *drag.traction), strict=True)
         return {field.name: dict.fromkeys(contact.materials, of) for field, of in answers}
@@ -131,30 +133,30 @@ class PartialSlip(Effect, Drive):
                 "bodies",
             )
 
-
-def _check_first_contact(contact: ContactConditions, drag: Drag, narrow: bool) -> None:
-    pressed, grid = contact.pressure > 0, contact.grid
-    half_width = 0.5 * np.count_nonzero(pressed.any(axis=1)) * grid.spacing[0]
-    if drag.displacement > PART * half_width:
-        raise CaseError(
-            f"the contact moves by {1e6 * drag.displacement:.3g} µm to each side, more than half "
-            f"of its half-width of {1e6 * half_width:.3g} µm; use kinematics.type = "
-            '"reciprocating" with positions, which is gross slip',
-            "kinematics.amplitude",
-        )
-    stuck = pressed & (drag.slip == 0)
-    slipping = np.count_nonzero(pressed & ~stuck)
-    # What a rough contact has is no ring.
-    if narrow or not stuck.any() or (slipping and contact.system.curvature is None):
-        return
-    ring = slipping / (np.pi / 8 * (_faces(pressed) + _faces(stuck)))
-    if ring < NARROW:
-        words = f"the ring of slip is {ring:.2g} cells wide" if slipping else "every point sticks"
-        raise CaseError(
-            f"{words}; it must be {NARROW:g} cells wide at least: take a larger amplitude, or "
-            "smaller cells",
-            "kinematics.amplitude",
-        )
+    def _check_first_contact(self, contact: ContactConditions) -> None:
+        drag, path = self._loaded(contact)[1], f"kinematics.{self.amplitude_path(contact.time)}"
+        pressed, grid = contact.pressure > 0, contact.grid
+        half_width = 0.5 * np.count_nonzero(pressed.any(axis=1)) * grid.spacing[0]
+        if drag.displacement > PART * half_width:
+            raise CaseError(
+                f"the contact moves by {1e6 * drag.displacement:.3g} µm to each side, more than "
+                f"half of its half-width of {1e6 * half_width:.3g} µm; use kinematics.type = "
+                '"reciprocating" with positions, which is gross slip',
+                path,
+            )
+        stuck = pressed & (drag.slip == 0)
+        slipping = np.count_nonzero(pressed & ~stuck)
+        rough = slipping and contact.system.curvature is None
+        if self.allow_narrow_ring or rough or not stuck.any():
+            return
+        ring = slipping / (np.pi / 8 * (_faces(pressed) + _faces(stuck)))
+        if ring < NARROW:
+            words = f"the ring of slip is {ring:.2g} cells wide" if slipping else "all sticks"
+            raise CaseError(
+                f"{words}; it must be {NARROW:g} cells wide at least: take a larger amplitude, or "
+                "smaller cells",
+                path,
+            )
 
 
 def _faces(cells: Mask) -> int:

@@ -5,15 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
-from tribo import Component, LabRow, Result, hookimpl
+from tribo import CaseError, Component, Finding, LabRow, Result, hookimpl
 
 from tribo_fretting.cerruti import dundurs_beta
 from tribo_fretting.cycles import SavedCycle, motion_of
 from tribo_fretting.motion import Fretting
-from tribo_fretting.partial_slip import PartialSlip
+from tribo_fretting.partial_slip import NARROW, PartialSlip
+
+if TYPE_CHECKING:
+    from tribo.kernel_api import Model
 
 COUPLED = 0.02
 """|β|μ from which on a report warns that traction and pressure act on each other."""
@@ -29,6 +33,21 @@ def tribo_components() -> tuple[type[Component], ...]:
 def tribo_cases() -> tuple[Path, ...]:
     """Offer the validation cases of this package."""
     return (Path(__file__).with_name("cases"),)
+
+
+@hookimpl
+def tribo_findings(model: Model) -> list[Finding]:
+    """Say what partial slip refuses of the first contact on the cells of the case."""
+    from tribo.kernel_api import Memory, Moment, begin, local_fields
+
+    state = begin(model)
+    at, kept = Moment(state.time, state.distance, state.speed), Memory({}, state.between)
+    try:
+        local_fields(model, state.contact.pressure, at, 0, kept)
+    except CaseError as error:
+        words = f"a run would stop at once: {error}"
+        return [Finding("partial slip", words, limit=NARROW, place=error.path)]
+    return []
 
 
 @hookimpl

@@ -18,8 +18,8 @@ class Drag:
     """A contact that was dragged along x from a traction of 0.
 
     By a displacement, in m, to a traction in Pa, shape (components, nx, ny). Points have slipped by
-    `slip` (nx, ny), in m: 0 where they stick, and beyond the contact as far as the surfaces moved
-    along each other. An iteration costs two calls of the operator, one where no cell meets its rim.
+    `slip` (nx, ny), in m: 0 where they stick. An iteration costs two calls of the operator, one
+    where no cell meets its rim.
     """
 
     displacement: float
@@ -75,13 +75,12 @@ def dragged(
         slip = drive - moved
         normal = q / safe
         outward = np.sum(slip * normal, axis=0)
-        sliding = pressed & (_lengths(q) >= limit * (1 - ON_RIM)) & (outward > 0)
+        sliding = pressed & (np.linalg.norm(q, axis=0) >= limit * (1 - ON_RIM)) & (outward > 0)
         normal *= sliding
         residual = pressed * slip - outward * normal
         error = float(np.max(np.abs(residual)))
         if error <= tolerance * displacement:
-            whole = np.where(sliding, outward, 0.0)
-            return Drag(displacement, q, np.where(pressed, whole, _lengths(slip)), iteration)
+            return Drag(displacement, q, np.where(sliding, outward, 0.0), iteration)
         curved = np.where(sliding, outward / safe, 0.0)
         scale = pressed / np.sqrt(1 + curved / operator.typical)
         z = tangent(scale * operator.preconditioned(scale * residual), normal)
@@ -105,16 +104,12 @@ def dragged(
     )
 
 
-def _lengths(vectors: Array) -> Array:
-    return np.asarray(np.sqrt(np.sum(vectors**2, axis=0)))
-
-
 def tangent(vectors: Array, normal: Array) -> Array:
     """Return vectors without what lies along a normal, all (components, nx, ny)."""
     return np.asarray(vectors - np.sum(vectors * normal, axis=0) * normal)
 
 
 def _on_discs(traction: Array, limit: Array) -> Array:
-    length = _lengths(traction)
+    length = np.linalg.norm(traction, axis=0)
     beyond = length > limit
     return np.asarray(traction * np.where(beyond, limit / np.where(beyond, length, 1.0), 1.0))

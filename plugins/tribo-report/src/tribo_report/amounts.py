@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from pydantic import BaseModel
-from tribo import CaseError, Quantity, WearLaw
+from tribo import CaseError, Component, Quantity, WearLaw
 from tribo.kernel_api import default_registry, parts, scale, time_labels
 
 _UNITS = {
@@ -40,10 +40,21 @@ def amount(value: float, unit: str) -> str:
 
 def component_words(config: Mapping[str, Any]) -> str:
     """Return the type of a component and its values, those left out of the case too."""
-    name, table = str(config.get("type", "")), None
+    words = value_words(config, component(config))
+    return f"{config.get('type', '')}, {words}".removesuffix(", ")
+
+
+def component(config: Mapping[str, Any]) -> type[Component] | None:
+    """Return the class of a component; None if it is not installed."""
     with suppress(CaseError):
-        table = default_registry().find(name)
-    return f"{name}, {value_words(config, table)}".removesuffix(", ")
+        return default_registry().find(str(config.get("type", "")))
+    return None
+
+
+def part_words(table: type[BaseModel], key: str, value: Any) -> str:
+    """Return a part of the case, or of a body, in words; "" if it is left out."""
+    words = _value(value, _marks(table, key)) if value else ""
+    return words[1:-1] if words.startswith("(") else words
 
 
 def value_words(config: Mapping[str, Any], table: type[BaseModel] | None) -> str:
@@ -51,37 +62,21 @@ def value_words(config: Mapping[str, Any], table: type[BaseModel] | None) -> str
     return ", ".join(_values(config, table))
 
 
-def range_words(table: Mapping[str, Any], key: str, unit: str) -> str:
-    """Return a number of a table of the case, or its range over stages; "" if it is neither."""
-    value: Any = table.get(key)
-    numbers = [float(stage[key]) for stage in value] if in_stages(value, key) else []
-    if isinstance(value, int | float):
-        numbers = [float(value)]
-    if not numbers:
-        return ""
-    low, high = min(filter(None, numbers), default=0.0), max(numbers)
-    words = amount(low, unit)
-    if high > low:
-        words += f" to {amount(high, unit)}"
-    return words + (" with pauses" if min(numbers) < low else "")
-
-
-def in_stages(value: Any, key: str) -> bool:
+def _in_stages(value: Any, key: str) -> bool:
     """Return whether a value is given in stages, as tables with its own key."""
     listed = isinstance(value, list | tuple) and len(value) > 0
     return listed and all(isinstance(stage, Mapping) and key in stage for stage in value)
 
 
 def _stage_words(stages: Sequence[Mapping[str, Any]], key: str, unit: str) -> str:
-    """Return until when each stage goes, or of many stages the first, the last and the range."""
+    """Return until when each stage goes; of many stages the first and the last."""
     told, times = [], time_labels(np.array([stage.get("until") or stage["at"] for stage in stages]))
     for stage, time in zip(stages, times, strict=True):
         level = amount(float(stage[key]), unit) if stage[key] else "pause"
         # A load is held to a time, or reached at a time in a straight line.
         told.append(f"{level} {'to' if stage.get('until') else 'at'} {time}")
     if len(told) > _LONG:
-        over = range_words({key: stages}, key, unit)
-        return f"{told[0]}, …, {told[-1]} ({len(told)} stages, {over})"
+        return f"{told[0]}, …, {told[-1]} ({len(told)} stages)"
     return ", ".join(told)
 
 
@@ -94,7 +89,7 @@ def _values(config: Mapping[str, Any], table: type[BaseModel] | None) -> Iterato
             yield name
             continue
         marks = _marks(table, key)
-        staged = in_stages(value, key)
+        staged = _in_stages(value, key)
         words = _stage_words(value, key, _unit(marks)) if staged else _value(value, marks)
         of_law = table is not None and issubclass(table, WearLaw)
         if of_law and _unit(marks) == "1/Pa" and isinstance(value, int | float):

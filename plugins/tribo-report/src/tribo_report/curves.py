@@ -157,12 +157,15 @@ def _section(
 
 def history(results: Results) -> dict[str, Any]:
     """Return what changes over the steps: panels of curves against the distance, and the time."""
-    tables = {label: with_rests(result) for label, result in results.items()}
-    kept = {label: thinned(len(table["time_s"]), LONGEST) for label, table in tables.items()}
-    left_out = sum(len(table["time_s"]) - len(kept[label]) for label, table in tables.items())
+    tables, left_out = dict[str, dict[str, Array]](), 0
+    for label, result in results.items():
+        every = with_rests(result)
+        kept = thinned(len(every["time_s"]), LONGEST)
+        tables[label] = {name: column[kept] for name, column in every.items()}
+        left_out += len(every["time_s"]) - len(kept)
     note = f"{left_out} further steps are left out of the curves." if left_out else ""
     names = next(iter(results.values())).body_names
-    panels = [(*p, note or "Every step is shown.") for p in _panels(tables, kept, names)]
+    panels = [(*p, note or "Every step is shown.") for p in _panels(tables, names)]
     panels += [(*p, AT_SAVES) for p in _of_models(results)]
     unit = time_unit(max((result.times for result in results.values()), key=lambda t: t[-1]))
     axes = []
@@ -191,16 +194,12 @@ def history(results: Results) -> dict[str, Any]:
     return {"axes": axes}
 
 
-def _panels(
-    tables: Mapping[str, Mapping[str, Array]],
-    kept: Mapping[str, list[int]],
-    bodies: Sequence[str],
-) -> Iterator[Panel]:
-    """Yield what there is to show of the steps that are kept."""
+def _panels(tables: Mapping[str, Mapping[str, Array]], bodies: Sequence[str]) -> Iterator[Panel]:
+    """Yield what there is to show of the steps."""
     for name, si, columns in _columns(bodies):
         curves = {
             ", ".join(part for part in (label, called) if part): [
-                table[each][kept[label]] for each in ("distance_m", "time_s", column)
+                table[each] for each in ("distance_m", "time_s", column)
             ]
             for label, table in tables.items()
             for called, column in columns.items()

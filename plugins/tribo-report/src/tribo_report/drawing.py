@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from html import escape
 from typing import Any
 
-from tribo_report.amounts import range_words
+from tribo_report.amounts import component
 
 WIDTH, HEIGHT = 520, 320
 MIDDLE, CONTACT = 260, 160
@@ -14,7 +14,7 @@ MIDDLE, CONTACT = 260, 160
 CURVED = ("sphere", "paraboloid")
 
 
-def drawing(case: Mapping[str, Any], swept: str | None) -> str:
+def drawing(case: Mapping[str, Any], swept: str | None, load: str) -> str:
     """Return the case as SVG. Its body that stays in the contact is above, or the first."""
     bodies: Mapping[str, Any] = case["bodies"]
     lower = list(bodies)[-1] if swept is None else swept
@@ -22,8 +22,8 @@ def drawing(case: Mapping[str, Any], swept: str | None) -> str:
     shapes = {name: _shape(body.get("surface") or {}) for name, body in bodies.items()}
     coated = {name: bool(body.get("layers")) for name, body in bodies.items()}
     called = {name: f"coated {name}" if coated[name] else name for name in bodies}
-    motion = _motion(case.get("kinematics") or {})
-    load = range_words(case.get("load") or {}, "normal", "N") or "as the case says"
+    motion = str(case["kinematics"].get("type", "motion"))
+    both = getattr(component(case["kinematics"]), "turns_back", False)
     parts = [
         *_body(shapes[lower], coated[lower], up=False),
         *_body(shapes[upper], coated[upper], up=True),
@@ -32,12 +32,12 @@ def drawing(case: Mapping[str, Any], swept: str | None) -> str:
         # The load from above, the motion of what lies below.
         _arrow(MIDDLE, 16, MIDDLE, 76, both=False),
         _text(MIDDLE + 12, 40, load, "start"),
-        _arrow(MIDDLE - 90, HEIGHT - 60, MIDDLE + 90, HEIGHT - 60, both=motion[1]),
-        *(_text(MIDDLE, HEIGHT - 34 + 22 * i, line) for i, line in enumerate(motion[0])),
+        _arrow(MIDDLE - 90, HEIGHT - 60, MIDDLE + 90, HEIGHT - 60, both=both),
+        _text(MIDDLE, HEIGHT - 34, motion),
     ]
     words = (
         f"Drawing of the case, not to scale: {called[upper]} on {called[lower]}, pressed by "
-        f"{load}; {', '.join(motion[0])}"
+        f"{load}; {motion}"
     )
     return (
         f'<svg class="case" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{escape(words)}">'
@@ -77,28 +77,6 @@ def _body(shape: tuple[str, bool], coated: bool, *, up: bool) -> Iterator[str]:
     if rough:
         yield f'<path class="rough" d="M{left} {top}{face}"/>'
     yield "</g>"
-
-
-def _motion(kinematics: Mapping[str, Any]) -> tuple[list[str], bool]:
-    """Return the motion in two lines of words, and whether it goes there and back."""
-    units = {
-        "stroke": "m",
-        "frequency": "Hz",
-        "speed": "m/s",
-        "track_radius": "m",
-        "track_length": "m",
-        "distance": "m",
-        "duration": "s",
-    }
-    name = str(kinematics.get("type", "motion"))
-    words = [
-        f"{key.replace('_', ' ')} {number}"
-        for key, unit in units.items()
-        if (number := range_words(kinematics, key, unit))
-    ]
-    half = len(words) // 2
-    told = [", ".join([name, *words[:half]]), ", ".join(words[half:])]
-    return told, name in ("reciprocating", "measured")
 
 
 def _arrow(x1: float, y1: float, x2: float, y2: float, *, both: bool) -> str:

@@ -39,23 +39,6 @@ class FieldPart:
     y: slice
     blocks: tuple[Blocks, Blocks]
 
-    @property
-    def lengths(self) -> tuple[float, float]:
-        """Along x and y, in m."""
-        x, y = (float(np.ptp(each.position)) for each in self.blocks)
-        return x, y
-
-    @property
-    def is_true(self) -> bool:
-        """Whether a map of it is true to scale."""
-        return max(self.lengths) <= ALIKE * min(self.lengths)
-
-    @property
-    def units(self) -> tuple[str, str]:
-        """Along x and y."""
-        x, y = axis_units([0.5 * length for length in self.lengths])
-        return x, y
-
     def of(self, field: Array) -> Array:
         """Return the part of a field, shape (nx, ny)."""
         return field[self.x, self.y]
@@ -65,12 +48,13 @@ class FieldPart:
         return block_means(self.of(field), self.blocks)
 
     def axes(self) -> dict[str, Any]:
-        """Return positions and units as plain data."""
+        """Return positions and units as plain data, and whether a map is true to scale."""
+        lengths = [float(np.ptp(each.position)) for each in self.blocks]
+        units = axis_units([0.5 * length for length in lengths])
         x, y = (
-            plain(each.centres / size(unit))
-            for each, unit in zip(self.blocks, self.units, strict=True)
+            plain(each.centres / size(unit)) for each, unit in zip(self.blocks, units, strict=True)
         )
-        return {"x": x, "y": y, "units": self.units, "alike": self.is_true}
+        return {"x": x, "y": y, "units": units, "alike": max(lengths) <= ALIKE * min(lengths)}
 
 
 def charts(result: Result) -> dict[str, Any]:
@@ -169,14 +153,15 @@ def _map(
     """
     largest = [float(np.max(part.of(field))) for field in fields]
     shown, factor = shown_in(unit, np.array([*largest, highest]))
+    axes = part.axes()
     return {
         "name": name,
         "body": body,
         "unit": shown,
-        **part.axes(),
+        **axes,
         "values": [plain(part.means(field) / factor) for field in fields],
         "largest": each_plain(np.array(largest) / factor),
-        "note": block_words(part.blocks) + ("" if part.is_true else STRETCHED),
+        "note": block_words(part.blocks) + ("" if axes["alike"] else STRETCHED),
     }
 
 

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from tribo import (
+    Body,
+    Case,
     CaseError,
-    Friction,
     LabReport,
     Layer,
-    Load,
-    Material,
     NumericalError,
     Result,
     Simulation,
@@ -31,25 +30,17 @@ from tribo.kernel_api import (
     to_toml,
 )
 
-from tribo_report.amounts import amount, component_words, value_words
+from tribo_report.amounts import amount, component_words, part_words, value_words
 from tribo_report.drawing import drawing
 from tribo_report.fields import charts
 from tribo_report.page import render, stills
-from tribo_report.sentence import Estimate, read_verified, sentence, trust
+from tribo_report.sentence import Estimate, load_words, read_verified, sentence, trust
 
 LONGEST_CASE = 200_000
 """Characters of a case that a report holds; one with a measured surface has millions."""
-OF_A_BODY: Mapping[str, Callable[[Any], str]] = {
-    "surface": component_words,
-    "material": lambda table: value_words(table, Material),
-    "wear": component_words,
-}
-OF_A_CASE: Mapping[str, Callable[[Any], str]] = {
-    "load": lambda table: value_words(table, Load),
-    "friction": lambda table: value_words(table, Friction),
-    **dict.fromkeys(("kinematics", "contact", "stepping"), component_words),
-}
-"""What puts a part of a body, or of a case, in words."""
+OF_A_BODY = ("surface", "material", "wear")
+OF_A_CASE = ("load", "friction", "kinematics", "contact", "stepping")
+"""Parts of a body, and of a case, that are put in words."""
 STOPPED = "All are relative. A step that exceeds the limits of these stops a run."
 CITATION = (
     "tribo {version}, MIT licence. Its model: J. Andersson, A. Almqvist and R. Larsson, "
@@ -70,7 +61,7 @@ def result_page(result: Result, verified: Path | None = None) -> str:
         tables=_tables(result, lab, estimates),
         remarks=list(lab_sentences(result, lab)),
         notes=list(map(str, lab.findings)),
-        drawing=drawing(case, swept) if _is_whole(case) else "",
+        drawing=drawing(case, swept, load_words(result)) if _is_whole(case) else "",
         facts=facts(case),
         data=charts(result),
         stills=stills(result_pictures(result)),
@@ -146,18 +137,17 @@ def facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return the numbers of a case in words, by what they are of."""
     found = []
     for name, body in case["bodies"].items():
-        own = [(part, words) for part, words in OF_A_BODY.items() if body.get(part)]
-        found += [(f"{name}, {part}", words(body[part])) for part, words in own]
+        found += [(f"{name}, {part}", part_words(Body, part, body.get(part))) for part in OF_A_BODY]
         for i, layer in enumerate(body.get("layers") or (), start=1):
             found.append((f"{name}, layer {i} from the top", value_words(layer, Layer)))
-    found += [(part, words(case[part])) for part, words in OF_A_CASE.items() if case.get(part)]
+    found += [(part, part_words(Case, part, case.get(part))) for part in OF_A_CASE]
     grid = case.get("grid", {})
     if "size" in grid and "cells" in grid:
         size = " × ".join(f"{1e3 * edge:.4g}" for edge in grid["size"])
         cells = " × ".join(map(str, grid["cells"]))
         found.append(("window", f"{size} mm, {cells} cells"))
     found += [("effect", component_words(effect)) for effect in case.get("effects") or ()]
-    return found
+    return [(name, words) for name, words in found if words]
 
 
 def _provenance(result: Result) -> list[tuple[str, str]]:

@@ -67,7 +67,8 @@ def sentence(result: Result, lab: LabReport, verified: Sequence[Estimate]) -> st
             words += f" ({quoted(report.mass_kg, MASSES)})"
         deepest = quoted(depth, DEPTHS, _of(verified, f"{name}: largest depth"))
         losses.append(f"{words} and is worn {deepest} deep")
-    text = f"Over {last['distance_m']:.4g} m of sliding under {_range(result)} {', '.join(losses)}."
+    under = f"Over {last['distance_m']:.4g} m of sliding under {load_words(result)}"
+    text = f"{under} {', '.join(losses)}."
     for name, body in result.case_tables["bodies"].items():
         text += _coating(result, name, len(body.get("layers") or ()))
     if result.status != "done":
@@ -123,7 +124,7 @@ def trust(verified: Sequence[Estimate]) -> str:
     )
 
 
-def _range(result: Result) -> str:
+def load_words(result: Result) -> str:
     """Return the load, or its range."""
     loads = [save["load_N"] for save in result.saves()]
     ends = [amount(load, "N") for load in (min(loads), max(loads))]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import ExitStack
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -69,28 +70,35 @@ def write_report(
 
 
 def _page(what: What, verified: Path | None) -> str:
-    if isinstance(what, str | Path) and Path(what).suffix == ".json":
+    with ExitStack() as opened:
+        found = _opened(what, opened)
+        if isinstance(found, Result):
+            return result_page(found, verified)
         if verified is not None:
-            raise _not_one_result()
-        return str(_calibrations().calibration_file_page(Path(what)))
-    found = _found(what) if isinstance(what, str | Path) else what
-    if isinstance(found, Result):
-        return result_page(found, verified)
-    if isinstance(found, Sequence) and len(found) == 1:
-        with Result.open(found[0]) as result:
-            return result_page(result, verified)
-    if verified is not None:
-        raise _not_one_result()
-    if isinstance(found, Sweep):
-        return sweep_page(found.folder)
-    if isinstance(found, Path):
+            raise CaseError("a study of one case goes with one result", "--verified")
+        if isinstance(found, Comparison):
+            return comparison_page(found)
+        if not isinstance(found, Path):
+            return str(_calibrations().calibration_page(found, "Calibration"))
+        if found.suffix == ".json":
+            return str(_calibrations().calibration_file_page(found))
         return sweep_page(found)
-    if isinstance(found, Comparison):
-        return comparison_page(found)
-    if not isinstance(found, Sequence):
-        return str(_calibrations().calibration_page(found, "Calibration"))
-    with compare(found) as comparison:
-        return comparison_page(comparison)
+
+
+def _opened(what: What, opened: ExitStack) -> Result | Comparison | Calibration | Path:
+    """Return what is to be reported; the path alone of a sweep and of a printed calibration."""
+    if isinstance(what, str | Path):
+        place = Path(what)
+        if place.suffix == ".json" or (place / RUNS).exists():
+            return place
+        what = sorted(place.glob("*.h5")) if place.is_dir() else [place]
+        if not what:
+            raise CaseError(f"{place} holds no result file (.h5)")
+    if isinstance(what, Sequence):
+        if len(what) == 1:
+            return opened.enter_context(Result.open(what[0]))
+        return opened.enter_context(compare(what))
+    return what.folder if isinstance(what, Sweep) else what
 
 
 def _calibrations() -> Any:
@@ -101,20 +109,3 @@ def _calibrations() -> Any:
         raise CaseError(
             f"the report of a calibration needs {error.name}: pip install ./plugins/tribo-inverse"
         ) from error
-
-
-def _not_one_result() -> CaseError:
-    return CaseError("a study of one case goes with one result", "--verified")
-
-
-def _found(what: str | Path) -> Path | list[Path]:
-    """Return what a path stands for: the folder of a sweep, or result files."""
-    place = Path(what)
-    if not place.is_dir():
-        return [place]
-    if (place / RUNS).exists():
-        return place
-    results = sorted(place.glob("*.h5"))
-    if not results:
-        raise CaseError(f"{place} holds no result file (.h5)")
-    return results

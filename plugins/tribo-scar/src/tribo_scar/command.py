@@ -13,10 +13,8 @@ from tribo.kernel_api import (
     JSON,
     PATH,
     check_output,
-    digits_of,
     echo_json,
     located,
-    signed,
     write_file,
 )
 
@@ -146,19 +144,17 @@ def _surface(text: str) -> Surface:
     return surface
 
 
-def _width(
-    found: MeasuredScar, width: float | None, uncertainty: float | None
-) -> tuple[float | str, float | None]:
-    """Return a width and its uncertainty as the table has them, in mm."""
-    if width is None or uncertainty is None:
-        return "cut off" if found.cut_off else "several scars", None
-    return ("whole map", None) if math.isinf(width) else (1e3 * width, 1e3 * uncertainty)
+def _row(name: str, scale: float, value: float | None, uncertainty: float) -> tuple[str, str, str]:
+    """Return a value and its uncertainty, in units of which `scale` make one of SI, in words."""
+    from tribo.kernel_api import digits_of
 
-
-def _with_error(value: float, error: float) -> str:
-    """Return a value to two digits of its uncertainty."""
-    decimals = max(0, 1 - math.floor(math.log10(error))) if error else 3
-    return f"{signed(value, decimals)} ± {error:.{decimals}f}"
+    if value is None or math.isinf(uncertainty):
+        return name, "undetermined", ""
+    if math.isinf(value):
+        return name, "whole map", ""
+    size, off = abs(scale * value), scale * uncertainty
+    digits = min(digits_of(size - off, size + off), MOST_DIGITS)
+    return name, f"{scale * value:#.{digits}g}", f"{off:#.2g}"
 
 
 def _print(found: MeasuredScar) -> None:
@@ -166,49 +162,35 @@ def _print(found: MeasuredScar) -> None:
 
     laid, console = found.registration, Console()
     relative = found.volume_uncertainty / found.volume
-    values: list[tuple[str, float | str | None, float | None]] = [
-        ("volume in the map, mm³", 1e9 * found.volume, 1e9 * found.volume_uncertainty),
-        ("largest depth, µm", 1e6 * found.depth, 1e6 * found.depth_uncertainty),
-        ("along sliding, mm", *_width(found, found.along, found.along_uncertainty)),
-        ("across, mm", *_width(found, found.across, found.across_uncertainty)),
+    rows = [
+        _row("volume in the map, mm³", 1e9, found.volume, found.volume_uncertainty),
+        _row("largest depth, µm", 1e6, found.depth, found.depth_uncertainty),
+        _row("along sliding, mm", 1e3, found.along, found.along_uncertainty or 0.0),
+        _row("across, mm", 1e3, found.across, found.across_uncertainty or 0.0),
         *(
-            (name, size * value, relative * size * value)
-            for name, size, value in (
+            _row(name, scale, value, relative * value)
+            for name, scale, value in (
                 ("mean section, mm²", 1e6, found.section),
                 ("volume of the track, mm³", 1e9, found.track_volume),
             )
             if value is not None
         ),
-        ("piled up, mm³", 1e9 * found.piled_up or None, 1e9 * found.piled_up_uncertainty),
-        ("missing in it, %", 100 * found.missing or None, None),
-        ("outliers in both maps", str(found.outliers) if found.outliers else None, None),
     ]
-    rows = []
-    for name, value, error in values:
-        if isinstance(value, float) and error is not None:
-            digits = min(digits_of(value - error, value + error), MOST_DIGITS)
-            rows.append(TableRow((name, f"{value:#.{digits}g}", f"{error:#.2g}")))
-        elif value is not None:
-            rows.append(TableRow((name, value, ""), ".3g"))
+    if found.piled_up:
+        rows.append(_row("piled up, mm³", 1e9, found.piled_up, found.piled_up_uncertainty))
+    if found.missing:
+        rows.append(("missing in it, %", f"{100 * found.missing:.3g}", ""))
+    if found.outliers:
+        rows.append(("outliers in both maps", str(found.outliers), ""))
+    moved = laid.shift_uncertainty
+    rows += [
+        _row("shift along x in the map after, µm", 1e6, laid.shift[0], moved[0]),
+        _row("shift along y, µm", 1e6, laid.shift[1], moved[1]),
+        _row("rotation, mrad", 1e3, laid.rotation, laid.rotation_uncertainty),
+        ("noise of the unworn difference, nm", f"{1e9 * laid.noise:.3g}", ""),
+    ]
     headings = list(map(Heading, ("", "", "±")))
-    console.table(DataTable("Scar, with standard uncertainties", headings, rows))
+    title = "Scar, with standard uncertainties"
+    console.table(DataTable(title, headings, [TableRow(row) for row in rows]))
     if found.inferred:
         console.table(inferred_table(found.inferred))
-    told, untold = [], []
-    for name, words, size, off, sure in (
-        ("the shift along x", "{} µm along x", 1e6, laid.shift[0], laid.shift_uncertainty[0]),
-        ("the shift along y", "{} µm along y", 1e6, laid.shift[1], laid.shift_uncertainty[1]),
-        ("the rotation", "turned by {} mrad", 1e3, laid.rotation, laid.rotation_uncertainty),
-    ):
-        if math.isinf(sure):
-            untold.append(name)
-        else:
-            told.append(words.format(_with_error(size * off, size * sure)))
-    if told:
-        console.print(f"In the map after all lies {', '.join(told)}.", markup=False)
-    if untold:
-        console.print(
-            f"The unworn surface does not tell {', '.join(untold)}: it is smooth, or not the same "
-            "in both maps."
-        )
-    console.print(f"Noise of the unworn difference {1e9 * laid.noise:.3g} nm.", markup=False)

@@ -11,6 +11,7 @@ from tribo import Array, CaseError, Heights, Mask, Sphere, TriboWarning
 from tribo.kernel_api import without_form
 
 from tribo_scar.registration import variance_inflation
+from tribo_scar.worn_area import WornArea
 
 ZEROS = 10
 """Ratio of the number of zeros to that of any other height above which zeros may be missing
@@ -52,25 +53,16 @@ def warn_of_zeros(heights: Heights, which: str) -> None:
         )
 
 
-def warn_of_outliers(count: int, which: str) -> None:
-    """Warn that pixels of a map were left out."""
-    warn(
-        f"{count} pixels of the map {which} are outliers: they lie far from all but one of their "
-        "neighbours, and are taken as missing"
-    )
-
-
 def check_scales(before: Heights, after: Heights) -> None:
     """Refuse maps of which one has a whole part of the other's pixels along both axes."""
-    ratios = np.divide(before.heights.shape, after.heights.shape)
-    for ratio in (ratios, 1 / ratios):
-        whole = round(float(ratio[0]))
-        if whole > 1 and np.all(ratio == whole) and np.allclose(before.pitch, after.pitch):
-            raise CaseError(
-                f"one map has {whole} times as many pixels along both axes as the other, and the "
-                "same pitch: if both show the same area, average the finer one over blocks, or "
-                "state each pitch in its file; else cut the larger one"
-            )
+    fewer, more = sorted((before.heights.shape, after.heights.shape))
+    ratio = more[0] // fewer[0]
+    if ratio > 1 and more == tuple(ratio * n for n in fewer):
+        raise CaseError(
+            f"one map has {ratio} times as many pixels along both axes as the other: if both show "
+            "the same area, average the finer one over blocks, or state each pitch in its file; "
+            "else cut the larger one"
+        )
 
 
 def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
@@ -139,43 +131,40 @@ def _of_ball(after: Heights, scar: Mask, radius: float) -> float:
     return radius_across(ball - without_form(ball), after.pitch)
 
 
-def warn_of_gap(scar: Mask, known: Mask, depth: Array) -> None:
-    """Warn of a large gap in a scar, which may be the middle of a ring."""
-    # Not of pixels that are missing here and there, however many.
-    gaps, count = ndimage.label(ndimage.binary_opening(scar & ~known, np.ones((WIDE, WIDE))))
-    volumes = ndimage.sum(depth, gaps, np.arange(1, count + 1))
-    part = float(np.max(volumes, initial=0.0) / np.sum(depth[scar]))
-    if part > GAP:
+def warn_of_area(worn: WornArea, *, within: bool) -> None:
+    """Warn of a scar that an edge cuts off, that of the map or `within` it, and of its shape."""
+    if worn.cut_off:
+        edge = "the area common to both maps" if within else "what was measured"
+        warn(
+            f"the edge of {edge} cuts the scar off: volume and depth are those of the part within, "
+            "widths and formulas are left out; measure a larger area"
+            f"{', the same before and after' if within else ''}"
+        )
+    elif (part := _in_a_gap(worn)) > GAP:
         warn(
             f"{100 * part:.0f} % of the volume lie in one gap of what was measured, by the depths "
             "around it: too much if it is not worn there, as in the middle of a circular track"
         )
+    if worn.several:
+        warn(
+            f"{worn.count} areas are worn: volume is that of all, depth that of the deepest, and "
+            "widths and formulas are left out; cut the maps to one of them for these"
+        )
+    if worn.is_ring:
+        warn(
+            "the scar encloses what is not worn, as a whole circular track does: widths are those "
+            "of its outline, the largest depth is rough, and formulas are left out; cut the maps "
+            "to a part of the track for these"
+        )
 
 
-def warn_of_edge(*, within: bool) -> None:
-    """Warn that an edge cuts a scar off, that of the map, or of a gap, or `within` it."""
-    warn(
-        f"the edge of {'the area common to both maps' if within else 'what was measured'} cuts the "
-        "scar off: volume and depth are those of the part within, widths and formulas are left "
-        f"out; measure a larger area{', the same before and after' if within else ''}"
-    )
-
-
-def warn_of_several(count: int) -> None:
-    """Warn that several areas are worn."""
-    warn(
-        f"{count} areas are worn: volume is that of all, depth that of the deepest, and widths and "
-        "formulas are left out; cut the maps to one of them for these"
-    )
-
-
-def warn_of_ring() -> None:
-    """Warn that a scar encloses what is not worn."""
-    warn(
-        "the scar encloses what is not worn, as a whole circular track does: widths are those of "
-        "its outline, the largest depth is rough, and formulas are left out; cut the maps to a "
-        "part of the track for these"
-    )
+def _in_a_gap(worn: WornArea) -> float:
+    """Return the part of the volume in the largest gap of a scar, as in the middle of a ring."""
+    # Not of pixels that are missing here and there, however many.
+    missing = ndimage.binary_opening(worn.scar & ~worn.known, np.ones((WIDE, WIDE)))
+    gaps, count = ndimage.label(missing)
+    volumes = ndimage.sum(worn.depth, gaps, np.arange(1, count + 1))
+    return float(np.max(volumes, initial=0.0) / np.sum(worn.depth[worn.scar]))
 
 
 def radius_across(form: Array, pitch: tuple[float, float]) -> float:

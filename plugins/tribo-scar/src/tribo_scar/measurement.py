@@ -27,12 +27,8 @@ from tribo_scar.findings import (
     may_be_ball,
     radius_across,
     warn,
-    warn_of_edge,
+    warn_of_area,
     warn_of_form,
-    warn_of_gap,
-    warn_of_outliers,
-    warn_of_ring,
-    warn_of_several,
     warn_of_zeros,
 )
 from tribo_scar.registration import Registration, register
@@ -124,17 +120,12 @@ class MeasuredScar:
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data, in SI units, without the maps."""
         found, turned = self.registration, self.registration.rotation_uncertainty
+        units = {"volume": "m3", "piled_up": "m3", "depth": "m", "along": "m", "across": "m"}
         return {
-            "volume_m3": self.volume,
-            "volume_uncertainty_m3": self.volume_uncertainty,
-            "piled_up_m3": self.piled_up,
-            "piled_up_uncertainty_m3": self.piled_up_uncertainty,
-            "depth_m": self.depth,
-            "depth_uncertainty_m": self.depth_uncertainty,
-            "along_m": self.along,
-            "along_uncertainty_m": self.along_uncertainty,
-            "across_m": self.across,
-            "across_uncertainty_m": self.across_uncertainty,
+            f"{name}{what}_{unit}": getattr(self, f"{name}{what}")
+            for name, unit in units.items()
+            for what in ("", "_uncertainty")
+        } | {
             "is_track": self.is_track,
             "cut_off": self.cut_off,
             "section_m2": self.section,
@@ -227,17 +218,9 @@ def measured_scar(
     beside = np.where(scar | worn.piled | _small(found.worn), np.nan, found.depth)
     sure = max(volume_uncertainty, LITTLE * volume) / (area * np.count_nonzero(scar))
     warn_of_form(beside, sure, form, ideal=ideal)
-    if worn.cut_off:
-        warn_of_edge(within=max(np.subtract(shape, found.depth.shape)) > MARGIN)
-    else:
-        warn_of_gap(scar, known, depth)
-    several = 1 if worn.track else worn.count
-    if several > 1:
-        warn_of_several(several)
-    if worn.is_ring:
-        warn_of_ring()
+    warn_of_area(worn, within=max(np.subtract(shape, found.depth.shape)) > MARGIN)
     sizes = _Sizes()
-    if several == 1 and not worn.cut_off:
+    if not worn.several and not worn.cut_off:
         ball = own_radius if radius is None and not worn.track else radius
         sizes = _sizes(found, worn, after, volume, ball, track_length)
     if track_length is not None and sizes.track_volume is None:
@@ -274,7 +257,10 @@ def _without_outliers(measured: Heights, which: str) -> tuple[Heights, int]:
     if not unlike.any():
         return measured, 0
     count = int(np.count_nonzero(unlike))
-    warn_of_outliers(count, which)
+    warn(
+        f"{count} pixels of the map {which} are outliers: they lie far from all but one of their "
+        "neighbours, and are taken as missing"
+    )
     return Heights(np.where(unlike, np.nan, measured.heights), measured.pitch), count
 
 

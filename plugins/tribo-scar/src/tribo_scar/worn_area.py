@@ -63,6 +63,11 @@ class WornArea:
     length: float | None
     """Length of a track within the map, along its direction."""
 
+    @property
+    def several(self) -> bool:
+        """Whether several scars lie apart; the pieces of a track are one."""
+        return self.count > 1 and self.track is None
+
 
 def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -> WornArea:
     """Return what is worn; `CaseError` if nothing is. The map before may be an ideal shape."""
