@@ -19,7 +19,6 @@ from tribo.model.model import Model
 from tribo.result.layout import BETWEEN, STATE, TRACK, TRACK_PLASTIC, TRACK_STATE
 from tribo.result.read import Result
 from tribo.stepping.first_contact import first_contact
-from tribo.stepping.step import reloaded
 
 PLACE = "begin.result"
 SAME = 1e-6
@@ -35,7 +34,7 @@ def first_state(model: Model) -> State:
     """
     begin = model.case.begin
     if begin is None:
-        return reloaded(model, first_contact(model))
+        return first_contact(model)
     try:
         result = Result.open(begin.result)
     except CaseError as error:
@@ -57,7 +56,6 @@ def first_state(model: Model) -> State:
         load_distance=carried["load_distance_N_m"],
         friction_energy=carried.get("friction_energy_J", 0.0),
     )
-    state = reloaded(model, state)
     return state.with_findings(begun_worn(begin.result, carried["time_s"], afresh, left))
 
 
