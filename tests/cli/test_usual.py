@@ -6,7 +6,7 @@ from command_line import tribo
 from tribo.config.load import validate_case
 from tribo.core.errors import NumericalError
 from tribo.core.units import parse, stated
-from tribo.simulation.doubt import unusual
+from tribo.simulation.validity import unusual
 
 FORGOTTEN = {
     "bodies.ball.surface.radius=5": "bodies.ball.surface.radius is 5 m",

@@ -15,7 +15,6 @@ from tribo.core.fields import WORN_DEPTH, WearRate
 from tribo.evolution.interval import Interval
 from tribo.evolution.rates import CycleRates, rates_at_each, wear_rates
 from tribo.evolution.states import Memory, laid, place
-from tribo.evolution.stripes import in_stripes
 from tribo.integration.division import Division, integrated
 from tribo.integration.kept import Kept, Sum, Values
 
@@ -23,6 +22,8 @@ if TYPE_CHECKING:
     from tribo.model.model import Model
 
 
+NUDGE = 1e-4
+"""Part of the pressure by which it is varied to find what a wear rate makes of it."""
 COARSE = Division(((0.25, True), (0.75, True)), np.inf)
 """Where an increment has more parts than these, they do to find slopes."""
 
@@ -114,6 +115,23 @@ def accumulated(
     kept = kept_in(model, before)
     found = integrated(rates, before.values, interval.length, kept, [Sum()], Division(plan.parts))
     return float(found.sums[0])
+
+
+def in_stripes(
+    contacts: Sequence[ContactSolution],
+) -> tuple[list[ContactSolution], list[Array]]:
+    """Return contacts with pressures varied up and down from row to row, and by how much, in Pa.
+
+    It is the mode that grows first, under the same load.
+    """
+    stripes = [NUDGE * contact.pressure for contact in contacts]
+    for stripe in stripes:
+        stripe[:, ::2] *= -1
+    nudged = [
+        replace(contact, pressure=readonly(contact.pressure + stripe))
+        for contact, stripe in zip(contacts, stripes, strict=True)
+    ]
+    return nudged, stripes
 
 
 def sloped(

@@ -147,9 +147,8 @@ def _remembered(
         where = "the contact" if place is None else place
         kept = _kept(result, place)
         for field in model.laws.kept_on(place):
-            key = kept.get((field.name, field.unit))
-            values = None if key is None else _read(result, key, save, place)
-            laid = None if values is None else _laid(model, place, field, values)
+            variable = kept.get((field.name, field.unit))
+            laid = None if variable is None else _laid(model, result, variable, save, place, field)
             if laid is None:
                 afresh.append(f"{field.name} of {where}")
             else:
@@ -166,16 +165,15 @@ def _kept(result: Result, place: str | None) -> dict[tuple[str, str], str]:
     return {(field.name, field.unit): variable for variable, field in fields}
 
 
-def _read(result: Result, variable: str, save: int, place: str | None) -> Array | None:
-    if place is not None and variable in result.fields_of(TRACK_STATE, place):
-        return _along_track(result, variable, place, save)
-    return result.field(variable, save, place)
-
-
-def _laid(model: Model, place: str | None, field: Field, values: Array) -> Array | None:
-    """Return a state field as the case keeps it; None where it is of another shape."""
+def _laid(
+    model: Model, result: Result, variable: str, save: int, place: str | None, field: Field
+) -> Array | None:
+    """Return a state field of a result as the case keeps it; None where it is of another shape."""
     if place is not None:
-        return _on_rows(values, model.cycle.maps[place].rows, model.grid.cells[0])
+        along = _along_track(result, variable, place, save)
+        rows = model.cycle.maps[place].rows
+        return None if along is None else _on_rows(along, rows, model.grid.cells[0])
+    values = result.field(variable, save)
     if field.uniform:
         return values.reshape(1, 1) if values.size == 1 else None
     return values if values.shape == model.grid.cells else None

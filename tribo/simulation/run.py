@@ -30,11 +30,11 @@ from tribo.result.provenance import changed_components, origin, provenance
 from tribo.result.read import Result
 from tribo.simulation.audience import Audience
 from tribo.simulation.beginning import checksum
-from tribo.simulation.doubt import doubting
 from tribo.simulation.effects import MissingFieldError
 from tribo.simulation.interrupt import interrupts_held
 from tribo.simulation.march import begin, march
 from tribo.simulation.positions import composed
+from tribo.simulation.validity import doubting
 from tribo.simulation.watch import Watch
 
 OTHERS = (".csv", ".json", ".pdf", ".png", ".svg", ".toml", ".txt", ".xls", ".xlsx")
