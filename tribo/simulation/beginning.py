@@ -18,7 +18,7 @@ from tribo.core.state import BodyState, State, key_of
 from tribo.model.model import Model
 from tribo.result.layout import BETWEEN, STATE, TRACK, TRACK_PLASTIC, TRACK_STATE
 from tribo.result.read import Result
-from tribo.stepping.first_contact import first_contact
+from tribo.stepping.first_contact import first_contact, first_law_state
 
 PLACE = "begin.result"
 SAME = 1e-6
@@ -92,10 +92,10 @@ def _check_alike(model: Model, result: Result) -> None:
             "grid",
             PLACE,
         )
-    for body, surface in model.surfaces.items():
+    for body in model.surfaces:
         was = result.case_tables["bodies"][body].get("surface")
         # A file that a surface is read from may have changed since.
-        height = model.cycle.maps[body].see(surface.height, len(model.cycle) // 2)
+        height = model.height(body)
         off = np.max(np.abs(height - result.body(body).height))
         if was != model.data["bodies"][body]["surface"] or off > SAME * np.ptp(height):
             raise CaseError(
@@ -128,9 +128,7 @@ def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
             "average both",
             PLACE,
         )
-    initial = model.laws.wear[name].own_state if name in model.laws.wear else {}
-    law = {field: np.full_like(wear, value) for field, value in initial.items()}
-    return BodyState(wear=wear, plastic=kept[1], law=law)
+    return BodyState(wear, kept[1], first_law_state(model, name, wear))
 
 
 def _remembered(

@@ -304,9 +304,7 @@ class Simulation:
                     name=name,
                     swept=name in model.cycle.swept,
                     density=body.material.density,
-                    height=model.cycle.maps[name].see(
-                        model.surfaces[name].height, len(model.cycle) // 2
-                    ),
+                    height=model.height(name),
                     rows=model.cycle.maps[name].rows,
                     state_fields=model.laws.kept_on(name),
                     rough=name in model.rough,

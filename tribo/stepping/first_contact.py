@@ -109,10 +109,12 @@ def _unworn(model: Model) -> dict[str, BodyState]:
     bodies = {}
     for name in model.case.bodies:
         wear = np.zeros((model.cycle.maps[name].rows, model.grid.cells[1]))
-        initial = model.laws.wear[name].own_state if name in model.laws.wear else {}
-        bodies[name] = BodyState(
-            wear=wear,
-            plastic=model.cycle.maps[name].lay(np.zeros(model.grid.cells), len(model.cycle) // 2),
-            law={field: np.full_like(wear, value) for field, value in initial.items()},
-        )
+        plastic = model.cycle.maps[name].lay(np.zeros(model.grid.cells), model.cycle.middle)
+        bodies[name] = BodyState(wear, plastic, first_law_state(model, name, wear))
     return bodies
+
+
+def first_law_state(model: Model, name: str, wear: Array) -> dict[str, Array]:
+    """Return what the law of a body remembers before anything slides, shaped as its `wear`."""
+    first = model.laws.wear[name].own_state if name in model.laws.wear else {}
+    return {field: np.full_like(wear, value) for field, value in first.items()}
