@@ -145,12 +145,12 @@ from tribo.result.layout import TRACK_PLASTIC as TRACK_PLASTIC
 from tribo.result.provenance import environment as environment
 from tribo.simulation.assembly import assemble as assemble
 from tribo.simulation.assembly import varied as varied
-from tribo.simulation.coarse import MARGINS as MARGINS
-from tribo.simulation.coarse import coarsened as coarsened
 from tribo.simulation.march import DEPTH_ACCURACY as DEPTH_ACCURACY
 from tribo.simulation.march import begin as begin
 from tribo.simulation.march import march as march
 from tribo.simulation.positions import chosen as chosen
+from tribo.simulation.predict import MARGINS as MARGINS
+from tribo.simulation.predict import coarsened as coarsened
 from tribo.simulation.validity import findings_of as findings_of
 from tribo.stepping.step import worn_depths as worn_depths
 from tribo.study.runs import file_names as file_names

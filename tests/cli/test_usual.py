@@ -4,7 +4,7 @@ import pytest
 from command_line import tribo
 
 from tribo.config.load import validate_case
-from tribo.simulation.doubt import unusual
+from tribo.simulation.validity import unusual
 
 FORGOTTEN = {
     "bodies.ball.surface.radius=5": "bodies.ball.surface.radius is 5 m",

@@ -133,6 +133,17 @@ def test_a_control_that_jumps_halves_the_load_and_the_run_goes_on():
     assert depth == pytest.approx((0.3 + 0.5 * 0.7) * rate, rel=0.02, abs=0)
 
 
+def test_what_yields_at_first_is_under_the_load_that_is_carried():
+    def first(load, *effects):
+        grid, hard = Grid((1e-3, 1e-3), (24, 24)), pair(hardness=("4 GPa", "4 GPa"))
+        return states(ball(*effects, grid=grid, load=load, bodies=hard))[0]
+
+    half, lighter = first(1600.0, Gives(factor=0.5)), first(800.0)
+    assert half.reference_depth == lighter.reference_depth
+    for name, body in lighter.bodies.items():
+        np.testing.assert_array_equal(half.bodies[name].plastic, body.plastic)
+
+
 @pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step=0.4)], ids=lambda s: s.type)
 def test_several_multiply_and_the_first_contact_carries_what_they_make_of_the_load(stepping):
     model = ball(

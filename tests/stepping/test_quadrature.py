@@ -5,15 +5,15 @@ from functools import partial
 import numpy as np
 import pytest
 import stroke
-from paper_models import archard, last, named, sphere, steel
+from paper_models import last
 
-from tribo import Grid, Rough, Simulation
+from tribo import Grid, Simulation
 from tribo.core import findings
 from tribo.motion.cycle import missed_shares
 from tribo.motion.stroke import Stroke, spacing_for
 from tribo.simulation.predict import predict
 from tribo.stepping.first_contact import first_contact
-from tribo.stepping.quadrature import cycle_error
+from tribo.stepping.measure import cycle_error
 
 GRID = Grid((1.2e-3, 0.75e-3), (64, 20))
 resolved = partial(stroke.resolved, duration=50, grid=GRID)
@@ -62,23 +62,6 @@ def test_a_run_knows_its_error_from_above_and_by_its_order():
         true = true_error(state, finest, model)
         assert true < estimates[count] < 4 * true
     assert estimates[7] / estimates[13] == pytest.approx(4, rel=0.25)
-
-
-def rough(count):
-    """Of waves twice as long as 7 positions lie apart, at the shortest."""
-    waves = {"sq": 2e-7, "cut_off": 0.15e-3, "roll_off": 0.2e-3}
-    bodies = [
-        named("ball", Rough(**waves, seed=1, on=sphere()), steel(), archard()),
-        named("disk", Rough(**waves, seed=2), steel(), archard()),
-    ]
-    return resolved(count, bodies=bodies)
-
-
-@pytest.mark.slow
-def test_of_rough_bodies_it_is_no_less():
-    model = rough(7)
-    state = last(model)
-    assert true_error(state, last(rough("cells")), model) < cycle_error(model, state)
 
 
 def test_every_cell_and_the_average_have_no_such_error():

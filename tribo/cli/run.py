@@ -33,8 +33,8 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
     from tribo.result.checkpoint import RunFolder
-    from tribo.simulation.doubt import unusual
     from tribo.simulation.run import Simulation
+    from tribo.simulation.validity import unusual
 
     read = load_case(case, overrides=overrides)
     for doubt in unusual(read):

@@ -11,11 +11,10 @@ import numpy as np
 
 from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
-from tribo.core.fields import WORN_DEPTH, WearRate
+from tribo.core.fields import WORN_DEPTH, Field, WearRate
 from tribo.evolution.interval import Interval
 from tribo.evolution.rates import CycleRates, rates_at_each, wear_rates
 from tribo.evolution.states import Memory, laid, place
-from tribo.evolution.stripes import in_stripes
 from tribo.integration.division import Division, integrated
 from tribo.integration.kept import Kept, Sum, Values
 
@@ -23,6 +22,8 @@ if TYPE_CHECKING:
     from tribo.model.model import Model
 
 
+NUDGE = 1e-4
+"""Part of the pressure by which it is varied to find what a wear rate makes of it."""
 COARSE = Division(((0.25, True), (0.75, True)), np.inf)
 """Where an increment has more parts than these, they do to find slopes."""
 
@@ -116,6 +117,23 @@ def accumulated(
     return float(found.sums[0])
 
 
+def in_stripes(
+    contacts: Sequence[ContactSolution],
+) -> tuple[list[ContactSolution], list[Array]]:
+    """Return contacts with pressures varied up and down from row to row, and by how much, in Pa.
+
+    It is the mode that grows first, under the same load.
+    """
+    stripes = [NUDGE * contact.pressure for contact in contacts]
+    for stripe in stripes:
+        stripe[:, ::2] *= -1
+    nudged = [
+        replace(contact, pressure=readonly(contact.pressure + stripe))
+        for contact, stripe in zip(contacts, stripes, strict=True)
+    ]
+    return nudged, stripes
+
+
 def sloped(
     model: Model,
     before: Memory,
@@ -159,7 +177,10 @@ def _rates(
     passed: float,
 ) -> Values:
     """Return the rates of what is remembered, where it lies, and the depths in the contact."""
-    contacts = loaded(model, contacts, interval, passed)
+    # A load that jumps as it begins is told apart in its middle.
+    middle = interval.at(0.5).time
+    if model.contact.loads.before(middle) != model.contact.loads.before(interval.end_time):
+        contacts = with_loads(model, contacts, interval, passed)
     now = before.with_values(iter(values))
     found = rates_at_each(model, contacts, now, interval.at(passed))
     total: Values = [np.zeros_like(value) for value in values]
@@ -184,21 +205,10 @@ def _rates(
     return total
 
 
-def loaded(
-    model: Model, contacts: Sequence[ContactSolution], interval: Interval, passed: float
-) -> Sequence[ContactSolution]:
-    """Return contacts with pressures in proportion to the load where a part has passed."""
-    # A load that jumps as it begins is told apart in its middle.
-    middle = interval.at(0.5).time
-    if model.contact.loads.before(middle) == model.contact.loads.before(interval.end_time):
-        return contacts
-    return with_loads(model, contacts, interval, passed)
-
-
 def with_loads(
     model: Model, contacts: Sequence[ContactSolution], interval: Interval, passed: float
 ) -> list[ContactSolution]:
-    """Return contacts with pressures that carry the load where a part has passed, as `loaded`."""
+    """Return contacts with pressures that carry the load where a part has passed."""
     halfway, last = map(model.contact.loads.before, (interval.at(0.5).time, interval.end_time))
     cell, found = model.grid.cell_area, []
     for contact, half, whole in zip(contacts, halfway, last, strict=True):
@@ -210,29 +220,19 @@ def with_loads(
 
 def kept_in(model: Model, memory: Memory) -> list[Kept]:
     """Return what the integrator must know of `Memory.values`."""
-    of_laws = [
-        (field, f"{model.laws.wear[name]}", place(model, name))
-        for name, of_law in memory.laws.items()
-        for key in of_law
-        for field in model.laws.wear[name].state_fields
-        if field.name == key
-    ]
-    between = [
-        (
-            field,
-            f"{effect}",
-            f"all of {field.name}" if field.uniform else place(model, effect.carrier),
-        )
-        for effect, field in (model.laws.between[key] for key in memory.between)
-    ]
-    return [
-        Kept(
-            field.name,
-            who,
-            -np.inf if field.at_least is None else field.at_least,
-            np.inf if field.at_most is None else field.at_most,
-            field.breaks,
-            where,
-        )
-        for field, who, where in (*of_laws, *between)
-    ]
+    kept = []
+    for name, of_law in memory.laws.items():
+        if of_law:
+            law = model.laws.wear[name]
+            fields = {each.name: each for each in law.state_fields}
+            kept += [_kept(fields[key], law, place(model, name)) for key in of_law]
+    for effect, state in (model.laws.between[key] for key in memory.between):
+        where = f"all of {state.name}" if state.uniform else place(model, effect.carrier)
+        kept.append(_kept(state, effect, where))
+    return kept
+
+
+def _kept(field: Field, owner: object, place: str) -> Kept:
+    least = -np.inf if field.at_least is None else field.at_least
+    most = np.inf if field.at_most is None else field.at_most
+    return Kept(field.name, f"{owner}", least, most, field.breaks, place)

@@ -61,11 +61,9 @@ def local_fields(
             found, before = effect.fields(given), fields.get(LOAD_SHARE.name)
             if before is not None and LOAD_SHARE.name in found:
                 # It takes its part of what those before it leave.
-                left = {
-                    name: (1 - before[name]) * (1 - s) for name, s in found[LOAD_SHARE.name].items()
-                }
                 found[LOAD_SHARE.name] = {
-                    name: readonly(1 - values) for name, values in left.items()
+                    name: readonly(1 - (1 - before[name]) * (1 - share))
+                    for name, share in found[LOAD_SHARE.name].items()
                 }
             fields |= found
     return fields

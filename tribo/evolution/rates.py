@@ -74,16 +74,6 @@ def rates_at_each(
     here = [under(model, memory, position) for position in range(len(contacts))]
     if moment.speed > 0:
         return _sliding(model, contacts, here, moment)
-    return [
-        _rates_at_rest(model, position, contact, here[position], moment)
-        for position, contact in enumerate(contacts)
-    ]
-
-
-def _rates_at_rest(
-    model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
-) -> Rates:
-    """Return the rates while nothing slides: those of effects alone."""
     still = readonly(np.zeros(model.grid.cells))
     wear = {
         name: WearRate(still, still, dict.fromkeys(law.initial_state, still))
@@ -91,8 +81,11 @@ def _rates_at_rest(
     }
     if any(place.rest > 0 for place in model.cycle):
         # The rests of a cycle are in its mean rates.
-        return Rates(wear, dict.fromkeys(memory.between, still))
-    return Rates(wear, _resting(model, position, contact, memory, moment))
+        return [Rates(wear, dict.fromkeys(memory.between, still))] * len(contacts)
+    return [
+        Rates(wear, _resting(model, position, contact, here[position], moment))
+        for position, contact in enumerate(contacts)
+    ]
 
 
 def _resting(
@@ -195,36 +188,24 @@ def _rates_of(
         )
     ]
     wear = _laws(model, contacts, memories, moments, fields)
-    of_positions = [
-        {name: rate.at(position) for name, rate in wear.items()}
-        for position in range(len(contacts))
-    ]
     found = []
     still = readonly(np.zeros(model.grid.cells))
-    for position, rates in enumerate(of_positions):
-        friction = None
+    for position, (contact, memory, moment) in enumerate(
+        zip(contacts, memories, moments, strict=True)
+    ):
+        rates, friction = {name: rate.at(position) for name, rate in wear.items()}, None
         if model.laws.slips_locally and FRICTION_COEFFICIENT.name in fields[position]:
             names = FRICTION_COEFFICIENT.name, LOCAL_SLIP.name
-            friction = weighed(contacts[position].pressure, fields[position], names)
-        if not memories[position].between:
-            found.append(Rates(rates, {}, friction))
-            continue
-        moment = moments[position]
-        depths = {
-            name: readonly(rates[name].depth_rate) if name in rates else still
-            for name in model.case.bodies
-        }
-        changes = _changes(
-            model,
-            position,
-            contacts[position],
-            moment,
-            memories[position],
-            fields[position],
-            depths,
-        )
-        slid = moment.speed if moment.speed > 0 else np.inf
-        between = {key: change / slid for key, change in changes.items()}
+            friction = weighed(contact.pressure, fields[position], names)
+        between: Mapping[str, Array] = {}
+        if memory.between:
+            depths = {
+                name: readonly(rates[name].depth_rate) if name in rates else still
+                for name in model.case.bodies
+            }
+            slid = moment.speed if moment.speed > 0 else np.inf
+            changes = _changes(model, position, contact, moment, memory, fields[position], depths)
+            between = {key: change / slid for key, change in changes.items()}
         found.append(Rates(rates, between, friction))
     return found
 

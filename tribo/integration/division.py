@@ -11,8 +11,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import BadValues, PluginError
 from tribo.integration.integrator import Part, apart, part_of, solved
-from tribo.integration.kept import Kept, Sum, Values
-from tribo.integration.relaxation import Rates
+from tribo.integration.kept import Kept, Rates, Sum, Values
 from tribo.integration.step_to_break import places_passing
 
 ACCURACY = 3e-5

@@ -10,12 +10,13 @@ from itertools import chain
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.integration.kept import Field, Kept, Sum, Values
-from tribo.integration.relaxation import Rates, moved, relaxation
+from tribo.integration.kept import Field, Kept, Rates, Sum, Values
 from tribo.integration.step_to_break import Stretch, places_passing, stepped, stepped_back
 
 EXACT = 1e-12
 """Relative difference, summed over the cells, of what is the same but for rounding."""
+NUDGE = 3e-5
+"""Part of a state by which it is moved to find how fast it relaxes."""
 PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
 """Euler steps of the rows of the extrapolation, without and with the relaxation of the states."""
 
@@ -279,6 +280,31 @@ def transposed(
             before = _added(before, behind(stage, given))
         after = before
     return Transposed(after, breaks)
+
+
+def relaxation(
+    rates: Rates,
+    states: Sequence[Array],
+    first: Sequence[Array],
+    length: float,
+    kept: Sequence[Kept],
+) -> list[Field]:
+    """Return how the rate of each state changes with itself, where that is downwards."""
+    found: list[Field] = []
+    for index, (state, rate, of) in enumerate(zip(states, first, kept, strict=False)):
+        other = moved(state, rate, length, of)
+        if other is state:
+            found.append(0.0)
+            continue
+        nudged = rates([*states[:index], other, *states[index + 1 :]], 0.0)[index]
+        found.append(np.minimum((nudged - rate) / (other - state), 0.0))
+    return found
+
+
+def moved(state: Array, rate: Array, length: float, kept: Kept) -> Array:
+    """Return a state moved by a part of the most that it is or becomes, past no break or limit."""
+    largest = max(float(np.max(np.abs(state))), length * float(np.max(np.abs(rate))))
+    return state if largest == 0 else kept.aside(state, NUDGE * largest)
 
 
 def weight(steps: int, rows: Sequence[int]) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -16,6 +16,8 @@ from tribo.core.arrays import Array
 Numbers = NDArray[np.intp]
 Field = Array | float
 Values = list[Array]
+Rates = Callable[[Sequence[Array], float], Values]
+"""Rates of states, and after them of sums, at states and at a share of a part."""
 
 
 @dataclass(frozen=True)

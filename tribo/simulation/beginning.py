@@ -18,8 +18,7 @@ from tribo.core.state import BodyState, State, key_of
 from tribo.model.model import Model
 from tribo.result.layout import BETWEEN, STATE, TRACK, TRACK_PLASTIC, TRACK_STATE
 from tribo.result.read import Result
-from tribo.stepping.first_contact import first_contact
-from tribo.stepping.step import reloaded
+from tribo.stepping.first_contact import first_contact, first_law_state
 
 PLACE = "begin.result"
 SAME = 1e-6
@@ -35,7 +34,7 @@ def first_state(model: Model) -> State:
     """
     begin = model.case.begin
     if begin is None:
-        return reloaded(model, first_contact(model))
+        return first_contact(model)
     try:
         result = Result.open(begin.result)
     except CaseError as error:
@@ -57,7 +56,6 @@ def first_state(model: Model) -> State:
         load_distance=carried["load_distance_N_m"],
         friction_energy=carried.get("friction_energy_J", 0.0),
     )
-    state = reloaded(model, state)
     return state.with_findings(begun_worn(begin.result, carried["time_s"], afresh, left))
 
 
@@ -94,10 +92,10 @@ def _check_alike(model: Model, result: Result) -> None:
             "grid",
             PLACE,
         )
-    for body, surface in model.surfaces.items():
+    for body in model.surfaces:
         was = result.case_tables["bodies"][body].get("surface")
         # A file that a surface is read from may have changed since.
-        height = model.cycle.maps[body].see(surface.height, len(model.cycle) // 2)
+        height = model.height(body)
         off = np.max(np.abs(height - result.body(body).height))
         if was != model.data["bodies"][body]["surface"] or off > SAME * np.ptp(height):
             raise CaseError(
@@ -130,9 +128,7 @@ def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
             "average both",
             PLACE,
         )
-    initial = model.laws.wear[name].own_state if name in model.laws.wear else {}
-    law = {field: np.full_like(wear, value) for field, value in initial.items()}
-    return BodyState(wear=wear, plastic=kept[1], law=law)
+    return BodyState(wear, kept[1], first_law_state(model, name, wear))
 
 
 def _remembered(
@@ -149,9 +145,8 @@ def _remembered(
         where = "the contact" if place is None else place
         kept = _kept(result, place)
         for field in model.laws.kept_on(place):
-            key = kept.get((field.name, field.unit))
-            values = None if key is None else _read(result, key, save, place)
-            laid = None if values is None else _laid(model, place, field, values)
+            variable = kept.get((field.name, field.unit))
+            laid = None if variable is None else _laid(model, result, variable, save, place, field)
             if laid is None:
                 afresh.append(f"{field.name} of {where}")
             else:
@@ -168,16 +163,15 @@ def _kept(result: Result, place: str | None) -> dict[tuple[str, str], str]:
     return {(field.name, field.unit): variable for variable, field in fields}
 
 
-def _read(result: Result, variable: str, save: int, place: str | None) -> Array | None:
-    if place is not None and variable in result.fields_of(TRACK_STATE, place):
-        return _along_track(result, variable, place, save)
-    return result.field(variable, save, place)
-
-
-def _laid(model: Model, place: str | None, field: Field, values: Array) -> Array | None:
-    """Return a state field as the case keeps it; None where it is of another shape."""
+def _laid(
+    model: Model, result: Result, variable: str, save: int, place: str | None, field: Field
+) -> Array | None:
+    """Return a state field of a result as the case keeps it; None where it is of another shape."""
     if place is not None:
-        return _on_rows(values, model.cycle.maps[place].rows, model.grid.cells[0])
+        along = _along_track(result, variable, place, save)
+        rows = model.cycle.maps[place].rows
+        return None if along is None else _on_rows(along, rows, model.grid.cells[0])
+    values = result.field(variable, save)
     if field.uniform:
         return values.reshape(1, 1) if values.size == 1 else None
     return values if values.shape == model.grid.cells else None

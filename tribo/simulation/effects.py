@@ -49,7 +49,11 @@ def in_order(case: Case, effects: Sequence[GuardedEffect]) -> tuple[GuardedEffec
             if field.name in (known | of_laws) - shares:
                 raise _twice(field, ready)
             known.add(field.name)
-    _check_laws(case, known)
+    for name in case.bodies:
+        for law in case.bodies[name].laws():
+            if missing := sorted(set(names_of(law.requires)) - known):
+                text = _missing(f"wear law {law.type!r}", missing, [])
+                raise MissingFieldError(text, f"bodies.{name}.wear", missing)
     return tuple(ordered)
 
 
@@ -60,14 +64,6 @@ def _is_ready(effect: GuardedEffect, waiting: Sequence[GuardedEffect], known: Se
     # What several provide is known once all have.
     others = [e for e in waiting if e is not effect and LOAD_SHARE.name in _provided(e)]
     return LOAD_SHARE.name not in effect.requires or not others
-
-
-def _check_laws(case: Case, known: Set[str]) -> None:
-    for name, body in case.bodies.items():
-        for law in body.laws():
-            if missing := sorted(set(names_of(law.requires)) - known):
-                text = _missing(f"wear law {law.type!r}", missing, [])
-                raise MissingFieldError(text, f"bodies.{name}.wear", missing)
 
 
 def _provided(effect: GuardedEffect) -> set[str]:

@@ -13,15 +13,15 @@ from tribo.core.measures import half_widths
 from tribo.core.state import State
 from tribo.model.model import Model
 from tribo.simulation.beginning import first_state
-from tribo.simulation.doubt import doubting
 from tribo.simulation.validity import (
     check_stroke,
     coarse_cycle,
+    doubting,
     few_cells,
     hold_wear,
     limitation,
-    of_case,
     peak_at_the_edge,
+    tribo_findings,
 )
 from tribo.simulation.watch import Watch
 from tribo.stepping.invariants import chatters, hold
@@ -195,7 +195,7 @@ def _with_findings(model: Model, state: State) -> State:
         state = state.from_here(finding)
     if state.steps == 0:
         few = few_cells(model, state.contact)
-        state = state.with_findings(*of_case(model), *([few] if few else []))
+        state = state.with_findings(*tribo_findings(model), *([few] if few else []))
     if chatters(state) and not state.has_finding("chattering"):
         state = state.from_here(chattering(state.invariants.chattering))
     return state

@@ -19,7 +19,7 @@ from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.stroke import Stroke, least_positions, spacing_for
 from tribo.result.read import Result
 from tribo.simulation.assembly import assemble, varied
-from tribo.simulation.coarse import smoothed
+from tribo.simulation.predict import smoothed
 from tribo.simulation.validity import is_endless
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.first_contact import first_contact

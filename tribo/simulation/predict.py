@@ -9,10 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from tribo.case import Case, Output
 from tribo.component import components
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, NumericalError, OverTime, PluginError, TooWorn, TriboError
 from tribo.core.findings import Finding, outgrown, trial_failed, worn_through, would_stop
+from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.core.state import State
 from tribo.guards.guard import Guard
@@ -20,24 +22,29 @@ from tribo.guards.trial_time import limited
 from tribo.lab.against_hertz import HertzContact, hertz_contact
 from tribo.model.model import Model
 from tribo.result.provenance import stated_facts
+from tribo.simulation.assembly import as_it_repeats, assemble, varied
 from tribo.simulation.beginning import first_state
-from tribo.simulation.coarse import MARGINS, coarsened
-from tribo.simulation.doubt import doubting, unusual
 from tribo.simulation.march import begin, march
 from tribo.simulation.memory import memory_needed, size_of_fields
 from tribo.simulation.validity import (
     check_stroke,
+    doubting,
     few_cells,
     implausible,
     limitation,
     positions_for,
     too_wide,
+    unusual,
 )
 from tribo.simulation.watch import Watch
 from tribo.stepping.implicit import Implicit
 from tribo.stepping.measure import measure
 from tribo.stepping.step import start_sliding
+from tribo.wear.law import WearLaw
 
+MARGINS = (1.5, 1.0)
+"""Edges of the windows to try, in those of the case: the contact may outgrow its own."""
+LOOSE = Implicit(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
 COARSE = 72
 LONGER, FINER, SHARED = 6.5, 0.25, 0.7
 """Time of a run over its coarse trial's, what more cells add, and the power of more positions.
@@ -259,3 +266,35 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
             else None,
         )
     return CoarseRun(None, error=failed, on_any_cells=isinstance(failed, PluginError))
+
+
+def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) -> Model:
+    """Return the model of a case on a coarse grid, smooth and unworn, its steps long.
+
+    It has `cells` along the longer edge of a window `margin` times as large. With half the extent
+    of the first contact along x, in m, a short stroke keeps a few positions; every stroke is
+    averaged without.
+    """
+    largest = max(case.grid.size)
+    nx, ny = (max(8, 2 * round(0.5 * cells * size / largest)) for size in case.grid.size)
+    lx, ly = (margin * size for size in case.grid.size)
+    grid = Grid((lx, ly), (nx, ny), ends_at_window=True)
+    motion = case.kinematics.coarsened(half_width_x)
+    cycle = motion.cycle(as_it_repeats(grid, case.contact))
+    load = case.load.averaged() if len(cycle) == 1 else case.load
+    changes = {"kinematics": motion, "load": load.thinned(), "stepping": LOOSE, "begin": None}
+    return assemble(varied(smoothed(case), grid=grid, output=Output(), **changes))
+
+
+def smoothed(case: Case) -> Case:
+    """Return a case without the relief of its surfaces and of its wear laws."""
+
+    def smooth(law: WearLaw | None) -> WearLaw | None:
+        return None if law is None else law.smoothed()
+
+    bodies = {}
+    for name, body in case.bodies.items():
+        layers = (each.model_copy(update={"wear": smooth(each.wear)}) for each in body.layers)
+        form = {"surface": body.surface.smoothed(), "wear": smooth(body.wear)}
+        bodies[name] = body.model_copy(update={**form, "layers": tuple(layers)})
+    return case.model_copy(update={"bodies": bodies})

@@ -30,11 +30,11 @@ from tribo.result.provenance import changed_components, origin, provenance
 from tribo.result.read import Result
 from tribo.simulation.audience import Audience
 from tribo.simulation.beginning import checksum
-from tribo.simulation.doubt import doubting
 from tribo.simulation.effects import MissingFieldError
 from tribo.simulation.interrupt import interrupts_held
 from tribo.simulation.march import begin, march
 from tribo.simulation.positions import composed
+from tribo.simulation.validity import doubting
 from tribo.simulation.watch import Watch
 
 OTHERS = (".csv", ".json", ".pdf", ".png", ".svg", ".toml", ".txt", ".xls", ".xlsx")
@@ -304,9 +304,7 @@ class Simulation:
                     name=name,
                     swept=name in model.cycle.swept,
                     density=body.material.density,
-                    height=model.cycle.maps[name].see(
-                        model.surfaces[name].height, len(model.cycle) // 2
-                    ),
+                    height=model.height(name),
                     rows=model.cycle.maps[name].rows,
                     state_fields=model.laws.kept_on(name),
                     rough=name in model.rough,

@@ -5,15 +5,19 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
 
+from tribo.case import Case
 from tribo.component import components
+from tribo.config.overrides import leaves
 from tribo.core import findings
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
-from tribo.core.errors import TooWorn, located
+from tribo.core.errors import CaseError, NumericalError, PluginError, TooWorn, located
+from tribo.core.explain import path
 from tribo.core.findings import Finding
 from tribo.core.measures import Measures, half_widths
 from tribo.core.rounding import ROUND_OFF
@@ -23,10 +27,40 @@ from tribo.model.model import Model
 from tribo.motion.stroke import check_spacing, spacing_for
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.registry import from_packages
-from tribo.stepping.quadrature import cycle_error
+from tribo.stepping.measure import cycle_error
 
 SEAM = 4
 """How many times more a surface bends at the edge of a window than inside if it ends there."""
+
+
+def unusual(case: Case) -> list[Finding]:
+    """Return a question about each quantity of a case that is out of its usual range."""
+    found: dict[str, Finding] = {}
+    for place, value, mark in leaves(case):
+        if not (mark and mark.usual and isinstance(value, float)):
+            continue
+        if doubt := mark.doubt(value):
+            while isinstance(place[-1], int):
+                # A pair may be written as one value.
+                place = place[:-1]
+            limit = min(mark.usual, key=lambda end: abs(end - value))
+            found[path(place)] = findings.unusual(path(place), doubt, value, limit)
+    return [*found.values()]
+
+
+@contextmanager
+def doubting(case: Case) -> Iterator[None]:
+    """Begin the error of a failing calculation with each value of the case that is unusual."""
+    try:
+        yield
+    except PluginError:
+        raise
+    except (CaseError, NumericalError) as error:
+        doubts = unusual(case)
+        if doubts:
+            # First: what follows from a wrong unit has remedies that mislead.
+            error.args = (" ".join([*(doubt.words for doubt in doubts), str(error)]),)
+        raise
 
 
 def few_cells(model: Model, first: ContactSolution) -> Finding | None:
@@ -43,12 +77,7 @@ def few_cells(model: Model, first: ContactSolution) -> Finding | None:
 
 @hookimpl(trylast=True)
 def tribo_findings(model: Model) -> list[Finding]:
-    """Say where the surfaces and the path of a case do not fit."""
-    return of_case(model)
-
-
-def of_case(model: Model) -> list[Finding]:
-    """Return where surfaces do not repeat with the window, and a path that is no whole track."""
+    """Say where surfaces do not repeat with the window, and of a path that is no whole track."""
     return [each for each in (broken_period(model), short_of_a_lap(model)) if each]
 
 

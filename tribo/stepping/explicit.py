@@ -15,12 +15,11 @@ from tribo.core.fields import WearRate
 from tribo.core.findings import Finding, unstable
 from tribo.core.state import State
 from tribo.core.units import Quantity
-from tribo.evolution.course import Course, course
+from tribo.evolution.course import Course, course, in_stripes
 from tribo.evolution.friction import with_friction_work
 from tribo.evolution.interval import Moment, interval_from
 from tribo.evolution.rates import CycleRates, wear_rates
 from tribo.evolution.states import remembered
-from tribo.evolution.stripes import in_stripes
 from tribo.model.events import Solved, Worn
 from tribo.stepping.contacts import counted, solve_cycle, undeformed
 from tribo.stepping.linear_wear import wear_compliance
@@ -28,8 +27,6 @@ from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     accepted,
     distance_until,
-    rested,
-    start_sliding,
     worn_by,
     worn_depths,
 )
@@ -58,10 +55,7 @@ class Explicit(Scheme):
     def check(self, model: Model, state: State) -> Finding | None:
         """Check the first step; see `Scheme.check`.
 
-        Raises
-        ------
-        CaseError
-            Also if steps are too short to come to an end, or the first is not stable.
+        `CaseError` also if steps are too short to come to an end, or the first is not stable.
         """
         super().check(model, state)
         steps = model.end_time / self.time_step
@@ -76,29 +70,24 @@ class Explicit(Scheme):
             return None
         return self._instability(model, state, interval_from(state, increment, self.time_step).end)
 
-    def advance(self, model: Model, state: State, until: float) -> State:
-        """Return the state a time step on, or at `until` (s) if that is sooner.
-
-        Raises
-        ------
-        CaseError
-            If the step is beyond the stability limit, and the case does not allow it.
-        """
+    def next_time(self, state: State, until: float) -> float:
+        """Return the time a step on, or `until` (s) if that is sooner."""
         time = state.time + self.time_step
-        if until - time < 1e-6 * self.time_step:
-            time = until
-        target = distance_until(model, state, time)
-        if target is None:
-            return rested(model, state, time)
-        state = start_sliding(model, state)
+        return until if until - time < 1e-6 * self.time_step else time
+
+    def slide(self, model: Model, state: State, target: float, until: float) -> State:
+        """Return the state at `target` (m); see `Scheme.slide`.
+
+        `CaseError` if the step is beyond the stability limit, and the case does not allow it.
+        """
         increment = target - state.distance
-        moment = interval_from(state, increment, time).end
+        moment = interval_from(state, increment, until).end
         state = rated(model, state, moment)
         if not (self.allow_unstable and state.has_finding("stability")):
             finding = self._instability(model, state, moment)
             if finding is not None:
                 state = state.from_here(finding)
-        return self.step(model, state, increment, time)
+        return self.step(model, state, increment, until)
 
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
         """Return the state after one forward Euler step; see `Scheme.step`."""
@@ -119,13 +108,7 @@ class Explicit(Scheme):
         return with_friction_work(model, state, after, state.contacts, slid)
 
     def _instability(self, model: Model, state: State, moment: Moment) -> Finding | None:
-        """Return a warning of a step that is beyond the limit where the case allows it.
-
-        Raises
-        ------
-        CaseError
-            If it does not, or the limit is not known.
-        """
+        """Return a warning of a step beyond the limit; `CaseError` where the case allows none."""
         limit = largest_stable_increment(model, state, moment)
         if limit is None:
             if self.allow_unstable:

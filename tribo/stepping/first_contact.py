@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -16,6 +16,7 @@ from tribo.evolution.states import first_memory
 from tribo.model.events import Solved
 from tribo.stepping.contacts import undeformed
 from tribo.stepping.plastic_groove import yielded
+from tribo.stepping.step import load_factor
 from tribo.stepping.yielding import caps
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def first_contact(
     worn: Mapping[str, BodyState] | None = None,
     between: Mapping[str, Array] | None = None,
 ) -> State:
-    """Solve the contact before any sliding, plastic flow included.
+    """Solve the contact before any sliding, plastic flow and the load of effects included.
 
     Parameters
     ----------
@@ -59,10 +60,16 @@ def first_contact(
     gaps = list(
         undeformed(model, state) if worn is not None or model.laws.filling else model.contact.gaps
     )
+    first = _solved(model, state, gaps)
+    factor = load_factor(model, first)
+    return first if factor == 1 else _solved(model, replace(state, load_factor=factor), gaps)
+
+
+def _solved(model: Model, state: State, gaps: Sequence[Array]) -> State:
+    """Return `state` in contact, with what yields then, from gaps (m) before."""
     solutions: dict[tuple[int, float], ContactSolution] = {}
-    asked = [
-        (id(gap), load) for gap, load in zip(gaps, model.contact.loads.after(0.0), strict=True)
-    ]
+    loads = model.loads(state).after(0.0)
+    asked = [(id(gap), load) for gap, load in zip(gaps, loads, strict=True)]
     for gap, key, cap in zip(gaps, asked, caps(model, state.bodies), strict=True):
         # Where nothing varies along the path, one solve serves all positions.
         if key not in solutions:
@@ -102,10 +109,12 @@ def _unworn(model: Model) -> dict[str, BodyState]:
     bodies = {}
     for name in model.case.bodies:
         wear = np.zeros((model.cycle.maps[name].rows, model.grid.cells[1]))
-        initial = model.laws.wear[name].own_state if name in model.laws.wear else {}
-        bodies[name] = BodyState(
-            wear=wear,
-            plastic=model.cycle.maps[name].lay(np.zeros(model.grid.cells), len(model.cycle) // 2),
-            law={field: np.full_like(wear, value) for field, value in initial.items()},
-        )
+        plastic = model.cycle.maps[name].lay(np.zeros(model.grid.cells), model.cycle.middle)
+        bodies[name] = BodyState(wear, plastic, first_law_state(model, name, wear))
     return bodies
+
+
+def first_law_state(model: Model, name: str, wear: Array) -> dict[str, Array]:
+    """Return what the law of a body remembers before anything slides, shaped as its `wear`."""
+    first = model.laws.wear[name].own_state if name in model.laws.wear else {}
+    return {field: np.full_like(wear, value) for field, value in first.items()}

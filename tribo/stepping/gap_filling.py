@@ -11,10 +11,9 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError, NumericalError
 from tribo.core.state import State, key_of
-from tribo.evolution.course import course
+from tribo.evolution.course import course, in_stripes
 from tribo.evolution.interval import interval_from
 from tribo.evolution.states import filling, remembered
-from tribo.evolution.stripes import in_stripes
 from tribo.stepping.step import worn_depths
 
 if TYPE_CHECKING:

@@ -21,19 +21,16 @@ from tribo.evolution.course import Course, course, sloped
 from tribo.evolution.friction import with_friction_work
 from tribo.evolution.interval import Moment, interval_from
 from tribo.evolution.rates import wear_rates
-from tribo.evolution.repeated import check_repeatable
 from tribo.evolution.states import filling, remembered
 from tribo.model.events import Worn
 from tribo.stepping.contacts import counted, extrapolated, solve_cycle, undeformed
 from tribo.stepping.linear_wear import linear_wear
+from tribo.stepping.measure import loaded_mean
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     SMALLEST,
     accepted,
-    distance_until,
     load_changes,
-    rested,
-    start_sliding,
     time_at,
     worn_by,
     worn_depths,
@@ -139,18 +136,11 @@ class Implicit(Scheme):
 
     needs_wear_compliance: ClassVar[bool] = True
 
-    def advance(self, model: Model, state: State, until: float) -> State:
-        """Return the state after the longest step that meets the tolerances.
+    def slide(self, model: Model, state: State, target: float, until: float) -> State:
+        """Return the state after the longest step that meets the tolerances; see `Scheme.slide`.
 
-        Raises
-        ------
-        NumericalError
-            If steps are rejected down to a length that drowns in rounding.
+        `NumericalError` if steps are rejected down to a length that drowns in rounding.
         """
-        target = distance_until(model, state, until)
-        if target is None:
-            return rested(model, state, until)
-        state = start_sliding(model, state)
         settle = self.settle if until in model.saves else 0.0
         remaining = target - state.distance
         natural = state.increment or _first_increment(model, state, remaining)
@@ -176,13 +166,11 @@ class Implicit(Scheme):
                 factor = SHRINK if changes and rejected >= FEW else errors.factor
                 failure: NumericalError | None = None
             except (StepRejected, BadValues) as error:
-                check_repeatable(model, state)
                 factor, failure = SHRINK, error
             rejected += 1
             if rejected > MAX_REJECTIONS or factor * increment < SMALLEST * target:
                 if failure is not None:
                     raise failure
-                check_repeatable(model, state)
                 raise NumericalError(
                     f"steps down to {increment:.3g} m at {state.distance:.6g} m still miss their "
                     f"tolerances (depth error {errors.depth:.3g}, pressure change "
@@ -206,17 +194,8 @@ class Implicit(Scheme):
         depends on it), the remainder is put into the gap and the solve repeated
         until it is. It is that under the mean load of the step, so that the volume
         is that of a load which changes along it; the contact it ends with is
-        solved anew under the load at its end.
-
-        Parameters
-        ----------
-        model, state, increment, time
-            As in `Scheme.step`.
-
-        Raises
-        ------
-        StepRejected
-            If the passes or a solve do not converge.
+        solved anew under the load at its end. `StepRejected` if the passes or a
+        solve do not converge.
         """
         interval = interval_from(state, increment, time)
         resolved = len(model.cycle) > 1
@@ -255,7 +234,7 @@ class Implicit(Scheme):
             slid = slide(contacts=contacts, plan=guess.course.plan)
             guess = _guess(model, height, contacts, slid, increment)
             off = np.abs(guess.depths - guess.filled - implied)
-            mismatch = _loaded_mean(model, contacts, off) if resolved else _largest(off)
+            mismatch = loaded_mean(model, contacts, off) if resolved else _largest(off)
             deepest = max(_largest(guess.depths), _largest(guess.filled))
             if mismatch <= tolerance * deepest:
                 break
@@ -311,7 +290,7 @@ class Implicit(Scheme):
             scale = float(np.max(after.bodies[name].wear)) + FIRST * after.reference_depth
             # Flat bodies that have not begun to wear have neither.
             scale = scale or float(np.finfo(np.float64).tiny)
-            late = _loaded_mean(
+            late = loaded_mean(
                 model, contacts, [model.cycle.maps[name].see(lag, m) for m in range(len(shares))]
             )
             depth_error = max(depth_error, 0.5 * late / scale)
@@ -385,14 +364,3 @@ def _first_increment(model: Model, state: State, remaining: float) -> float:
 def _largest(arrays: Iterable[Array]) -> float:
     """Return the largest absolute value in any of some arrays; 0 if there are none."""
     return max((float(np.max(np.abs(array))) for array in arrays), default=0.0)
-
-
-def _loaded_mean(
-    model: Model, contacts: Sequence[ContactSolution], arrays: Iterable[Array]
-) -> float:
-    """Return the mean over a cycle of arrays, one for each position, weighted with the load."""
-    weighed = load = 0.0
-    for position, contact, array in zip(model.cycle, contacts, arrays, strict=True):
-        weighed += position.share * float(np.sum(contact.pressure * array))
-        load += position.share * float(np.sum(contact.pressure))
-    return weighed / load

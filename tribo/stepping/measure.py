@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactSolution
 from tribo.core.measures import (
     BodyMeasures,
     Measures,
@@ -16,7 +19,6 @@ from tribo.core.measures import (
 from tribo.core.state import State
 from tribo.evolution.friction import friction_force
 from tribo.lab.running_in import contact_roughness
-from tribo.stepping.quadrature import cycle_error
 from tribo.stepping.yielding import caps
 
 if TYPE_CHECKING:
@@ -75,3 +77,30 @@ def _roughness(model: Model, name: str, state: State) -> dict[str, float]:
     own = model.surfaces[name].height, -body.wear, -body.plastic
     surface = sum(model.cycle.maps[name].see(part, middle) for part in own)
     return contact_roughness(np.asarray(surface), state.contact.pressure)._asdict()
+
+
+def cycle_error(model: Model, state: State) -> float:
+    """Return the estimated error of the depths, as the cycle has no more positions than it has.
+
+    It is the mean over the contact, weighted with the load, relative to the body's deepest wear, of
+    the body where that is most; 0 where the cycle has every cell, or is not resolved.
+    """
+    worst = 0.0
+    for name, body in state.bodies.items():
+        deepest = float(np.max(body.wear))
+        if body.missed is not None and deepest > 0:
+            see, missed = model.cycle.maps[name].see, np.abs(body.missed)
+            each = [see(missed, position) for position in range(len(model.cycle))]
+            worst = max(worst, loaded_mean(model, state.contacts, each) / deepest)
+    return worst
+
+
+def loaded_mean(
+    model: Model, contacts: Sequence[ContactSolution], arrays: Iterable[Array]
+) -> float:
+    """Return the mean over a cycle of arrays, one for each position, weighted with the load."""
+    weighed = load = 0.0
+    for position, contact, array in zip(model.cycle, contacts, arrays, strict=True):
+        weighed += position.share * float(np.sum(contact.pressure * array))
+        load += position.share * float(np.sum(contact.pressure))
+    return weighed / load

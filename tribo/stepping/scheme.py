@@ -11,6 +11,7 @@ from tribo.core.findings import Finding
 from tribo.core.state import State
 from tribo.core.table import Table
 from tribo.stepping.gap_filling import check_filling
+from tribo.stepping.step import distance_until, rested, start_sliding
 
 if TYPE_CHECKING:
     from tribo.model.model import Model
@@ -37,15 +38,11 @@ class Scheme(Table, ABC):
     def check(self, model: Model, state: State) -> Finding | None:
         """Return what is wrong with the first step from `state`, if anything is.
 
-        Raises
-        ------
-        CaseError
-            If that step cannot be taken, or what fills the gap draws the load together.
+        `CaseError` if it cannot be taken, or what fills the gap draws the load together.
         """
         check_filling(model, state)
         return None
 
-    @abstractmethod
     def advance(self, model: Model, state: State, until: float) -> State:
         """Return the next accepted state, at `until` (s) at the latest.
 
@@ -54,19 +51,20 @@ class Scheme(Table, ABC):
         NumericalError
             If no step can be carried out.
         """
+        time = self.next_time(state, until)
+        target = distance_until(model, state, time)
+        if target is None:
+            return rested(model, state, time)
+        return self.slide(model, start_sliding(model, state), target, time)
+
+    def next_time(self, state: State, until: float) -> float:
+        """Return the time (s) up to which it may slide or rest, `until` (s) at the latest."""
+        return until
+
+    @abstractmethod
+    def slide(self, model: Model, state: State, target: float, until: float) -> State:
+        """Return the state after a step towards `target` (m), which is reached at `until` (s)."""
 
     @abstractmethod
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
-        """Return the state after one step of a given length.
-
-        Parameters
-        ----------
-        model : Model
-            The composed case.
-        state : State
-            Where the step starts.
-        increment : float
-            Sliding increment, in m; positive.
-        time : float
-            Time at the end, in s.
-        """
+        """Return the state after one step of `increment` (m), which ends at a time (s)."""

@@ -213,15 +213,20 @@ def accepted(
 
 def reloaded(model: Model, state: State) -> State:
     """Return `state` under the load that effects make of it, which is held over the next step."""
-    effects = [effect for effect in model.laws.effects if effect.changes_load]
-    if not effects:
-        return state
-    snapshot = view(Snapshot(state, measure(model, state), effect_fields(model, state)))
-    factor = prod(each.load_factor(snapshot) for each in effects)
+    factor = load_factor(model, state)
     if factor == state.load_factor:
         return state
     state = replace(state, load_factor=factor)
     return _under(model, state, model.loads(state).before(state.time))
+
+
+def load_factor(model: Model, state: State) -> float:
+    """Return what effects make of the load at `state`."""
+    effects = [effect for effect in model.laws.effects if effect.changes_load]
+    if not effects:
+        return state.load_factor
+    snapshot = view(Snapshot(state, measure(model, state), effect_fields(model, state)))
+    return prod(each.load_factor(snapshot) for each in effects)
 
 
 def _under(model: Model, state: State, loads: ByPosition) -> State:

@@ -25,11 +25,10 @@ from tribo.lab.against_hertz import (
 )
 from tribo.model.model import Model
 from tribo.motion.reciprocating import Reciprocating
-from tribo.simulation.doubt import unusual
 from tribo.simulation.positions import lengths_of
 from tribo.simulation.predict import Prediction, predict
 from tribo.simulation.run import Simulation
-from tribo.simulation.validity import findings_of
+from tribo.simulation.validity import findings_of, unusual
 
 SPREAD = 3.0
 """Factor to which the time of a run is known."""

@@ -9,7 +9,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.guards.answers import initial
 from tribo.guards.parts import GuardedEffect, GuardedLaw
-from tribo.integration.relaxation import lasting
+from tribo.integration.step_to_break import lasting
 from tribo.testing.compare import require
 
 _NUDGE = 1e-3
