@@ -18,8 +18,7 @@ from tribo.core.grid import Grid
 from tribo.core.loads import Load, Stage
 from tribo.core.material import Material, Poisson
 from tribo.core.shorthand import call
-from tribo.core.table import Table
-from tribo.core.tree import tree
+from tribo.core.table import Table, tree
 from tribo.core.units import Quantity
 from tribo.core.words import checked_name, did_you_mean, suggestion
 from tribo.effects.effect import Effect

@@ -181,11 +181,10 @@ class Registry:
             raise CaseError(f"{words} {name!r} cannot be used: {why}")
         return None
 
-    def load_all(self) -> list[Plugin]:
-        """Import every plugin that is not disabled, and return those that cannot be used."""
+    def load_all(self) -> None:
+        """Import every plugin that is not disabled."""
         for plugin in self.plugins:
             self.load(plugin)
-        return [p for p in self.plugins if not p.usable and p.status != "disabled"]
 
     def providers(self, fields: set[str]) -> list[str]:
         """Return the effects of imported plugins that provide any of `fields`, as text."""
