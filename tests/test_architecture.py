@@ -42,7 +42,6 @@ RANK = {
     "scaffold": 7,
     "cli": 9,
     "kernel_api": 10,
-    "methods": 10,
     "__init__": 10,
     "__main__": 10,
 }

@@ -7,11 +7,24 @@ used, so that ``import tribo`` stays fast; ``__init__.pyi`` lists them.
 
 # `python -m tribo` begins here, and a folder that it was started in may have modules of the names
 # of Python's, even a `__future__`: these import only what Python starts with.
+from tribo.core import shorthand
 from tribo.core.lazy import lazy
-from tribo.methods import bind
 from tribo.packages import NAMES, how_to_install
 
-bind()
+shorthand.PLACES |= {
+    "case": "tribo.config.load:validate_case",
+    "changed": "tribo.config.load:changed_case",
+    "check": "tribo.study.check:check_case",
+    "html": "tribo.cli.notebook:html",
+    "materials": "tribo.registry.registry:material_files",
+    "picture": "tribo.plotting.figures:result_picture",
+    "plot": "tribo.plotting.figures:Plot",
+    "registry": "tribo.registry.registry:default_registry",
+    "report": "tribo.lab.report:lab_report",
+    "saves": "tribo.lab.tables:saves_table",
+    "show": "tribo.cli.lab_report:print_report",
+    "simulation": "tribo.simulation.run:Simulation",
+}
 _get = lazy(__name__, __file__)
 DEPRECATED: dict[str, tuple[str, str]] = {}
 """Old public names, each with the new name and the version in which the old one goes."""

@@ -12,14 +12,13 @@ from pydantic import Field, ValidationInfo, field_validator, model_validator
 from tribo.component import components
 from tribo.contact.dcfft import DcFft
 from tribo.contact.solver import ContactSolver
-from tribo.core import shorthand
 from tribo.core.errors import CaseError
 from tribo.core.explain import refused
 from tribo.core.grid import Grid
 from tribo.core.loads import Load, Stage
 from tribo.core.material import Material, Poisson
-from tribo.core.table import Table
-from tribo.core.tree import tree
+from tribo.core.shorthand import call
+from tribo.core.table import Table, tree
 from tribo.core.units import Quantity
 from tribo.core.words import checked_name, did_you_mean, suggestion
 from tribo.effects.effect import Effect
@@ -91,10 +90,11 @@ def _of_own_material(body: Any, own: Mapping[str, Material]) -> Any:
     """Return the table of a body whose material is named with the numbers of that name."""
     given = body.get("material") if isinstance(body, Mapping) else None
     table = {"name": given} if isinstance(given, str) else given
-    if not isinstance(table, Mapping) or table.get("name") not in own:
+    if not isinstance(table, Mapping) or not isinstance(name := table.get("name"), str):
         return body
-    numbers = own[table["name"]].model_dump(exclude_none=True)
-    return {**body, "material": {**numbers, **table}}
+    if name not in own:
+        return body
+    return {**body, "material": {**own[name].model_dump(exclude_none=True), **table}}
 
 
 class Friction(Table):
@@ -270,7 +270,11 @@ class Case(Table):
                 except CaseError as error:
                     where = place if key in keys else (*place, "properties")
                     wrong.append(((*where, key), str(error), value))
+            own = self.materials.get(body.material.name or "")
             material = body.material.model_copy(update={"properties": read or None})
+            if own and own.properties == body.material.properties:
+                update = {"properties": material.properties}
+                self.materials[str(material.name)] = own.model_copy(update=update)
             self.bodies[name] = body.model_copy(update={"material": material})
         if wrong:
             raise refused(*wrong)
@@ -304,17 +308,21 @@ class Case(Table):
         >>> case.with_values({"load.normal": "50 N", "contact.type": "winkler"}).load.normal
         50.0
         """
-        case: Case = shorthand.changed(self, settings)
+        case: Case = call("changed", self, settings)
         return case
 
     def check(self) -> Check:
         """Predict the first contact and the end of a run, and what would go wrong on its way."""
-        found: Check = shorthand.check(self)
+        found: Check = call("check", self)
         return found
 
     def run(
         self, output: str | Path | None = None, *, progress: bool = False, **options: Any
     ) -> Result:
         """Run from the beginning, as ``Simulation(case).run(output, …)``, with a bar if wanted."""
-        result: Result = shorthand.run(self, output, progress, **options)
+        if progress:
+            from tribo.observers.progress import Progress
+
+            options["observers"] = [*options.get("observers", ()), Progress()]
+        result: Result = call("simulation", self).run(output, **options)
         return result

@@ -20,11 +20,11 @@ from pydantic import (
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from tribo.core import shorthand
 from tribo.core.column import Column
 from tribo.core.errors import CaseError
 from tribo.core.explain import refused, told
 from tribo.core.fields import Field, check_declared
+from tribo.core.shorthand import call
 from tribo.core.table import Table
 from tribo.core.words import said
 
@@ -203,6 +203,5 @@ def _snake_case(name: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
 
 
-def _registry(info: ValidationInfo) -> shorthand.Components:
-    given: shorthand.Components | None = (info.context or {}).get("registry")
-    return given or shorthand.registry()
+def _registry(info: ValidationInfo) -> Any:
+    return (info.context or {}).get("registry") or call("registry")

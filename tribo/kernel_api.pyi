@@ -28,7 +28,6 @@ from tribo.core.box import whole as whole
 from tribo.core.data_table import DataTable as DataTable
 from tribo.core.data_table import Heading as Heading
 from tribo.core.data_table import TableRow as TableRow
-from tribo.core.dimensions import scale as scale
 from tribo.core.errors import OutOfWindow as OutOfWindow
 from tribo.core.errors import OverTime as OverTime
 from tribo.core.errors import about as about
@@ -38,14 +37,15 @@ from tribo.core.fields import PLACE_X as PLACE_X
 from tribo.core.fields import PLACE_Y as PLACE_Y
 from tribo.core.hdf5 import contained as contained
 from tribo.core.lazy import lazy as lazy
+from tribo.core.loads import NUMBER as NUMBER
+from tribo.core.loads import ONE_OR_STAGES as ONE_OR_STAGES
+from tribo.core.loads import STAGES as STAGES
 from tribo.core.measures import between_cells as between_cells
 from tribo.core.number_tables import check_file as check_file
 from tribo.core.number_tables import check_pixels as check_pixels
-from tribo.core.stages import NUMBER as NUMBER
-from tribo.core.stages import ONE_OR_STAGES as ONE_OR_STAGES
-from tribo.core.stages import STAGES as STAGES
 from tribo.core.units import number as number
 from tribo.core.units import parts as parts
+from tribo.core.units import scale as scale
 from tribo.core.words import did_you_mean as did_you_mean
 from tribo.core.words import digits_of as digits_of
 from tribo.core.words import readable as readable

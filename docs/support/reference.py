@@ -21,10 +21,9 @@ from tribo.case import Body, Case
 from tribo.cli.commands import imported, offered
 from tribo.cli.main import tribo as command_line
 from tribo.component import Component
-from tribo.core.dimensions import _SYMBOLS, _UNPREFIXED, PREFIXES
 from tribo.core.errors import TriboError
 from tribo.core.table import descriptions
-from tribo.core.units import _KINDS, Quantity
+from tribo.core.units import _KINDS, _SYMBOLS, _UNPREFIXED, PREFIXES, Quantity
 from tribo.guards.answers import ANSWERS
 from tribo.packages import COMMANDS
 from tribo.registry import hookspecs

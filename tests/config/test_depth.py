@@ -13,7 +13,6 @@ FILES = {
     "case.toml": CASE,
     "tables.toml": CASE + TABLES,
     "inline.toml": f"{CASE}\n[odd]\nq = {{{PATH} = 1}}\n",
-    "lists.toml": CASE + "\n[odd]\nq = " + 200 * "[" + 200 * "]",
     "many_lists.toml": CASE + "\n[odd]\nq = " + 4000 * "[" + 4000 * "]",
     "study.toml": f"case = 'case.toml'\n[grid.load]\nnormal = [1, 2]\n{TABLES}",
     "measured.toml": "fit = ['bodies.ball.wear.k']\n[[measured]]\nbody = 'ball'\n"
@@ -22,12 +21,9 @@ FILES = {
 COMMANDS = {
     "tables": "check tables.toml",
     "an inline table": "check inline.toml",
-    "lists": "check lists.toml",
     "many lists": "check many_lists.toml",
     "path": f"check case.toml --set {PATH}=1",
-    "value": f"check case.toml --set load.normal={{{PATH}=1}}",
     "values": f"compare case.toml --vary load.normal={{{PATH}=1}},{{a=2}}",
-    "half a value": f"compare case.toml --vary load.normal={{{PATH}=1}},a,{{b=,",
     "study": "sweep study.toml",
     "measured": "calibrate case.toml --measured measured.toml",
 }

@@ -35,42 +35,24 @@ BLEND = {"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}
     [
         # Unknown keys, at each depth.
         ({"bodies": {}, "obsrevers": []}, "obsrevers", "did you mean 'observers'? Allowed: bodies"),
-        (ball(material={**STEEL, "hardnes": 1}), "bodies.ball.material.hardnes", "'hardness'?"),
-        (ball(wear={**LINEAR, "pases": 1}), "bodies.ball.wear.pases", "Allowed: type, k, passes"),
         (ball(wear=BLEND), "bodies.ball.wear.parts.1.zzz", "unknown key 'zzz'. Allowed: type, k"),
         ({"bodies": {}, "stepping": {"type": "fast", "limt": 2}}, "stepping.limt", "'limit'?"),
         # Missing ones.
-        ({}, "bodies", "missing"),
         (ball(material={"poisson": 0.3}), "bodies.ball.material.young", f"missing; {PRESSURE}"),
         (ball(wear="linear"), "bodies.ball.wear.k", "as in '1e-6 mm^3/(N m)'"),
-        ({"bodies": {}, "stepping": {"type": "slow"}}, "stepping.step", "missing; a time [s]"),
         ({"bodies": {}, "cells": [8]}, "cells.1", "missing"),
         # A misspelt key is one mistake, not an unknown key and a missing one.
         (ball(material={"yuong": 1e9, "poisson": 0.3}), "bodies.ball.material.yuong", "'young'?"),
         # Types.
         (ball(wear={"k": 1}), "bodies.ball.wear.type", f"type is missing; installed: {LAWS}"),
         (ball(wear={"type": "liner"}), "bodies.ball.wear.type", f"'linear'? Installed: {LAWS}"),
-        (ball(wear="liner"), "bodies.ball.wear", f"'linear'? Installed: {LAWS}"),
-        (ball(wear={"type": "{x}"}), "bodies.ball.wear.type", "unknown wear law '{x}'."),
         (ball(wear={"type": ["linear"]}), "bodies.ball.wear.type", "type must be text"),
-        (
-            {"bodies": {}, "observers": ["counter", {"type": 3}]},
-            "observers.1.type",
-            "type must be text; installed: counter (dummies 1.0)",
-        ),
         ({"bodies": {}, "stepping": {"type": "slwo"}}, "stepping.type", "did you mean 'slow'?"),
         ({"bodies": {}, "stepping": {"limit": 3}}, "stepping.type", "allowed: slow, fast"),
         # Wrong kinds of value.
-        (
-            ball(material={**STEEL, "young": "stiff"}),
-            "bodies.ball.material.young",
-            f"'stiff' is not a quantity; {PRESSURE}",
-        ),
-        (ball(wear={"type": "linear", "k": -1}), "bodies.ball.wear.k", "greater than 0"),
         (ball(material=3), "bodies.ball.material", "a table is needed, 3 was given"),
         (ball(wear={**LINEAR, "passes": 2.5}), "bodies.ball.wear.passes", "a whole number"),
         (ball(wear=4), "bodies.ball.wear", "a wear law is needed, as a table with its type"),
-        ({"bodies": {}, "cells": [8, "x"]}, "cells.1", "a whole number is needed"),
         ({"bodies": {}, "cells": [8, 8, 8]}, "cells", "at most 2 allowed, 3 given"),
         ({"bodies": {}, "verbose": "maybe"}, "verbose", "true or false is needed"),
         (

@@ -4,9 +4,9 @@ import tomllib
 
 import pytest
 
-from tribo.config import load
 from tribo.config.load import load_case, read_toml, validate_case
 from tribo.core.errors import CaseError
+from tribo.templates import template
 
 
 @pytest.mark.parametrize(
@@ -14,22 +14,16 @@ from tribo.core.errors import CaseError
     [
         (b"[grid]\nsize =\n", "is not TOML: Invalid value (at line 2, column 7)"),
         (
-            b'[a]\nx = "5 mm\ny = 1',
-            r"'\n' (at line 2, column 10); text and values with a unit are q",
-        ),
-        (
             b"x = 5 mm",
             "(at line 1, column 7); text and values with a unit are quoted, as in '5 mm'",
         ),
-        (
-            b"x = 0,5",
-            "(at line 1, column 6); text and values with a unit are quoted, as in '5 mm'; deci",
-        ),
         ("x = 1\ny = 'ä'".encode("latin-1"), "line 2: not UTF-8 text; save the file as UTF-8"),
         ("x = 1".encode("utf-16"), "not text in UTF-8"),
-        (b"x = 1\x00", "not text in UTF-8"),
         (b"x = " + b"[" * 100_000, "nested too deeply"),
         (b"x = " + b"9" * 10_000, "is not TOML"),
+        (b"x = 1 # " + b"long" * 2_500_000, "larger than 10 MB"),
+        (b" ", "is empty"),
+        (b"\x89HDF\r\n\x1a\n", "is a result, not a case"),
     ],
 )
 def test_content_that_is_not_toml(tmp_path, content, message):
@@ -54,44 +48,16 @@ def test_a_file_that_cannot_be_opened(tmp_path):
         read_toml("case\0.toml")
 
 
-def test_a_file_that_is_too_large(tmp_path, monkeypatch):
-    monkeypatch.setattr(load, "_LARGEST", 10)
-    path = tmp_path / "case.toml"
-    path.write_text("x = 1 # " + "long" * 10)
-    with pytest.raises(CaseError, match="larger than"):
-        read_toml(path)
-
-
 def test_the_mark_that_some_editors_add_is_no_fault(tmp_path):
     path = tmp_path / "case.toml"
     path.write_bytes("x = 1".encode("utf-8-sig"))
     assert read_toml(path) == {"x": 1}
 
 
-CASE = """
-grid = {size = "2 mm", cells = 64}
-load.normal = "100 N"
-contact.type = "dcfft"
-[kinematics]
-type = "reciprocating"
-stroke = "2 mm"
-frequency = "25 Hz"
-duration = "1 h"
-positions = "average"
-[bodies.ball]
-surface = {type = "sphere", radius = "5 mm"}
-material = {young = "207 GPa", poisson = 0.3}
-wear = {type = "archard", k = 3.11e-16}
-[bodies.disk]
-surface = "flat"
-material = {young = "207 GPa", poisson = 0.3}
-"""
-
-
 @pytest.fixture
 def path(tmp_path):
     path = tmp_path / "case.toml"
-    path.write_text(CASE)
+    path.write_text(template("ball_on_disk"))
     return path
 
 
@@ -120,22 +86,17 @@ def test_each_mistake_is_a_line(path):
 @pytest.mark.parametrize(
     ("grid", "message"),
     [
-        ({"size": 1e-3, "cells": 0}, "grid.cells: 0: must be from 4 to 16384"),
         ({"size": 1e-3, "cells": 3}, "grid.cells: 3: must be from 4 to 16384"),
         ({"cells": 8}, "grid.size: missing; a length [m] is needed, as in '5 mm'"),
     ],
 )
 def test_a_grid_is_refused_in_one_line(grid, message):
-    from tribo.templates import template
-
     with pytest.raises(CaseError) as caught:
         validate_case(tomllib.loads(template("ball_on_disk")) | {"grid": grid})
     assert str(caught.value) == message
 
 
 def test_a_default_type_need_not_be_named():
-    from tribo.templates import template
-
     data = tomllib.loads(template("ball_on_disk"))
     data["stepping"] = {"settle": 0.02}
     data["contact"] = {"tolerance": 1e-7}

@@ -5,7 +5,7 @@ from strangers.running_in import RunningIn
 
 from tribo import Field
 
-BAD = ["a/b", "", ".", "a b", "1st", "µ/m", "\x1b[31m", "a.b"]
+BAD = ["a/b", "", "a b", "1st", "\x1b[31m"]
 
 
 def law(*names):

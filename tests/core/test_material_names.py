@@ -48,15 +48,12 @@ def test_other_names_stand_for_the_same_material():
     assert (steel.young, steel.poisson, steel.hardness) == (210e9, 0.3, 746 * 9806650.0)
 
 
-def test_a_key_replaces_what_is_known_by_the_name():
-    soft = material_of_ball({"name": "100Cr6", "hardness": "5 GPa"})
-    assert (soft.young, soft.hardness) == (210e9, 5e9)
-
-
 def test_an_override_changes_a_named_material():
     tables = apply_settings(BALL, {"bodies.ball.material": "100Cr6"})
     tables = apply_settings(tables, ["bodies.ball.material.young=200 GPa"])
     assert tables["bodies"]["ball"]["material"] == {"name": "100Cr6", "young": "200 GPa"}
+    material = validate_case(tables).bodies["ball"].material
+    assert (material.young, material.hardness) == (200e9, 746 * 9806650.0)
 
 
 def test_another_name_has_numbers_of_its_own():
@@ -74,12 +71,25 @@ def test_a_case_names_materials_of_its_own():
     assert (found.name, found.young, found.poisson, found.density) == ("mine", 1e9, 0.46, 2000.0)
 
 
+def test_a_change_of_a_material_of_the_case_reaches_its_bodies():
+    tables = apply_settings(BALL, {"bodies.ball.material": {"name": "mine", "density": 2000}})
+    case = validate_case({**tables, "materials": {"mine": {"young": 1e9, "poisson": 0.4}}})
+    soft = case.with_values({"materials.mine.young": 1e8}).bodies["ball"].material
+    assert (soft.young, soft.poisson, soft.density) == (1e8, 0.4, 2000.0)
+
+
 def test_a_result_keeps_name_and_numbers_of_a_material_that_is_known_no_more():
     case = validate_case(apply_settings(BALL, {"bodies.ball.material": "WC"}))
     data = json.loads(case.model_dump_json())
     data["bodies"]["ball"]["material"]["name"] = "gone.WC"
     again = validate_case(data).bodies["ball"].material
     assert again == case.bodies["ball"].material.model_copy(update={"name": "gone.WC"})
+
+
+def test_a_name_that_is_no_text_is_refused():
+    with pytest.raises(CaseError) as caught:
+        material_of_ball({"name": ["WC"], "young": 1e9, "poisson": 0.3})
+    assert caught.value.path == "bodies.ball.material.name"
 
 
 @pytest.mark.parametrize("given", ["100Cr5", {"name": "100Cr5", "hardness": 1e9}])
@@ -95,7 +105,7 @@ def test_a_package_offers_materials_in_a_file_and_is_left_out_if_that_is_wrong(
     assert tribo.materials["uhmwpe.CoCrMo"].poisson == 0.29
     wrong = tmp_path / "materials.toml"
     wrong.write_text("[steel]\nyoung = 1\n")
-    monkeypatch.setattr("tribo.core.shorthand.materials", lambda: [wrong])
+    monkeypatch.setattr("tribo.registry.registry.material_files", lambda: [wrong])
     with pytest.warns(tribo.TriboWarning, match="materials.toml is left out"):
         assert tribo.materials["WC"].poisson == 0.24
 

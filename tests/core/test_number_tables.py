@@ -48,11 +48,8 @@ def test_a_csv_file_may_have_a_header_and_missing_values(tmp_path):
     ("text", "words"),
     [
         ("1,2\n3,hello\n", r"line 2, column 2 has 'hello', which is no number; separate"),
-        ("1,hello\n3,4\n", r"line 1, column 2 has 'hello'"),
         ("scan 5\nx,y\n" + TWO, r"line 2, column 1 has 'x', .* keep one header line at most"),
         ("1.5;2\n3;4\n", r"line 2, column 1 has '3;4', .* by commas .* decimal points, as 1\.5"),
-        ("1,5;2,5\n", r"line 1, column 2 has '5;2', .* by commas"),
-        ("1 2\n3 4\n", r"line 2, column 1 has '3 4', .* by commas"),
         (TWO + "5,6,7\n8\n", "line 3 has 3 values, and those before it have 2; give as many"),
         ("x,y\n", "it has no line of numbers, separated by commas"),
     ],
@@ -67,7 +64,6 @@ def test_what_is_wrong_in_a_csv_file_is_told_with_its_line(text, words, tmp_path
     ("values", "words"),
     [
         ([1j], r"complex numbers, not real numbers; save a\.real"),
-        (["1"], r"text, not real numbers; save a\.astype\(float\)"),
         ([True], "values of type bool, not real"),
     ],
 )
@@ -151,13 +147,3 @@ def test_where_a_number_is_missing_is_told(tmp_path):
     np.save(tmp_path / "a.npy", [[1.0, 2.0], [3.0, np.nan]])
     with pytest.raises(ValueError, match=r"1 of the 4 values of .* at index \(1, 1\) from 0; put"):
         read_numbers(tmp_path / "a.npy")
-
-
-def test_numbers_that_were_read_do_not_follow_their_file(tmp_path):
-    path = tmp_path / "map.npy"
-    np.save(path, np.zeros((8, 8)))
-    numbers = table_of_numbers(path)
-    with path.open("r+b") as file:
-        file.seek(-8, 2)
-        file.write(np.ones(1).tobytes())
-    assert not numbers.any()

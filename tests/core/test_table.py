@@ -1,26 +1,20 @@
-"""What a table of a case shows of itself, and how it is made."""
-
-import linecache
+"""Tables describe and print themselves, and a case prints as a tree of what was given."""
 
 import pytest
 from pydantic import Field
 from pydantic.json_schema import SkipJsonSchema
 
-from tribo import Archard, Body, Flat, Material, Sphere
-from tribo.core.table import Table, descriptions
+from tribo import Archard, Body, Flat, GPa, Material, N, Sphere, load_case, mm
+from tribo.core.table import Table
 from tribo.core.units import parse, stated
 
 STEEL = Material(young="207 GPa", poisson=0.3)
 
 
-def test_repr_leaves_defaults_out():
-    assert repr(Archard(k=1e-15)) == "Archard(k=1e-15)"
-
-
-def test_repr_shows_what_is_inside():
-    body = Body(surface=Flat(), material=STEEL)
+def test_repr_shows_what_is_inside_without_defaults():
+    body = Body(surface=Flat(), material=STEEL, wear=Archard(k=1e-15))
     material = "Material(young=207000000000.0, poisson=0.3)"
-    assert repr(body) == f"Body(surface=Flat(), material={material})"
+    assert repr(body) == f"Body(surface=Flat(), material={material}, wear=Archard(k=1e-15))"
 
 
 @pytest.mark.parametrize(
@@ -40,14 +34,6 @@ def test_values_without_names_are_refused_in_plain_words():
         Sphere(5e-3)
 
 
-def test_a_table_typed_into_a_notebook_has_the_descriptions_of_its_keys():
-    cell = "class Typed(Table):\n    k: float\n    'Of wear.'\n    def rate(self): ...\n"
-    linecache.cache["<cell>"] = len(cell), None, cell.splitlines(keepends=True), "<cell>"
-    names = {"Table": Table, "__name__": "no module"}
-    exec(compile(cell, "<cell>", "exec"), names)
-    assert descriptions(names["Typed"]) == {"k": "Of wear."}
-
-
 def test_a_schema_has_the_descriptions_by_the_keys_that_it_has():
     class Hidden(Table):
         k: float = Field(1.0, alias="lambda")
@@ -57,3 +43,15 @@ def test_a_schema_has_the_descriptions_by_the_keys_that_it_has():
 
     keys = Hidden.model_json_schema()["properties"]
     assert {name: each["description"] for name, each in keys.items()} == {"lambda": "Of wear."}
+
+
+def test_a_case_prints_values_in_readable_units_and_leaves_out_defaults():
+    case = load_case("examples/ball_on_disk.toml").with_values({"grid.cells": 64})
+    lines = str(case).splitlines()
+    assert lines[0] == "Case"
+    assert "  grid: size [2 mm, 2 mm], cells [64, 64]" in lines
+    assert "  load: normal 100 N" in lines
+    assert "      surface: sphere, radius 5 mm" in lines
+    assert not any("stepping" in line for line in lines)
+    assert case.bodies["ball"].material.young == 207 * GPa
+    assert (case.load.normal, case.bodies["ball"].surface.radius) == (100 * N, 5 * mm)

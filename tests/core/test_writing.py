@@ -73,18 +73,11 @@ def test_what_is_no_regular_file_is_left_alone(tmp_path, kind, act):
     before = special(kind, path, there)
     with pytest.raises(CaseError, match=str(path)):
         act(path)
+    with pytest.raises(CaseError):
+        check_new(path, replace=True)
     assert path.lstat().st_ino == before.st_ino
     assert there.exists() == (kind == "link")
     assert kind != "link" or there.read_text() == "mine"
-
-
-@posix
-@pytest.mark.parametrize("kind", ["folder", "pipe", "link", "device"])
-def test_what_force_would_not_replace_is_refused_without_advising_it(tmp_path, kind):
-    special(kind, tmp_path / "a", tmp_path / "there")
-    with pytest.raises(CaseError) as caught:
-        check_new(tmp_path / "a", replace=False)
-    assert "--force" not in str(caught.value)
 
 
 def test_a_file_is_replaced_only_where_that_is_asked_for(tmp_path):
@@ -103,13 +96,6 @@ def test_the_mode_of_a_file_stays(tmp_path, mode):
     path.chmod(mode)
     write_file(path, "new")
     assert stat.S_IMODE(path.stat().st_mode) == mode
-
-
-@posix
-def test_a_new_file_has_the_mode_of_any_other(tmp_path):
-    (tmp_path / "other").touch()
-    write_file(tmp_path / "a", "new")
-    assert (tmp_path / "a").stat().st_mode == (tmp_path / "other").stat().st_mode
 
 
 @posix

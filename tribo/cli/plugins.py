@@ -93,7 +93,7 @@ def check(name: str) -> None:
     """
     from tribo.core.errors import CaseError, NumericalError
     from tribo.registry.catalogue import matching
-    from tribo.registry.probe import probe
+    from tribo.registry.probe import probe_all
     from tribo.registry.registry import default_registry
     from tribo.testing import check as conform
     from tribo.testing import example_configs
@@ -101,7 +101,7 @@ def check(name: str) -> None:
     registry, failed = default_registry(), []
     for component in matching(registry, name):
         (owner, *others) = registry.claimants(component)
-        if not others and not (tried := probe(owner)).usable:
+        if not others and not (tried := probe_all([owner])[0]).usable:
             raise CaseError(f"{component!r} is in {tried}, which is {tried.status}: {tried.reason}")
         cls = registry.find(component)
         assert cls is not None

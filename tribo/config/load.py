@@ -73,12 +73,24 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
     return case
 
 
+def changed_case(case: Case, settings: Mapping[str, Any]) -> Case:
+    """Return a case with some values, by path, replaced."""
+    return validate_case(apply_settings(case_tables(case), settings))
+
+
 def case_tables(case: Case | Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
     """Return the tables of a case, which is given as a Case, as tables or as a TOML file."""
     if isinstance(case, Case):
         # Classes of one's own are found again by their types.
         default_registry().know_all(case)
-        return case.model_dump(mode="json")
+        tables = case.model_dump(mode="json")
+        for body in tables["bodies"].values():
+            # What a material of the case's own gives the body follows a change of that material.
+            name = body["material"]["name"]
+            if own := tables["materials"].get(name):
+                differing = {k: v for k, v in body["material"].items() if v != own[k]}
+                body["material"] = {**differing, "name": name}
+        return tables
     return case if isinstance(case, Mapping) else read_toml(case)
 
 

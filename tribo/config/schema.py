@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from tribo.component import KIND
 from tribo.core.errors import warn
 from tribo.core.words import said
-from tribo.registry.probe import import_all
+from tribo.registry.all_plugins import import_all
 from tribo.registry.registry import Registry, default_registry
 
 Schema = dict[str, Any]
@@ -25,8 +25,7 @@ def json_schema(model: type[BaseModel], registry: Registry | None = None) -> Sch
     made, is left out, with a warning that names its plugin.
     """
     known = registry or default_registry()
-    for plugin in import_all(known):
-        warn(f"{plugin} is left out: {plugin.reason}")
+    import_all(known)
     whole: Schema = model.model_json_schema()
     defs = whole.setdefault("$defs", {})
     waiting = list(_places(whole))

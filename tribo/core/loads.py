@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -12,15 +12,20 @@ from pathlib import Path
 from typing import Annotated, Any, Self
 
 import numpy as np
-from pydantic import Tag, field_validator, model_validator
+from pydantic import Discriminator, Tag, field_validator, model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.number_tables import read_pairs
-from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, check_times, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 
+NUMBER, STAGES = "number", "stages"
+MOST = 10_000
+
+
+ONE_OR_STAGES = Discriminator(lambda value: STAGES if isinstance(value, list | tuple) else NUMBER)
+"""Tells a number from a list of stages, by the tags of these names."""
 FEW = 50
 """Stages of an estimate."""
 FILES = (".csv", ".npy")
@@ -30,6 +35,35 @@ PAUSE = "for a pause give frequency = 0 or speed = 0 in stages"
 NormalLoad = Annotated[float, Quantity("N", above=0, usual=USUAL)]
 ByPosition = tuple[float, ...]
 """Loads at the positions of a cycle, in N."""
+
+
+def listed(value: Any) -> Any:
+    """Return a value of a case; raise ValueError of one stage that is in no list."""
+    if isinstance(value, Mapping):
+        raise ValueError("one table was given; write a list of them: [{ until = …, … }, …]")
+    return value
+
+
+def check_times(times: Sequence[float], what: str) -> None:
+    """Raise ValueError unless the times at which stages of `what` end, in s, increase."""
+    if not times:
+        raise ValueError(
+            f"the list is empty; give a number, or the stages of the {what} up to the end of the "
+            "run"
+        )
+    if times[-1] == 0:
+        raise ValueError(f"give the {what} up to the end of the run")
+    if len(times) > MOST:
+        raise ValueError(
+            f"{len(times)} stages of the {what}, each of which ends a step; give means over longer "
+            f"times, {MOST} at most"
+        )
+    for before, after in pairwise(times):
+        if after <= before:
+            raise ValueError(
+                "times must increase from stage to stage, but "
+                f"{before:g} s is followed by {after:g} s"
+            )
 
 
 class Stage(Table):

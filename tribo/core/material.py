@@ -11,8 +11,8 @@ from typing import Annotated, Any
 
 from pydantic import model_validator
 
-from tribo.core import shorthand
 from tribo.core.errors import CaseError, WrongValues, warn
+from tribo.core.shorthand import call
 from tribo.core.table import Table
 from tribo.core.units import Quantity, quantities
 from tribo.core.words import said
@@ -97,7 +97,7 @@ class Materials:
 
     def tables(self) -> dict[str, dict[str, Any]]:
         """Return what is known of each material, as files such as ``materials.toml`` have it."""
-        files = *shorthand.materials(), Path(__file__).with_name("materials.toml")
+        files = *call("materials"), Path(__file__).with_name("materials.toml")
         return {name: table for file in files for name, table in _read(file).items()}
 
     def known(self, name: str) -> tuple[str, dict[str, Any]]:

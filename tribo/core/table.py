@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import ast
 import inspect
-import linecache
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cache
 from itertools import pairwise
 from textwrap import dedent
@@ -24,6 +23,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
 from tribo.core.explain import case_error, explained
+from tribo.core.units import quantities, stated
 
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass
@@ -106,11 +106,12 @@ def descriptions(table: type[BaseModel]) -> dict[str, str]:
 def _docstrings(cls: type) -> dict[str, str]:
     """Return the docstrings of the fields that a class declares; empty for one without any."""
     try:
-        tree = _declaration(cls)
-    except (OSError, TypeError, SyntaxError, StopIteration):
+        (declaration,) = ast.parse(dedent(inspect.getsource(cls))).body
+    except (OSError, TypeError, SyntaxError, ValueError):
         return {}
+    assert isinstance(declaration, ast.ClassDef)
     texts = {}
-    for declared, after in pairwise([*tree.body, ast.Pass()]):
+    for declared, after in pairwise([*declaration.body, ast.Pass()]):
         if isinstance(declared, ast.AnnAssign) and isinstance(declared.target, ast.Name):
             texts[declared.target.id] = ""
             match after:
@@ -119,12 +120,38 @@ def _docstrings(cls: type) -> dict[str, str]:
     return texts
 
 
-def _declaration(cls: type) -> ast.ClassDef:
-    """Return the source of a class, of one typed into a notebook by that of its first method."""
-    try:
-        text = dedent(inspect.getsource(cls))
-    except (OSError, TypeError):
-        method = next(filter(inspect.isfunction, vars(cls).values()))
-        text = "".join(linecache.getlines(method.__code__.co_filename))
-    found = ast.walk(ast.parse(text))
-    return next(n for n in found if isinstance(n, ast.ClassDef) and n.name == cls.__name__)
+def tree(table: BaseModel) -> str:
+    """Return a table as lines: its numbers beside its name, the tables in it indented below."""
+    return "\n".join(_lines(type(table).__name__, table))
+
+
+def _lines(name: str, value: Any, depth: int = 0) -> Iterator[str]:
+    inside: dict[str, Any] = {}
+    beside = [value.type] if hasattr(value, "type") else []
+    if isinstance(value, BaseModel):
+        fields = type(value).model_fields
+        for key, inner in given(value).items():
+            if _is_table(inner):
+                inside[key] = inner
+            else:
+                beside.append(f"{key} {_text(inner, fields[key])}")
+    else:
+        pairs = value.items() if isinstance(value, Mapping) else enumerate(value)
+        inside = {str(key): inner for key, inner in pairs}
+    yield "  " * depth + f"{name}: {', '.join(beside)}".removesuffix(": ")
+    for key, inner in inside.items():
+        yield from _lines(key, inner, depth + 1)
+
+
+def _is_table(value: Any) -> bool:
+    if isinstance(value, Mapping):
+        return True
+    inner = value[:1] if isinstance(value, tuple) else (value,)
+    return any(isinstance(each, BaseModel) for each in inner)
+
+
+def _text(value: Any, field: Any) -> str:
+    if isinstance(value, tuple):
+        return f"[{', '.join(_text(each, field) for each in value)}]"
+    unit = next((mark.unit for mark in quantities(field)), "1")
+    return stated(value, unit) if isinstance(value, float) else str(value)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.core.dimensions import scale
+from tribo.core.units import scale
 
 _UNITS = {"m": ("mm", "µm", "nm", "pm"), "Pa": ("MPa", "kPa", "Pa")}
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -10,8 +10,8 @@ from math import inf
 from typing import Any
 
 from tribo.core.errors import CaseError
+from tribo.core.loads import check_times
 from tribo.core.rounding import ROUND_OFF
-from tribo.core.stages import check_times
 
 
 @dataclass(frozen=True)

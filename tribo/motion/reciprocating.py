@@ -12,7 +12,7 @@ from pydantic import Field, Tag, field_validator, model_validator
 from tribo.core.errors import CaseError
 from tribo.core.findings import COARSE
 from tribo.core.grid import Grid
-from tribo.core.stages import NUMBER, ONE_OR_STAGES, STAGES, listed
+from tribo.core.loads import NUMBER, ONE_OR_STAGES, STAGES, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.motion.averaging_error import groove_excess, too_deep

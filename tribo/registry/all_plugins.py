@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import Any
 
 from tribo.core.errors import CaseError, warn
 from tribo.core.words import did_you_mean, suggestion
-from tribo.registry.probe import import_all
-from tribo.registry.registry import default_registry
+from tribo.registry.probe import probe_all
+from tribo.registry.registry import Registry, default_registry
 
 
 def choose(hook: str, name: str, words: str, own: Mapping[str, str] | None = None) -> Any:
@@ -32,6 +33,22 @@ def from_all_plugins(hook: str, own: object = None) -> list[Any]:
     One that is broken is named.
     """
     registry = default_registry()
-    for plugin in import_all(registry):
-        warn(f"{plugin} is left out: {plugin.reason}")
+    import_all(registry)
     return registry.ask(hook, own)
+
+
+def import_all(registry: Registry) -> None:
+    """Import every plugin that can be imported, and warn of each that cannot be used.
+
+    A child process imports them first, and what ends it is not imported here.
+    """
+    usable = [plugin for plugin in registry.plugins if plugin.usable]
+    # Where no process can be started, as in a browser, they are imported untried.
+    with suppress(OSError):
+        for plugin, tried in zip(usable, probe_all(usable), strict=True):
+            if not tried.usable:
+                plugin.status, plugin.reason = tried.status, tried.reason
+    registry.load_all()
+    for plugin in registry.plugins:
+        if not plugin.usable and plugin.status != "disabled":
+            warn(f"{plugin} is left out: {plugin.reason}")

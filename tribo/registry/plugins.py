@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -20,8 +19,6 @@ from tribo.registry.hookspecs import GROUP, PROJECT, api_version
 if TYPE_CHECKING:
     from tribo.component import Component
 
-CONTRACT = re.compile(rf"{PROJECT}(?:\.v?(\d+)(?:\..*)?)?")
-"""Groups of the entry points of plugins, for any number of the contract; without one it is 1."""
 DISABLED = "TRIBO_DISABLE_PLUGINS"
 ONLY = "TRIBO_PLUGINS"
 
@@ -104,7 +101,7 @@ def installed() -> list[Plugin]:
     components, to leave out, ``*`` for all; TRIBO_PLUGINS the only ones that may take part.
     """
     found: dict[tuple[str, str], Plugin] = {}
-    declared = [each for each in entry_points(PROJECT) if CONTRACT.fullmatch(each[1].group)]
+    declared = list(entry_points(PROJECT))
     compatible = {distribution.name for distribution, point in declared if point.group == GROUP}
     for distribution, point in declared:
         if point.group != GROUP and distribution.name in compatible:
@@ -116,7 +113,11 @@ def installed() -> list[Plugin]:
             ),
         )
         if point.group != GROUP:
-            plugin.status, plugin.reason = "incompatible", _other_contract(point.group)
+            plugin.status = "incompatible"
+            plugin.reason = (
+                f"its entry points are in the group {point.group!r}, and those of this tribo, of "
+                f"contract {api_version}, in {GROUP!r}; docs/contract.md lists what changed"
+            )
         if point.name == distribution.name:
             continue
         plugin.names += (point.name,)
@@ -128,16 +129,6 @@ def installed() -> list[Plugin]:
     plugins = [found[key] for key in sorted(found)]
     _choose(plugins)
     return plugins
-
-
-def _other_contract(group: str) -> str:
-    """Return why a plugin cannot be used whose entry points are in this group."""
-    match = CONTRACT.fullmatch(group)
-    number = (match and match[1]) or 1
-    return (
-        f"it speaks contract {number} (entry points {group!r}), and this tribo contract "
-        f"{api_version} ({GROUP!r}); docs/contract.md lists what changed and what to do"
-    )
 
 
 def _choose(plugins: list[Plugin]) -> None:
@@ -185,7 +176,7 @@ def undeclared() -> list[str]:
             needed = [Requirement(text) for text in distribution.requires or () if applies(text)]
             groups = distribution.entry_points.groups
             requires_us = PROJECT in [requirement.name.lower() for requirement in needed]
-            if requires_us and not any(CONTRACT.fullmatch(each) for each in groups):
+            if requires_us and not any(f"{each}.".startswith(f"{PROJECT}.") for each in groups):
                 found.add(f"{distribution.name} {distribution.version}")
     return [
         f"{which} requires tribo but declares no plugin; if it is one, add an entry point to the "

@@ -10,6 +10,8 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Set
 from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
 from functools import cache, partial
+from importlib.util import find_spec
+from pathlib import Path
 from traceback import walk_tb
 from typing import TYPE_CHECKING, Any
 
@@ -179,11 +181,10 @@ class Registry:
             raise CaseError(f"{words} {name!r} cannot be used: {why}")
         return None
 
-    def load_all(self) -> list[Plugin]:
-        """Import every plugin that is not disabled, and return those that cannot be used."""
+    def load_all(self) -> None:
+        """Import every plugin that is not disabled."""
         for plugin in self.plugins:
             self.load(plugin)
-        return [p for p in self.plugins if not p.usable and p.status != "disabled"]
 
     def providers(self, fields: set[str]) -> list[str]:
         """Return the effects of imported plugins that provide any of `fields`, as text."""
@@ -273,6 +274,16 @@ class Registry:
 def default_registry() -> Registry:
     """Return the registry of the built-in and the installed plugins."""
     return Registry([builtin(), *installed()])
+
+
+def material_files() -> list[Path]:
+    """Return the files ``materials.toml`` of installed packages, none of which is imported."""
+    usable = (p for p in default_registry().plugins if p.usable and p.origin == "installed")
+    specs = map(find_spec, sorted({plugin.entry_point.partition(".")[0] for plugin in usable}))
+    files = (
+        Path(spec.origin).with_name("materials.toml") for spec in specs if spec and spec.origin
+    )
+    return [file for file in files if file.is_file()]
 
 
 def _item(hook: str, item: object) -> object:

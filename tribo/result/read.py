@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from tribo.core import shorthand
 from tribo.core.arrays import Array
 from tribo.core.column import labelled
 from tribo.core.contact import ContactSystem
@@ -20,6 +19,7 @@ from tribo.core.findings import Finding
 from tribo.core.grid import Grid
 from tribo.core.hdf5 import open_hdf5
 from tribo.core.rounding import ROUND_OFF
+from tribo.core.shorthand import call
 from tribo.core.words import did_you_mean, suggestion
 from tribo.result import checks
 from tribo.result.body import BodyResult, checked_save
@@ -152,7 +152,7 @@ class Result:
     @property
     def case(self) -> Case:
         """The case that was run; `CaseError` if a package or a class of one's own is missing."""
-        case: Case = shorthand.case(self.case_tables)
+        case: Case = call("case", self.case_tables)
         return case
 
     @property
@@ -326,32 +326,33 @@ class Result:
 
     def report(self) -> LabReport:
         """Return what a laboratory would measure of the result."""
-        report: LabReport = shorthand.report(self)
+        report: LabReport = call("report", self)
         return report
 
     def show(self) -> None:
         """Print the saves and what a lab would report, as ``tribo show`` does."""
-        shorthand.show(self)
+        call("show", self)
 
     @property
     def plot(self) -> Plot:
         """Pictures: ``plot("folder")`` writes all, ``plot.scar("ball")`` draws one on axes."""
-        pictures: Plot = shorthand.plot(self)
+        pictures: Plot = call("plot", self)
         return pictures
 
     def picture(self, name: str) -> Figure:
         """Draw the picture of a file that `plot` writes, such as ``"ball_scar"``."""
-        figure: Figure = shorthand.picture(self, name)
+        figure: Figure = call("picture", self, name)
         return figure
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return a row for each saved time, as `show` prints them: ``"p max (MPa)"``."""
-        table: pd.DataFrame = shorthand.dataframe(self)
+        table: pd.DataFrame = call("saves", self).to_dataframe()
         return table
 
     def _repr_html_(self) -> str:
         """Show the saves and the pressure in a notebook."""
-        return shorthand.html(self)
+        page: str = call("html", self)
+        return page
 
     def totals(self) -> Mapping[str, Any]:
         """Return what the run cost: solves, iterations, steps and `wall_time`."""

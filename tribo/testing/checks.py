@@ -13,8 +13,8 @@ import numpy as np
 
 from tribo.component import Component, components
 from tribo.core.arrays import Array
-from tribo.core.dimensions import scale
 from tribo.core.fields import Field
+from tribo.core.units import scale
 from tribo.guards.answers import answers_of
 from tribo.testing.child import Lost, Unknown, child
 from tribo.testing.compare import (

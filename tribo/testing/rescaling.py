@@ -10,10 +10,9 @@ from typing import Any, TypeVar, get_args, get_origin
 import numpy as np
 from pydantic import BaseModel
 
-from tribo.core.dimensions import scale
 from tribo.core.fields import Field
 from tribo.core.material import Material
-from tribo.core.units import parts, quantities
+from tribo.core.units import parts, quantities, scale
 from tribo.testing.compare import NotApplicable, mapped
 
 T = TypeVar("T")
