@@ -23,6 +23,7 @@ from tribo.testing.compare import (
     expect_close,
     first_difference,
     locked,
+    mapped,
     renamed,
     require,
     values_in,
@@ -216,6 +217,18 @@ class Checks(ABC):
                 require(exact, f"{where} is in {kind}; answer in double precision")
             where = first_difference(first, answer)
             require(where is None, f"{where}, an answer, was changed as others were asked for")
+
+    def bodies_may_have_any_names(self) -> None:
+        """Nothing depends on names and order of the bodies but by what its configuration names."""
+        others = self._among(OTHER_NAMES)
+        for given, named in zip(self._samples(), others._samples(), strict=True):
+            usual = renamed(self._call(self._make(), given), BODIES, OTHER_NAMES)
+            for how, asked in (
+                (f"are called {OTHER_NAMES}", named),
+                ("change places", locked(mapped(named, lambda _, value: value, order=reversed))),
+            ):
+                where = first_difference(others._call(others._make(), asked), usual)
+                require(where is None, f"{where} changes when the bodies {how}")
 
     def units_may_be_rescaled(self) -> None:
         """In other units of length, mass, time and temperature it answers the same."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -15,7 +15,7 @@ from tribo.core.grid import Grid
 from tribo.guards.parts import GuardedSolver
 from tribo.stepping.explicit import Explicit
 from tribo.testing import samples
-from tribo.testing.checks import BODIES, Checks
+from tribo.testing.checks import Checks
 from tribo.testing.compare import apply_if, expect_close, locked, require
 from tribo.testing.samples import GRID, LOAD, ball, problem
 
@@ -36,7 +36,8 @@ class ContactSolverChecks(Checks):
     _exactness = TOLERANCE
 
     def _inputs(self, component: Any, number: int) -> dict[str, Any]:
-        asked = replace(problem(solver=self._config), load=LOAD * (1 + number))
+        asked = problem(names=self._bodies, solver=self._config)
+        asked = replace(asked, load=LOAD * (1 + number))
         return {"problem": asked, "start": None if number else self._solve(load=0.9 * LOAD)}
 
     def _call(self, component: Any, inputs: Any) -> Mapping[str, Any]:
@@ -49,11 +50,10 @@ class ContactSolverChecks(Checks):
         *,
         hardness: float | None = None,
         grid: Grid = GRID,
-        names: Sequence[str] = BODIES,
         **other: Any,
     ) -> ContactSolution:
         """Return the solution of a sample problem by a new, guarded solver, checked first."""
-        solver, asked = GuardedSolver(self._make()), problem(hardness, grid, names, self._config)
+        solver, asked = GuardedSolver(self._make()), problem(hardness, grid, solver=self._config)
         solver.component.check(asked.system)
         return locked(solver.solve(locked(replace(asked, **other)), start))
 
@@ -101,10 +101,6 @@ class ContactSolverChecks(Checks):
         expect_close("pressure on a lifted gap", lifted.pressure, usual, TOLERANCE)
         rise = lifted.approach - self._plain.approach
         expect_close("approach by what is added to the gap", rise, lift, TOLERANCE)
-
-    def bodies_may_have_any_names(self) -> None:
-        """Nothing depends on what the bodies are called."""
-        self._expect_pressure("under other names", self._plain.pressure, names=("upper", "lower"))
 
     def finer_cells_change_little(self) -> None:
         """On cells half as long and wide the same contact has its peak pressure and approach."""

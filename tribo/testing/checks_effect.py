@@ -16,7 +16,7 @@ from tribo.effects.effect import Effect
 from tribo.guards.answers import initial
 from tribo.guards.parts import GuardedEffect
 from tribo.testing import samples
-from tribo.testing.checks import BODIES, OTHER_NAMES
+from tribo.testing.checks import BODIES
 from tribo.testing.checks_local import LocalChecks
 from tribo.testing.compare import (
     apply_if,
@@ -24,7 +24,6 @@ from tribo.testing.compare import (
     first_difference,
     locked,
     mapped,
-    renamed,
     require,
     values_in,
 )
@@ -85,30 +84,6 @@ class EffectChecks(LocalChecks):
             for at in (given, *turns, _gone_far(effect, given), self._old(given)):
                 effect.fields(replace(at, wear_rates={}))
                 effect.state_rates(at)
-
-    def bodies_may_have_any_names(self) -> None:
-        """Nothing depends on names and order of the bodies but by what its configuration names."""
-        usual = self._call(self._make(), self._sample())
-        others = self._among(OTHER_NAMES)
-        effect, given = others._guarded().component, others._sample()
-        served = samples.served(self._make(), self._sample())
-        require(
-            samples.served(effect, given) == served,
-            f"some contact is refused only if the bodies are called {OTHER_NAMES}, or {BODIES}",
-        )
-        turned = replace(
-            given,
-            system=replace(given.system, materials=_turned(given.materials)),
-            wear_rates=_turned(given.wear_rates),
-            fields={name: _turned(values) for name, values in given.fields.items()},
-        )
-        for asked, how in ((given, f"are called {OTHER_NAMES}"), (turned, "change places")):
-            answers = renamed(self._call(effect, asked), OTHER_NAMES, BODIES)
-            for name, usual_name in zip(OTHER_NAMES, BODIES, strict=True):
-                # A state may have the name of a body in its own.
-                answers = {key.replace(name, usual_name): of for key, of in answers.items()}
-            changed = first_difference(answers, usual)
-            require(not changed, f"{changed} changes when the bodies {how}")
 
     def larger_window_has_the_same_fields(self) -> None:
         """A wider rim round the contact, without pressure, changes nothing within."""
@@ -304,10 +279,6 @@ def _even(given: ContactConditions) -> ContactConditions:
     """Return conditions with fields that are alike at all points: what follows Σ μ p follows Σp."""
     even = mapped(given.fields, lambda _, values: np.full_like(values, np.mean(values)))
     return replace(given, fields=even)
-
-
-def _turned(of_bodies: Mapping[str, Any]) -> dict[str, Any]:
-    return dict(reversed([*of_bodies.items()]))
 
 
 def _gone_far(effect: GuardedEffect, given: ContactConditions) -> ContactConditions:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any
 
@@ -16,7 +16,7 @@ from tribo.guards.motion import GuardedMotion
 from tribo.motion.exposure import Exposure
 from tribo.testing import samples
 from tribo.testing.checks import BODIES, OTHER_NAMES, Checks
-from tribo.testing.compare import CheckFailed, apply_if, expect_close, renamed, require
+from tribo.testing.compare import apply_if, expect_close, renamed, require
 from tribo.testing.rescaling import renewed
 from tribo.testing.samples import GRID
 
@@ -48,7 +48,7 @@ class KinematicsChecks(Checks):
             "rest": np.array([position.rest for position in cycle]),
             "speeds": np.array([v for position in cycle for v, _ in position.speeds or ()]),
         }
-        for name, exposure in component.exposures(inputs["grid"], BODIES).items():
+        for name, exposure in component.exposures(inputs["grid"], self._bodies).items():
             worn = exposure.gather(inputs["rate"], 0)
             own = exposure.lay(inputs["own"], 0)
             answers[name] = {
@@ -60,11 +60,9 @@ class KinematicsChecks(Checks):
             }
         return answers
 
-    def _exposures(
-        self, grid: Grid = GRID, bodies: Sequence[str] = BODIES
-    ) -> Mapping[str, Exposure]:
+    def _exposures(self, grid: Grid = GRID) -> Mapping[str, Exposure]:
         motion = GuardedMotion(self._make())
-        return motion.exposures(grid, bodies, len(motion.cycle(grid)))
+        return motion.exposures(grid, BODIES, len(motion.cycle(grid)))
 
     def answers_fit_a_run(self) -> None:
         """It slides on from 0 to an end, and each body lies below the window at each position.
@@ -148,18 +146,6 @@ class KinematicsChecks(Checks):
             # Where tracks differ in length, the mean of two is near that of one in the middle.
             four = np.broadcast_to(split, fine.cells).reshape(nx, 2, ny, 2).mean(axis=(1, 3))
             expect_close(f"{name!r}: average on cells of half the size", four, needed, 1e-6)
-
-    def bodies_may_have_any_names(self) -> None:
-        """Nothing depends on what the bodies are called but by what its configuration names."""
-        rate = samples.hertz_pressure(GRID)
-        others = self._among(OTHER_NAMES)
-        try:
-            exposures = others._exposures(bodies=OTHER_NAMES)
-        except CaseError as error:
-            raise CheckFailed(f"bodies called {OTHER_NAMES} are refused: {error}") from error
-        for name, usual in zip(OTHER_NAMES, self._exposures().values(), strict=True):
-            found = exposures[name].average(rate)
-            expect_close(f"average of a body called {name!r}", found, usual.average(rate), 0.0)
 
     def bodies_change_places_as_named(self) -> None:
         """The body called `swept` moves; if it is the other, each meets what the other met."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
 from types import MappingProxyType
 from typing import Any, TypeVar
@@ -14,6 +14,7 @@ from tribo.core.arrays import Array
 T = TypeVar("T")
 
 _AS_THEY_ARE: Mapping[str, str] = MappingProxyType({})
+Order = Callable[[list[Any]], Iterable[Any]]
 
 
 class CheckFailed(AssertionError):
@@ -41,22 +42,23 @@ def mapped(
     change: Callable[[tuple[Any, ...], Any], Any],
     names: Mapping[str, str] = _AS_THEY_ARE,
     path: tuple[Any, ...] = (),
+    order: Order = iter,
 ) -> T:
     """Return a copy of nested dataclasses, mappings and sequences with other values.
 
     Each value is what `change` makes of the keys that lead to it and of itself. Keys that are
-    among `names` are replaced.
+    among `names` are replaced, and mappings have another `order`.
     """
     new: Any = value
     if isinstance(value, Mapping):
-        items = ((names.get(key, key), inner) for key, inner in value.items())
-        new = {key: mapped(inner, change, names, (*path, key)) for key, inner in items}
+        items = [(names.get(key, key), inner) for key, inner in value.items()]
+        new = {key: mapped(of, change, names, (*path, key), order) for key, of in order(items)}
     elif isinstance(value, list | tuple):
         numbered = enumerate(value)
-        new = type(value)(mapped(inner, change, names, (*path, at)) for at, inner in numbered)
+        new = type(value)(mapped(of, change, names, (*path, at), order) for at, of in numbered)
     elif is_dataclass(value) and not isinstance(value, type):
         inner = {part.name: getattr(value, part.name) for part in fields(value) if part.init}
-        new = replace(value, **mapped(inner, change, names, path))
+        new = replace(value, **mapped(inner, change, names, path, order))
     else:
         new = change(path, value)
     return new  # type: ignore[no-any-return]

@@ -25,7 +25,6 @@ from tribo.testing.checks_surface import SurfaceChecks
 from tribo.testing.checks_wear_law import WearLawChecks
 from tribo.testing.child import Lost, Unknown, child
 from tribo.testing.compare import CheckFailed, NotApplicable
-from tribo.testing.likely import LIKELY
 from tribo.testing.process import process_restored
 
 SUITES: Mapping[str, type[Checks]] = MappingProxyType(
@@ -315,8 +314,7 @@ def _outcome(checks: Checks, name: str) -> Outcome:
     except NotApplicable as reason:
         return _came(checks, name, "not applicable", str(reason))
     except CheckFailed as fault:
-        likely = f" (often: {LIKELY[name]})" if name in LIKELY else ""
-        return _came(checks, name, "failed", " ".join(str(fault).split()) + likely)
+        return _came(checks, name, "failed", " ".join(str(fault).split()))
     except KeyboardInterrupt:
         raise
     except BaseException as error:
