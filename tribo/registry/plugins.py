@@ -136,7 +136,7 @@ def _other_contract(group: str) -> str:
     number = (match and match[1]) or 1
     return (
         f"it speaks contract {number} (entry points {group!r}), and this tribo contract "
-        f"{api_version} ({GROUP!r}); docs/contract.md lists what changed and what to do"
+        f"{api_version} ({GROUP!r}); docs/reference/contract.md lists what changed and what to do"
     )
 
 
