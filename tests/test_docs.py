@@ -49,7 +49,9 @@ def test_the_page_of_public_names_is_up_to_date(monkeypatch):
     monkeypatch.syspath_prepend(DOCS / "support")
     names = import_module("public_names")
     up_to_date = names.PAGE.read_text(encoding="utf-8") == "\n".join(names.page())
-    assert up_to_date, f"docs/reference/plugin_api.md is not what is in the code; renew it: {names.COMMAND}"
+    assert up_to_date, (
+        f"docs/reference/plugin_api.md is not what is in the code; renew it: {names.COMMAND}"
+    )
 
 
 @pytest.mark.parametrize("hook", HOOKS)
