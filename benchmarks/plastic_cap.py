@@ -2,8 +2,8 @@
 
     python benchmarks/plastic_cap.py
 
-It prints the table of docs/models.md: area, mean pressure and depth that is left of a steel ball of
-5 mm with H = 2.8 Y = 4 GPa, at multiples of the load of first yield. The fits are
+It prints the table of docs/reference/models/hardness.md: area, mean pressure and remaining depth of
+a steel ball of 5 mm with H = 2.8 Y = 4 GPa, at multiples of the load of first yield. The fits are
 
 - area and load: Jackson & Green (2005), J. Tribol. 127, 343;
 - the depth left after unloading: Etsion, Kligerman & Kadin (2005), Int. J. Solids Struct. 42, 3716,

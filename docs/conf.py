@@ -80,6 +80,6 @@ def setup(app: Sphinx) -> None:
 
 def _prepare() -> None:
     reference.write(DOCS / "_generated")
-    for page in (DOCS.parent / "plugins").glob("*/docs/*.md"):
-        shutil.copy(page, DOCS / page.name)
+    for pages in (DOCS.parent / "plugins").glob("*/docs"):
+        shutil.copytree(pages, DOCS, dirs_exist_ok=True)
     shutil.copytree(DOCS.parent / "examples" / "notebooks", DOCS / "notebooks", dirs_exist_ok=True)

@@ -37,7 +37,7 @@ MODELS = {cls.__name__ for cls in BUILT_IN} & {*tribo.__all__}
 
 @pytest.mark.parametrize("name", sorted(MODELS))
 def test_every_built_in_model_is_on_the_page_on_python(name):
-    assert f":: tribo.{name}\n" in (DOCS / "api.md").read_text()
+    assert f":: tribo.{name}\n" in (DOCS / "reference" / "python.md").read_text()
 
 
 def test_every_unit_is_one_of_the_package_or_of_its_units():
@@ -49,13 +49,15 @@ def test_the_page_of_public_names_is_up_to_date(monkeypatch):
     monkeypatch.syspath_prepend(DOCS / "support")
     names = import_module("public_names")
     up_to_date = names.PAGE.read_text(encoding="utf-8") == "\n".join(names.page())
-    assert up_to_date, f"docs/plugin_api.md is not what is in the code; renew it: {names.COMMAND}"
+    assert up_to_date, (
+        f"docs/reference/plugin_api.md is not what is in the code; renew it: {names.COMMAND}"
+    )
 
 
 @pytest.mark.parametrize("hook", HOOKS)
 def test_every_hook_is_documented_in_a_line_and_on_the_page_on_plugins(hook):
     assert len(inspect.getdoc(getattr(hookspecs, hook)).splitlines()) == 1
-    assert f"`{hook}" in (DOCS / "plugins.md").read_text()
+    assert f"`{hook}" in (DOCS / "reference" / "plugin_interface.md").read_text()
 
 
 @pytest.mark.parametrize("cls", BUILT_IN, ids=lambda c: c.type)

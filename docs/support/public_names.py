@@ -20,7 +20,7 @@ import tribo.units
 from tribo.core.lazy import homes
 from tribo.core.table import _docstrings
 
-PAGE = Path(__file__).parents[1] / "plugin_api.md"
+PAGE = Path(__file__).parents[1] / "reference" / "plugin_api.md"
 COMMAND = "python docs/support/public_names.py"
 WIDTH = 96
 SPECIAL = ("__call__", "__getitem__")

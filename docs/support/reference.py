@@ -203,7 +203,7 @@ def _components(registry: Registry, kind: str, heading: str) -> Iterator[str]:
     names = registry.names(kind)
     if not names:
         words = kind.replace("_", " ")
-        yield f"No {words} comes with tribo; a [plugin](plugins.md) may offer one.\n"
+        yield f"No {words} comes with tribo; a [plugin](../howto/write_law.md) may offer one.\n"
     for name in names:
         cls = registry.lookup(kind, name)
         yield f'{heading} `type = "{name}"`\n'

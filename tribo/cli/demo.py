@@ -13,7 +13,7 @@ RESOLVED = ("kinematics.positions=33", "grid.cells=64")
 AVERAGE = """\
 This is the paper's model: it averages the disk's wear over the stroke.
 The same hour follows, with the cycle resolved into 33 positions along the stroke,
-on 64² cells; it takes ten to thirty seconds. docs/paper.md explains what differs
+on 64² cells; it takes ten to thirty seconds. docs/understand/paper.md explains what differs
 ("What the average costs")."""
 
 LIKE = {

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 PROJECT = "tribo"
 """Name of the plugin manager."""
 api_version = 2
-"""Number of the contract between tribo and its plugins; docs/contract.md lists what changed."""
+"""Number of the contract between tribo and its plugins (docs/reference/contract.md)."""
 GROUP = f"{PROJECT}.{api_version}"
 """Group of the entry points of plugins."""
 
