@@ -116,7 +116,7 @@ def installed() -> list[Plugin]:
             plugin.status = "incompatible"
             plugin.reason = (
                 f"its entry points are in the group {point.group!r}, and those of this tribo, of "
-                f"contract {api_version}, in {GROUP!r}; docs/reference/contract.md lists what changed"
+                f"contract {api_version}, in {GROUP!r}; see docs/reference/contract.md"
             )
         if point.name == distribution.name:
             continue
