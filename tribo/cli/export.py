@@ -41,9 +41,9 @@ def export(output: Path, directory: Path | None, name: str, columns: str | None)
     from tribo.result.export import si_tables, write_tables
     from tribo.result.read import Result
 
-    if columns and name not in OWN:
-        raise CaseError(f"they are of lab.csv, and {name} has its own; leave out one", "--columns")
     write = None if name in OWN else choose("tribo_export_formats", name, "format", OWN).write
+    if write and columns:
+        raise CaseError(f"they are columns of lab.csv, which {name} has not", "--columns")
     folder = directory or output.with_name(f"{output.stem}-{name}")
     with Result.open(output) as result:
         lab = saves_table(result).to_dataframe()
