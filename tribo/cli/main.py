@@ -138,7 +138,6 @@ def main() -> None:
 
 
 def _told(error: Exception) -> tuple[str, int]:
-    """Return the message and the exit code of an error."""
     if isinstance(error, TriboError):
         return "\n".join([str(error), *getattr(error, "__notes__", ())]), error.exit_code
     if isinstance(error, RecursionError):

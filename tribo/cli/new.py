@@ -48,7 +48,6 @@ def new(name: str | None, file: Path | None, force: bool) -> None:
 
 
 def _next(text: str, file: Path) -> str:
-    """Return the command that takes a file of such a text."""
     tables = tomllib.loads(text)
     if "measured" in tables:
         return f"tribo calibrate CASE --measured {file}"

@@ -126,16 +126,14 @@ def _progress(total: int) -> Iterator[Callable[[str], None]]:
 
 
 def _tables(rows: Sequence[Row]) -> Iterator[DataTable]:
-    """Yield a table for each case, with a row for each quantity."""
     import numpy as np
 
     from tribo.core.data_table import DataTable, Heading, TableRow
     from tribo.lab.units import shown_in
 
-    headings = (
-        *(Heading("quantity"), Heading("expected", form=".5g"), Heading("got", form=".5g")),
-        *(Heading("error", form=".1e"), Heading("order"), Heading("verdict")),
-    )
+    forms = {"quantity": "", "expected": ".5g", "got": ".5g", "error": ".1e"}
+    forms |= {"order": "", "verdict": ""}
+    headings = [Heading(label, form=form) for label, form in forms.items()]
     for title, group in groupby(rows, lambda row: f"{row.case}: {row.title}, {row.source}"):
         lines = []
         for row in group:
@@ -154,15 +152,9 @@ def _study_table(study: Refinement) -> DataTable:
     from tribo.core.data_table import DataTable, Heading, TableRow
     from tribo.lab.units import shown_in
 
-    headings = (
-        *(Heading("quantity"), Heading("value", form=".5g"), Heading("±", form=".1e")),
-        *(
-            Heading("%", form=".2f"),
-            Heading("grid"),
-            Heading("GCI %", form=".2f"),
-            Heading("steps"),
-        ),
-    )
+    forms = {"quantity": "", "value": ".5g", "±": ".1e", "%": ".2f"}
+    forms |= {"grid": "", "GCI %": ".2f", "steps": ""}
+    headings = [Heading(label, form=form) for label, form in forms.items()]
     rows = []
     for each in study.estimates:
         quoted, gci = each.uncertainty, each.grid.gci

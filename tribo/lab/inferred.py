@@ -118,7 +118,6 @@ def track_section(result: Result, body: BodyResult, save: int = -1) -> float | N
 
 
 def _ball_and_flat(result: Result) -> tuple[BodyResult, BodyResult, float] | None:
-    """Return a round body, the plane one and the radius, if they are that."""
     curvature = result.system.curvature
     bodies = sorted(map(result.body, result.body_names), key=lambda body: np.ptp(body.height))
     flat, ball = bodies

@@ -129,11 +129,6 @@ def history_names(result: Result) -> list[str]:
 
 
 def _wear(result: Result) -> list[TimePanel]:
-    """Return the volume and the mass that each body has lost; without densities no mass.
-
-    Markers are the saves; a line joins them where there are steps between, or
-    more than two.
-    """
     table = result.table("history")
     time = table["time_s"]
     looks = dict(zip(result.body_names, BODIES, strict=True))
@@ -159,7 +154,6 @@ def _wear(result: Result) -> list[TimePanel]:
 
 
 def _contact(result: Result) -> list[TimePanel]:
-    """Return the largest and central pressure, both widths to a cell, and the area."""
     table = with_rests(result)
     if len(table["time_s"]) < 2:
         return []
@@ -189,7 +183,6 @@ def _friction(result: Result) -> list[TimePanel]:
 
 
 def _roughness(result: Result) -> list[TimePanel]:
-    """Return the root mean square height Sq of rough bodies within the contact."""
     table = result.table("history")
     columns = {name: f"bodies.{name}.Sq_m" for name in rough_bodies(result)}
     if len(table["time_s"]) < 2 or not columns:
@@ -222,7 +215,6 @@ def _columns(
     scale: Callable[[Axes, Array], None] = _fit_scale,
     factor: float = 1.0,
 ) -> TimePanel:
-    """Return columns of the history by label."""
     curves = {label: (table["time_s"], factor * table[name]) for label, name in names.items()}
     return TimePanel(what, unit, curves, looks, scale)
 

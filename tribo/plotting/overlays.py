@@ -67,7 +67,6 @@ def comparison_picture(results: Results, time: float, parts: Sequence[str] | Non
 
 
 def _grids(results: Results) -> str:
-    """Return the cells of each result where they differ."""
     cells = dict.fromkeys(" × ".join(map(str, result.grid.cells)) for result in results.values())
     return f"; grids differ: {', '.join(cells)} cells" if len(cells) > 1 else ""
 

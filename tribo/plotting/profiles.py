@@ -154,7 +154,6 @@ def _fill(words: Sequence[str], axes: Axes) -> Sequence[Artist]:
 
 
 def _scar(name: str, gone: Array) -> str:
-    """Return a body's name and how deep its scar is."""
     return f"{name}: {_deep(gone)} deep" if np.any(gone > 0) else name
 
 

@@ -217,6 +217,5 @@ class ValidationCase:
 
 
 def _each(lists: Mapping[str, tuple[Any, ...]]) -> list[dict[str, Any]]:
-    """Return the settings of each level; none of a case without levels."""
     rows = zip(*lists.values(), strict=True)
     return [dict(zip(lists, row, strict=True)) for row in rows] or [{}]
