@@ -16,7 +16,7 @@ from tribo.core.errors import CaseError
 def materials(name: str | None, as_json: bool) -> None:
     """List the materials that a case may name, or the numbers of NAME with their sources.
 
-    What is no NAME lists the materials that have it in their name or description.
+    A word that is no NAME lists the materials with it in their name or description.
     Of a range a case takes the middle, if no value is said to be taken. Wear rates
     are shown for comparison; a case takes none of them.
 
