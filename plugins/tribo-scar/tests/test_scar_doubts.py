@@ -48,17 +48,6 @@ def test_a_volume_that_lies_in_a_gap_is_told(missing, told):
     assert off > 0.2 if told else off < 0.1
 
 
-@pytest.mark.filterwarnings("ignore:pixels are missing where the scar is deepest")
-def test_pixels_that_are_missing_here_and_there_are_no_gap_however_many():
-    x, y = Grid(120 * PITCH, 120).mesh
-    lost = 1e-6 * np.maximum(1 - (x**2 + y**2) / (28 * PITCH) ** 2, 0)
-    random = np.random.default_rng(0)
-    after = np.where(random.random(lost.shape) < 0.8, np.nan, -lost)
-    after += random.normal(0, 1e-8, lost.shape)
-    found = measured_scar(Flat(), Heights(after, (PITCH, PITCH)))
-    assert abs(found.volume / (PITCH**2 * np.sum(lost)) - 1) < 0.02
-
-
 @pytest.mark.parametrize("powers", [(4, 0), (2, 2)])
 def test_a_form_of_fourth_order_is_told(powers):
     """Legendre's, of which a curvature takes nothing off: volumes are off by 12 to 14 %."""

@@ -151,10 +151,9 @@ class PartialSlip(Effect, Drive):
             return
         ring = slipping / (np.pi / 8 * (_faces(pressed) + _faces(stuck)))
         if ring < NARROW:
-            words = f"the ring of slip is {ring:.2g} cells wide" if slipping else "all sticks"
             raise CaseError(
-                f"{words}; it must be {NARROW:g} cells wide at least: take a larger amplitude, or "
-                "smaller cells",
+                f"the ring of slip is {ring:.2g} cells wide; it must be {NARROW:g} cells wide at "
+                "least: take a larger amplitude, or smaller cells",
                 path,
             )
 

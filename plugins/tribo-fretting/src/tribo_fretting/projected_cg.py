@@ -11,6 +11,8 @@ from tribo_fretting.cerruti import Cerruti
 
 ON_RIM = 1e-12
 """Relative distance from the rim of its disc within which a traction is on it."""
+MOST = 500
+"""Iterations."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +36,6 @@ def dragged(
     limit: Array,
     start: Array | None = None,
     tolerance: float = 1e-9,
-    max_iterations: int = 500,
 ) -> Drag:
     """Minimise ½ qᵀA q − δ Σ qₓ over |q| ≤ μp in each cell.
 
@@ -55,8 +56,11 @@ def dragged(
         A traction to start from; if left out, 0, or μp along x where all points slip under that.
     tolerance : float
         What the slip within the discs and along their rims must fall to, relative to δ.
-    max_iterations : int
-        `NumericalError` after that many.
+
+    Raises
+    ------
+    NumericalError
+        After `MOST` iterations.
     """
     drive = np.zeros((operator.components, 1, 1))
     drive[0] = displacement
@@ -71,7 +75,7 @@ def dragged(
     moved = operator.apply(q)
     direction = before = None
     was_sliding, decrease = np.zeros_like(pressed), 1.0
-    for iteration in range(max_iterations + 1):
+    for iteration in range(MOST + 1):
         slip = drive - moved
         normal = q / safe
         outward = np.sum(slip * normal, axis=0)
@@ -98,7 +102,7 @@ def dragged(
         # Where no cell left its disc the displacement is known.
         moved = moved + length * response if np.array_equal(q, ahead) else operator.apply(q)
     raise NumericalError(
-        f"partial slip did not converge in {max_iterations} iterations: slip is off by "
+        f"partial slip did not converge in {MOST} iterations: slip is off by "
         f"{error / displacement:.1e} of the displacement, allowed are {tolerance:.1e}; raise "
         "kinematics.tolerance"
     )

@@ -9,10 +9,10 @@ from tribo import Array, ContactConditions, Mask, NumericalError
 
 from tribo_fretting.cerruti import Cerruti, cerruti, tangential_compliances
 from tribo_fretting.drive import Drive
-from tribo_fretting.projected_cg import Drag, tangent
+from tribo_fretting.projected_cg import MOST, Drag, tangent
 
-TOLERANCE, MOST = 1e-12, 500
-"""Residual of the linear solve, relative to its right side, and iterations to that."""
+TOLERANCE = 1e-12
+"""Residual of the linear solve, relative to its right side."""
 
 
 def pulled_back(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 import scipy.fft
@@ -23,17 +22,11 @@ SIGNIFICANT = 8.0
 """Correlation, in standard deviations, that is not chance."""
 
 
-class Alignment(NamedTuple):
-    """How the map after lies on that before."""
-
-    shift: Array
-    """Of its middle from that of the map before, in m, shape (2,)."""
-    rotation: float
-    """Anticlockwise, in rad."""
-
-
-def align(before: Heights, after: Heights) -> Alignment:
+def align(before: Heights, after: Heights) -> tuple[Array, float]:
     """Return how the map after lies on that before, to about a pixel.
+
+    The shift of its middle from that of the map before, shape (2,), in m, and its rotation,
+    anticlockwise, in rad.
 
     References
     ----------
@@ -66,7 +59,7 @@ def align(before: Heights, after: Heights) -> Alignment:
             best = (float(score[at]), off, angle)
     _, shift, angle = best
     # The map before was rotated about its own middle.
-    return Alignment(rotation(angle) @ shift * factor * np.array(after.pitch), angle)
+    return rotation(angle) @ shift * factor * np.array(after.pitch), angle
 
 
 def rotation(angle: float) -> Array:

@@ -97,8 +97,8 @@ def register(before: Heights, after: Heights, form: int = 1) -> Registration:
 
     Fits a shift, a rotation about z and a polynomial form of order `form` in x and y to the unworn
     surface, by least squares with Tukey's weights. The scar is detected and left out. The fit
-    starts from `align`. Directions of shift and
-    rotation that the relief does not determine, as on smooth bodies, are not fitted.
+    starts from `align`. Directions of shift and rotation that the relief does not determine, as on
+    smooth bodies, are not fitted.
 
     Raises
     ------
@@ -119,8 +119,7 @@ def register(before: Heights, after: Heights, form: int = 1) -> Registration:
             f"the map before has a pixel every {first}, and that after every {second}; measure or "
             "resample them alike"
         )
-    start = align(before, after)
-    fit = _Fit(before, after, form, start.shift, start.rotation)
+    fit = _Fit(before, after, form, *align(before, after))
     fit.run()
     if not fit.determined.size:
         fit = _Fit(before, after, form, np.zeros(2), 0.0)
