@@ -50,12 +50,13 @@ SLOTS = {"contact_solver": "contact"}
 
 
 class Bad(NamedTuple):
-    """A faulty class, what the message about it holds, its exit code, whether a file is left."""
+    """A faulty class, the words of its message, its exit code, whether a file is left, its case."""
 
     cls: Any
     words: str
     code: int
     saved: bool
+    case: dict[str, str]
 
 
 class Zoo:
@@ -64,11 +65,11 @@ class Zoo:
     def __init__(self):
         self.kept = []
 
-    def bad(self, name, base, words="", code=3, saved=False, **parts):
-        """Keep a class zoo.name that differs from `base` by some parts."""
+    def bad(self, name, base, words="", code=3, saved=False, case=(), **parts):
+        """Keep a class zoo.name that differs from `base` by some parts, and where it shows."""
         own = {"__module__": __name__, "type": f"zoo.{name}"}
         cls = type(name, (base,), {**own, **parts})
-        self.kept.append(Bad(cls, words, code, saved))
+        self.kept.append(Bad(cls, words, code, saved, dict(case)))
         return cls
 
     @property

@@ -1,8 +1,8 @@
-"""A name for a plugin of every kind."""
+"""A name for a plugin of every kind, in the order of the kinds."""
 
 NAMES = {
-    "wear-law": "acme-fretting",
     "contact-solver": "acme-layered",
+    "wear-law": "acme-fretting",
     "kinematics": "acme-shuttle",
     "surface": "acme-dome",
     "effect": "acme-heat",

@@ -9,8 +9,6 @@ from tribo import Grid
 from tribo.contact.winkler import Winkler
 from tribo.core.material import Material
 from tribo.motion.closed_track import Unidirectional
-from tribo.stepping.first_contact import first_contact
-from tribo.stepping.implicit import Implicit
 from tribo.surfaces.forms import Flat
 
 SIDE, LOAD, TRACK = 2e-3, 40.0, 8e-3
@@ -34,20 +32,6 @@ def pin():
     )
 
 
-def slid(model, steps):
-    """The state after END metres in equal implicit steps."""
-    state = first_contact(model)
-    for i in range(1, steps + 1):
-        increment, time = END / steps, END / 0.1 * i / steps
-        state = Implicit().step(model, state, increment, time)
-    return state
-
-
-@pytest.fixture(scope="module")
-def worn(pin):
-    return {steps: slid(pin, steps) for steps in (1, 8)}
-
-
 def integral(slip):
     """Depth under unit pressure after `slip` metres under pressure, in closed form."""
     return LAST * slip + (FIRST - LAST) * LENGTH * (1 - np.exp(-slip / LENGTH))
@@ -57,24 +41,11 @@ def integral(slip):
 SLIP = {"pin": END, "disk": END * SIDE / TRACK}
 
 
-@pytest.mark.parametrize("name", SLIP)
-@pytest.mark.parametrize("steps", [1, 8])
-def test_it_is_its_integral_however_long_the_steps(worn, name, steps):
-    # Under the pressure of a step its rates are integrated by themselves, to 3e-5.
-    exact = integral(SLIP[name]) * LOAD / SIDE**2
-    assert worn[steps].bodies[name].wear == pytest.approx(exact, rel=3e-5, abs=0)
-
-
-def test_a_run_at_default_tolerances_is_that_integral(pin):
+def test_each_body_wears_by_the_integral_over_its_own_slip(pin):
     last = states(pin)[-1]
     for name, slip in SLIP.items():
         exact = integral(slip) * LOAD / SIDE**2
         assert last.bodies[name].wear == pytest.approx(exact, rel=1e-4, abs=0)
+        assert last.bodies[name].law["slip"] == pytest.approx(slip, rel=1e-12, abs=0)
+    assert last.bodies["disk"].law["slip"].shape == (1, 8)
     assert last.steps < 20
-
-
-def test_each_body_keeps_its_own_slip(worn):
-    state = worn[8]
-    np.testing.assert_allclose(state.bodies["pin"].law["slip"], END, rtol=1e-12)
-    np.testing.assert_allclose(state.bodies["disk"].law["slip"], SLIP["disk"], rtol=1e-12)
-    assert state.bodies["disk"].law["slip"].shape == (1, 8)

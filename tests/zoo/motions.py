@@ -1,7 +1,7 @@
 """Motions that do not move as they say, and exposures that answer nonsense."""
 
 import numpy as np
-from zoo.components import GROOVES, ZOO, raising
+from zoo.components import ZOO, raising
 
 from tribo import Stationary, Track, Unidirectional, WearCompliance
 
@@ -29,12 +29,7 @@ for name, words, saved, parts in (
     # Between the times that are tried at first.
     ("turns_back", "does not slide on", True, path(lambda t, s: s if abs(t - 7) > 0.1 else 0.0)),
     ("stops", "raised OverflowError: too late", True, path(stopping)),
-    (
-        "ends_before",
-        "'end_time' that is -3.0; ",
-        False,
-        {"end_time": property(lambda self: -3.0)},
-    ),
+    ("ends_before", "'end_time' that is -3.0; ", False, {"end_time": property(lambda self: -3.0)}),
     ("no_inverse", "not the inverse", False, {"time_at": lambda self, s: 5 * s}),
     ("loses_time", "puts 0.", True, {"time_at": lambda self, s: 10 * s if 80 * s % 1 == 0 else 0}),
     ("no_exposures", "gave exposures of a NoneType", False, {"exposures": lambda *given: None}),
@@ -54,8 +49,14 @@ for name, words, saved, parts in (
     ZOO.bad(name, Slide, words, saved=saved, **parts)
 
 
-# Asked where a swept body changes its shape.
-GROOVES.bad("limited_by_7", Slide, "gave a int as its limitation", limitation=lambda *given: 7)
+ZOO.bad(
+    "limited_by_7",
+    Slide,
+    "gave a int as its limitation",
+    # Asked where a swept body changes its shape.
+    case={"disk": 'hardness = "2 GPa"'},
+    limitation=lambda *given: 7,
+)
 
 
 def exposed(name, words, **parts):
@@ -75,7 +76,6 @@ def doubled(self, rate):
 
 
 AVERAGE = "'average' for body 'ball' that"
-exposed("average_none", AVERAGE, average=lambda self, rate: None)
 exposed("average_negative", AVERAGE, average=lambda self, rate: -np.abs(rate))
 exposed("average_writes", "read-only", average=doubled)
 exposed("average_raises", "raised IndexError: out", average=raising(IndexError("out")))
