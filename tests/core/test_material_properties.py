@@ -97,7 +97,7 @@ def test_what_is_wrong_with_it_is_told_at_its_place(law, properties, place, word
 
 @pytest.mark.parametrize(
     ("law", "failed"),
-    [(Brittle, set()), (Deaf, {"required_fields_matter"}), (Silent, {"answers_fit_a_run"})],
+    [(Brittle, set()), (Deaf, {"what_is_declared_matters"}), (Silent, {"answers_fit_a_run"})],
 )
 def test_the_kit_gives_what_is_declared_and_finds_what_is_not_read_or_not_declared(law, failed):
     (checks,) = suites(law, [{}], {})

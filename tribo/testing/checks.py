@@ -58,8 +58,8 @@ class Checks(ABC):
         The configuration.
     fields : Mapping[str, float or callable]
         Typical values of local fields, in SI, or functions of the pressure.
-    others : sequence of Component, optional
-        The other configurations that are checked: some facts need hold in one of them only.
+    configs : sequence of Component, optional
+        All configurations that are checked: some facts need hold in one of them only.
     """
 
     _numbers: ClassVar[Sequence[int]] = (0, 1)
@@ -71,12 +71,12 @@ class Checks(ABC):
         self,
         config: Any,
         fields: Mapping[str, FieldValue],
-        others: Sequence[Any] = (),
+        configs: Sequence[Any] = (),
     ) -> None:
         self._cls: Any = type(config)
         self._config = config
         self._fields = dict(fields)
-        self._others = [*others]
+        self._configs = configs
         self._bodies = BODIES
         self._lost = ""
         self._kept: dict[int, Any] = {}
@@ -223,6 +223,9 @@ class Checks(ABC):
         others = self._among(OTHER_NAMES)
         for given, named in zip(self._samples(), others._samples(), strict=True):
             usual = renamed(self._call(self._make(), given), BODIES, OTHER_NAMES)
+            for name, other in zip(BODIES, OTHER_NAMES, strict=True):
+                # A state may have the name of a body in its own.
+                usual = {key.replace(name, other): answer for key, answer in usual.items()}
             for how, asked in (
                 (f"are called {OTHER_NAMES}", named),
                 ("change places", locked(mapped(named, lambda _, value: value, order=reversed))),

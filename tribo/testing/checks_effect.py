@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tribo.core.arrays import Array, Mask
+from tribo.core.arrays import Array, Cell, Mask
 from tribo.core.fields import ContactConditions
 from tribo.core.grid import Grid
 from tribo.core.material import Material
@@ -56,10 +56,11 @@ class EffectChecks(LocalChecks):
 
     def _inputs(self, component: Any, number: int) -> ContactConditions:
         """Return conditions by number, with a state of some age at each point; 3: come to rest."""
-        given = samples.contact_conditions(component, self._fields, number % 3, self._bodies)
-        if given.state:
-            given = self._remembering(given, _LONGEST * samples.pattern(GRID.cells) ** 3)
-        return replace(given, speed=0.0) if number == 3 else given
+        fresh = samples.contact_conditions(component, self._fields, number % 3, self._bodies)
+        at: ContactConditions = self._remembering(
+            fresh, _LONGEST * samples.pattern(GRID.cells) ** 3
+        )
+        return replace(at, speed=0.0) if number == 3 else at
 
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
         rates: Mapping[str, Array] = component.state_rates(given)
@@ -120,13 +121,15 @@ class EffectChecks(LocalChecks):
                 )
 
     def state_is_all_that_remembers(self) -> None:
-        """What keeps a state follows no distance slid: a run that begins from another lacks it."""
+        """Fields follow no wear, which follows from them; what keeps a state, no distance slid."""
         effect = self._make()
-        apply_if(effect.state_fields, "it keeps no state")
         for given in self._samples():
+            unworn = effect.fields(replace(given, wear_rates={}))
+            where = first_difference(effect.fields(given), unworn)
+            require(where is None, f"{where} follows contact.wear_rates; let a state follow them")
             later = self._call(effect, replace(given, distance=3 * given.distance))
-            where = first_difference(later, self._call(effect, given))
-            require(where is None, f"{where} follows contact.distance beside the state")
+            where = given.state and first_difference(self._call(effect, given), later)
+            require(not where, f"{where} follows contact.distance beside the state")
 
     def reach_is_as_declared(self) -> None:
         """Nothing follows pressure, state or wear of points further away than `reach` says."""
@@ -194,19 +197,6 @@ class EffectChecks(LocalChecks):
         fields: Mapping[str, Any] = effect.fields(mapped(given, other))
         return fields
 
-    def fields_follow_no_wear(self) -> None:
-        """Fields are the same with wear rates and without: wear follows from them."""
-        effect = self._make()
-        apply_if(effect.provides, "it provides no field")
-        for given in self._samples():
-            without = effect.fields(replace(given, wear_rates={}))
-            where = first_difference(effect.fields(given), without)
-            require(
-                where is None,
-                f"{where} follows contact.wear_rates, which a run does not know yet; let a state "
-                "follow them",
-            )
-
     def runs_in_a_case(self) -> None:
         """In a small case a law gets the fields it requires in every step."""
         effect = self._make()
@@ -218,7 +208,7 @@ class EffectChecks(LocalChecks):
             requires = tuple(field.name for field in effect.provides)
 
         law = Reads(k=samples.ARCHARD.k)
-        samples.run(lambda: samples.small_case(self._fields, law=law, effects=[self._make()]))
+        samples.run(self._fields, lambda: {"law": law, "effects": [self._make()]})
 
 
 def _beside(value: Any, by: float) -> Any:
@@ -227,29 +217,29 @@ def _beside(value: Any, by: float) -> Any:
 
 
 def _varied(
-    given: ContactConditions, swapped: bool
-) -> Iterator[tuple[str, list[tuple[int, int]], ContactConditions]]:
+    given: ContactConditions, whole: bool
+) -> Iterator[tuple[str, list[Cell], ContactConditions]]:
     """Yield what is varied, at which cells, and the conditions with it.
 
-    The pressure is varied at one cell; or swapped with that of another, so that all sums stay.
+    One cell is varied; of a pressure that acts as a whole, two are exchanged, so that sums stay.
     """
-    nx, ny = GRID.cells
+    (nx, ny), varied = GRID.cells, ("pressure", "state", "wear_rates")
     here, there = (nx // 2, ny // 2), (nx // 2 + 3, ny // 2 - 1)
-    pressure = given.pressure.copy()
-    pressure[here] *= 1 + _VARIED
-    if swapped:
-        pressure[here], pressure[there] = given.pressure[there], given.pressure[here]
-    cells = [here, there] if swapped else [here]
-    yield "the pressure", cells, replace(given, pressure=pressure)
-    for what in ("state", "wear_rates"):
-        fields: Mapping[str, Array] = getattr(given, what)
-        for name, values in fields.items():
-            if values.shape == GRID.cells:
-                for cell in (here, (0, 0)):
-                    other = values.copy()
-                    other[cell] += _VARIED * float(np.max(np.abs(values)))
-                    varied: dict[str, Any] = {what: {**fields, name: other}}
-                    yield repr(name), [cell], replace(given, **varied)
+    for path, values in values_in(given).items():
+        if path.partition(".")[0] not in varied or np.shape(values) != GRID.cells:
+            continue
+        exchanged = whole and path == "pressure"
+        for cells in [[here, there]] if exchanged else [[here], [(0, 0)]]:
+            other = values.copy()
+            if exchanged:
+                other[here], other[there] = values[there], values[here]
+            else:
+                other[cells[0]] += _VARIED * np.max(np.abs(values))
+
+            def change(at: Any, value: Any, path: str = path, other: Array = other) -> Any:
+                return other if ".".join(map(str, at)) == path else value
+
+            yield path, cells, mapped(given, change)
 
 
 def _on(grid: Grid, given: ContactConditions, part: float = 1.0) -> ContactConditions:

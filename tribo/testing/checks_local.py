@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterator, Mapping
+from collections import UserDict
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from itertools import product
@@ -17,8 +18,8 @@ from tribo.core.material import Material
 from tribo.core.units import quantities
 from tribo.guards.answers import initial, rate_of
 from tribo.guards.parts import GuardedEffect, GuardedLaw
+from tribo.integration.step_to_break import lasting
 from tribo.testing import samples
-from tribo.testing.ageing import aged
 from tribo.testing.checks import Checks
 from tribo.testing.compare import (
     apply_if,
@@ -32,12 +33,9 @@ from tribo.testing.rescaling import renewed, units_of
 
 _DECADE, _GROWS, _MUCH = 0.1, 5.0, 20.0
 """A rate that grows as much over the last decade of a run, and in all, grows without end."""
-_ABOVE = 1e-9
+_ABOVE, _NUDGE = 1e-9, 1e-3
 _RUNGS = 33
 """Values of a state between which a jump of the rates is looked for."""
-
-Altered = Callable[[Any, Any, str], Iterator[tuple[Any, Any]]]
-"""Yields components and conditions in which what has a name is another than in those given."""
 
 
 class LocalChecks(Checks):
@@ -63,15 +61,27 @@ class LocalChecks(Checks):
         """Return a new component, held to its contract."""
 
     def _remembering(self, given: Any, far: Array) -> Any:
-        """Return conditions with a state that each point has had as `far` as that, from there."""
-        if not given.state:
-            return given
-        model = self._guarded()
+        """Return conditions after each point has gone as far as `far` from there, within limits.
+
+        Exponential Euler steps that grow; what relaxes does not pass where it tends to.
+        """
+        model, now = self._guarded(), dict(given.state)
 
         def rates(state: Mapping[str, Array]) -> Mapping[str, Array]:
             return self._rates(model, locked(replace(given, state=state)))
 
-        return locked(replace(given, state=aged(model, rates, given.state, far)))
+        for share in np.diff(np.geomspace(1e-8, 1.0, 40), prepend=0.0) if now else ():
+            at, step = rates(now), share * far
+            steps = {n: step if at[n].shape == far.shape else np.mean(step) for n in now}
+            nudges = {name: _NUDGE * steps[name] * at[name] for name in now}
+            later = rates({name: now[name] + nudges[name] for name in now})
+            for name, nudge in nudges.items():
+                change = later[name] - at[name]
+                slope = np.divide(change, nudge, out=np.zeros_like(change), where=nudge != 0)
+                moved = now[name] + lasting(steps[name], np.minimum(slope, 0.0)) * at[name]
+                require(np.all(np.isfinite(moved)), f"the state {name!r} grows beyond all numbers")
+                now[name] = np.clip(moved, *model.answers[initial(name)].range)
+        return locked(replace(given, state=now))
 
     def _old(self, given: Any, part: float = 1.0) -> Any:
         """Return conditions after a part of the longest runs at each point."""
@@ -84,55 +94,30 @@ class LocalChecks(Checks):
             initial(name): value for name, value in starts
         }
 
-    def _each(self) -> list[Any]:
-        """Return the checks of every configuration, this one's first."""
-        others = [each for each in self._others if each is not self._config]
-        return [self, *(type(self)(each, self._fields) for each in others)]
+    def what_is_declared_matters(self) -> None:
+        """Each number given, state, required field and property alters an answer.
 
-    def _expect_all_to_matter(self, names: set[str], altered: Altered, fault: str) -> None:
-        """Fail if one of the names alters no answer, in one configuration at least.
-
-        The rate of a state is no answer to the state itself.
+        In one configuration at least. The rate of a state is no answer to the state itself, and a
+        state that never moves alters nothing.
         """
-        for checks in self._each():
+        model = self._make()
+        idle = {("number", name) for name in self._cls.model_fields if _is_given(model, name)}
+        idle |= {("state", field.name) for field in model.state_fields}
+        idle |= {("required field", name) for name in names_of(model.requires)}
+        idle |= {("property", field.name) for field in model.material_properties}
+        apply_if(idle, "it has no number but defaults and 0, no state, and requires nothing")
+        for config in self._configs:
+            checks = self if config is self._config else type(self)(config, self._fields)
             component = checks._make()
             for given in checks._samples():
-                before = checks._call(component, given)
-                for name in sorted(names):
+                usual = checks._call(component, given)
+                for what, name in sorted(idle):
                     own = {rate_of(name): None}
-                    after = (checks._call(*pair) for pair in altered(component, given, name))
-                    if any(first_difference({**before, **own}, {**each, **own}) for each in after):
-                        names = names - {name}
-        require(not names, f"{', '.join(sorted(names))}: {fault}")
-
-    def configuration_matters(self) -> None:
-        """Each number that is given changes an answer, in one configuration at least."""
-        names = {name for name in self._cls.model_fields if _is_given(self._config, name)}
-        apply_if(names, "no number is given but defaults and 0")
-
-        def altered(component: Any, given: Any, name: str) -> Iterator[tuple[Any, Any]]:
-            for times in (0.5, 2.0) if getattr(component, name) else ():
-                yield renewed(component, {name: times * getattr(component, name)}), given
-
-        self._expect_all_to_matter(names, altered, "half as much, or twice, changes no answer")
-
-    def states_move_and_matter(self) -> None:
-        """Each state field moves, and changes the wear, another state or who requires it."""
-        names = {field.name for field in self._make().state_fields}
-        apply_if(names, "it keeps no state")
-        every = [
-            each._call(each._make(), given) for each in self._each() for given in each._samples()
-        ]
-        moved = {
-            name for name in names for answers in every if np.any(answers.get(rate_of(name), 0))
-        }
-        require(moved == names, f"the state {', '.join(sorted(names - moved))} never moves")
-
-        def altered(component: Any, given: Any, name: str) -> Iterator[tuple[Any, Any]]:
-            if name in given.state:
-                yield component, _at(given, name, component.initial_state()[name])
-
-        self._expect_all_to_matter(names, altered, "the state alters nothing")
+                    for pair in _altered(component, given, what, name):
+                        if first_difference({**usual, **own}, {**checks._call(*pair), **own}):
+                            idle.discard((what, name))
+        listed = ", ".join(f"the {what} {name!r}" for what, name in sorted(idle))
+        require(not idle, f"no answer changes with {listed}")
 
     def rates_jump_at_breaks_alone(self) -> None:
         """Where an answer jumps as a state changes, the field declares a break."""
@@ -142,7 +127,8 @@ class LocalChecks(Checks):
             values = given.state[field.name]
             ladder = np.linspace(np.min(values), np.max(values), _RUNGS)
             # A kink of the depth is no jump.
-            names = _arrays(self._call(component, given)) - {"depth_slope"}
+            answers = self._call(component, given)
+            names = {name for name in answers if np.ndim(answers[name])} - {"depth_slope"}
             for name in sorted(names) if np.ptp(ladder) else ():
 
                 def answer(
@@ -166,30 +152,17 @@ class LocalChecks(Checks):
                     )
 
     def states_can_last(self) -> None:
-        """A rate does not lead beyond a limit of its state; without one it does not run away.
-
-        Nor does the wear: over 1e6 m of sliding no rate grows without end.
-        """
+        """A rate does not lead beyond a limit of its state, nor grow without end over 1e6 m."""
         component = self._make()
         apply_if(component.state_fields, "it keeps no state")
-        sides = (("at_least", -1.0), ("at_most", 1.0))
-        for given, field, (side, sign) in product(self._samples(), component.state_fields, sides):
-            name, limit = field.name, getattr(field, side)
-            most = sign * max(float(np.max(np.abs(given.state[name]))), 1e-300)
-            values = (1e3 * most, 1e6 * most) if limit is None else (limit, limit)
-            with np.errstate(all="ignore"):
-                rates = (self._rates(component, _at(given, name, value)) for value in values)
-                near, far = (sign * np.asarray(of_states[name]) for of_states in rates)
-            if limit is not None:
-                within = np.max(near) <= 0
-                require(within, f"{name!r} leads beyond its limit of {limit:g} {field.unit}")
-                continue
-            away = (near > 0) & (far > 100 * near) & np.isfinite(far)
-            require(
-                not np.any(away),
-                f"{name!r} changes the faster the further it has gone, without end: is the "
-                "sign of its rate right? A limit that it keeps is declared with its field",
-            )
+        for given, field in product(self._samples(), component.state_fields):
+            for limit, sign in ((field.at_least, -1.0), (field.at_most, 1.0)):
+                if limit is None:
+                    continue
+                with np.errstate(all="ignore"):
+                    rates = self._rates(component, _at(given, field.name, limit))[field.name]
+                within = np.max(sign * np.asarray(rates)) <= 0
+                require(within, f"{field.name!r} leads beyond its limit of {limit:g} {field.unit}")
         for given in self._samples():
             ages = given, self._old(given, _DECADE), self._old(given)
             answers = [self._call(component, at) for at in ages]
@@ -207,33 +180,47 @@ class LocalChecks(Checks):
     def only_declared_fields_are_asked_for(self) -> None:
         """It asks for no field but those in `requires`."""
         given = self._sample()
-        asked = samples.Asked(given.fields)
+        asked = Asked(given.fields)
         with suppress(KeyError):
             self._call(self._make(), replace(given, fields=asked))
         missed = ", ".join(sorted(asked.missed))
         require(not missed, f"it asked for {missed}; add that to requires")
 
-    def required_fields_matter(self) -> None:
-        """Each field or property of materials that it requires changes an answer at least once."""
-        model = self._make()
-        properties = {field.name for field in model.material_properties}
-        names = {*names_of(model.requires), *properties}
-        apply_if(names, "it requires no field")
 
-        def altered(component: Any, given: Any, name: str) -> Iterator[tuple[Any, Any]]:
-            if name in given.fields:
-                more = mapped(given.fields[name], lambda _, values: 1.01 * values)
-                yield component, locked(replace(given, fields={**given.fields, name: more}))
-            if name in properties:
-                yield component, mapped(given, lambda _, value: _with_more(value, name))
+class Asked(UserDict[str, Any]):
+    """A mapping that remembers which names it was asked for in vain."""
 
-        self._expect_all_to_matter(names, altered, "no answer changes by 1 % more of it")
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        super().__init__(values)
+        self.missed: set[str] = set()
+
+    def __missing__(self, name: str) -> Any:
+        self.missed.add(name)
+        raise KeyError(name)
+
+    def __contains__(self, name: object) -> bool:
+        if name not in self.data:
+            self.missed.add(str(name))
+        return name in self.data
 
 
 def _at(given: Any, name: str, value: float) -> Any:
     """Return conditions in which one state field has one value."""
     state = {**given.state, name: np.full_like(given.state[name], value)}
     return locked(replace(given, state=state))
+
+
+def _altered(component: Any, given: Any, what: str, name: str) -> Iterator[tuple[Any, Any]]:
+    """Yield the component and its conditions with another value of what has a name."""
+    if what == "number" and (value := getattr(component, name)):
+        yield from ((renewed(component, {name: times * value}), given) for times in (0.5, 2.0))
+    if what == "state" and name in given.state:
+        yield component, _at(given, name, component.initial_state()[name])
+    if what == "required field" and name in given.fields:
+        more = mapped(given.fields[name], lambda _, values: 1.01 * values)
+        yield component, locked(replace(given, fields={**given.fields, name: more}))
+    if what == "property":
+        yield component, mapped(given, lambda _, value: _with_more(value, name))
 
 
 def _with_more(value: Any, name: str) -> Any:
@@ -249,8 +236,3 @@ def _is_given(config: Any, name: str) -> bool:
     field, value = type(config).model_fields[name], getattr(config, name)
     marked = any(quantities(field))
     return marked and isinstance(value, float) and value not in (0, field.default)
-
-
-def _arrays(answers: Mapping[str, Any]) -> set[str]:
-    """Return the names of the answers that are arrays."""
-    return {name for name, values in answers.items() if np.ndim(values) > 0}

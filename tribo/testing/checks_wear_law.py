@@ -46,7 +46,7 @@ class WearLawChecks(LocalChecks):
         speed = np.array(np.roll(samples.SPEEDS, -number)[:2]).reshape(2, 1, 1)
         material = samples.for_models(samples.STEEL, component)
         local = LocalConditions(pressure, speed, material, fields, state)
-        if number < 3 and state:
+        if number < 3:
             local = self._remembering(local, _FARTHEST * samples.pattern(_SHAPE, number) ** 3)
         # In every third point there is no pressure any more.
         touching = (np.arange(pressure.size) % 3 > 0).reshape(_SHAPE)
@@ -159,7 +159,7 @@ class WearLawChecks(LocalChecks):
         depth = float(self._wear(law, 3, samples.PEAK)[0].flat[0])
         distance = 0.3 * _APPROACH / depth if depth > 0 else 1.0
         motion = samples.sliding(float(np.clip(distance, 1e-3, 1e6)))
-        samples.run(lambda: samples.small_case(self._fields, law=self._make(), kinematics=motion))
+        samples.run(self._fields, lambda: {"law": self._make(), "kinematics": motion})
 
     def _when(self, number: int) -> str:
         """Return at which speed, and when, a sample is."""

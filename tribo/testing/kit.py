@@ -298,12 +298,11 @@ def outcome_of(checks: Checks, name: str) -> Outcome:
     if not checks._lost:
         try:
             outcome: Outcome = child().call(_outcome, checks, name)
+            return outcome
         except Unknown:
             return _outcome(checks, name)
         except Lost as error:
             checks._lost = f"{error}, as no call of a component may; nothing more is tried"
-        else:
-            return outcome
     return _came(checks, name, "failed", checks._lost)
 
 

@@ -6,10 +6,12 @@ import os
 import random
 import warnings
 from collections.abc import Iterator
-from contextlib import chdir, contextmanager
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
+
+from tribo.registry.registry import process_kept
 
 _legacy: Any = np.random
 
@@ -31,7 +33,7 @@ def process_restored() -> Iterator[None]:
     """Put the process back as it was, whatever is done inside."""
     before = process_state()
     try:
-        with warnings.catch_warnings(), np.errstate(), chdir("."):
+        with process_kept():
             # A filter of a warning that never comes: another that is put first is seen.
             warnings.filterwarnings("ignore", "a sample of tribo's checks")
             yield

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections import UserDict
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import replace
-from itertools import islice
+from itertools import islice, product
 from typing import Any
 
 import numpy as np
 
 from tribo.case import Body, Case
 from tribo.contact.dcfft import DcFft
-from tribo.contact.solver import ContactSolver
 from tribo.contact.winkler import Winkler
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSystem
@@ -34,7 +31,9 @@ from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
 from tribo.effects.effect import Effect
 from tribo.evolution.local_fields import effect_fields
+from tribo.model.model import Model
 from tribo.motion.exposure import Exposure, Stationary
+from tribo.motion.kinematics import Kinematics
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
@@ -55,9 +54,7 @@ FINE = (3, 5)
 """Cells along x and y that take the place of one; its middle is that of the middle one."""
 LOAD = 100.0
 RADIUS = 5e-3
-SOLVERS: Mapping[str, type[ContactSolver]] = {"winkler": Winkler, "dcfft": DcFft}
-CONTACTS = [(solver, passing) for passing in (1, 0) for solver in SOLVERS]
-"""Contacts that an effect may serve: the solver, and how many of the bodies pass."""
+SOLVERS = (Winkler, DcFft)
 STEPS = 2000
 """Of a run, at most; most take fewer than a hundred."""
 RESUMED = 3
@@ -195,23 +192,6 @@ def hertz_pressure(grid: Grid) -> Array:
     return pressure
 
 
-class Asked(UserDict[str, Any]):
-    """A mapping that remembers which names it was asked for in vain."""
-
-    def __init__(self, values: Mapping[str, Any]) -> None:
-        super().__init__(values)
-        self.missed: set[str] = set()
-
-    def __missing__(self, name: str) -> Any:
-        self.missed.add(name)
-        raise KeyError(name)
-
-    def __contains__(self, name: object) -> bool:
-        if name not in self.data:
-            self.missed.add(str(name))
-        return name in self.data
-
-
 def contact_conditions(
     effect: Any,
     given: Mapping[str, FieldValue],
@@ -272,15 +252,15 @@ def problem(
     return locked(ContactProblem(system, ball(grid), LOAD))
 
 
-def run(made: Callable[[], Case]) -> None:
-    """Run a case of a few steps, and once more from the middle with new objects.
+def run(given: Mapping[str, FieldValue], parts: Callable[[], dict[str, Any]]) -> None:
+    """Run a small case, and once more from the middle with new objects.
 
     The run itself holds in each step that a body loses just what its law says. It leaves the state
     of the process as it is.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        model, resumed = (Simulation(made()).model for _ in range(2))
+        model, resumed = (_accepted(given, parts()) for _ in range(2))
         before = process_state()
         states = [begin(model)]
         for accepted in march(model, states[0]):
@@ -298,23 +278,28 @@ def run(made: Callable[[], Case]) -> None:
         require(where is None, f"{where} was changed in a run")
 
 
+def _accepted(given: Mapping[str, FieldValue], parts: Mapping[str, Any]) -> Model:
+    """Return the model of a small case: of several contacts, the first that nothing refuses."""
+    refused: list[CaseError] = []
+    for motion, solver in product((sliding(3.0), _Staying(**dict(sliding(3.0)))), SOLVERS):
+        common = {"kinematics": motion, "contact": solver()}
+        try:
+            return Simulation(small_case(given, **{**common, **parts})).model
+        except CaseError as error:
+            refused.append(error)
+    raise refused[0]
+
+
 def small_case(
     given: Mapping[str, FieldValue],
     *,
+    kinematics: Kinematics | None = None,
     law: Any = ARCHARD,
-    kinematics: Any = None,
     effects: Sequence[Any] = (),
     **more: Any,
 ) -> Case:
-    """Return a case on elastic springs, both bodies under one law, if both have places for it.
-
-    On half-spaces, or with bodies that both stay, where an effect serves no other contact.
-    """
-    asked = [*(kinematics.effects() if kinematics else ()), *effects]
-    each = [served(effect, contact_conditions(effect, given)) for effect in asked]
-    common = (contact for contact in CONTACTS if all(contact in of_one for of_one in each))
-    solver, passing = next(common, CONTACTS[0])
-    kinematics = kinematics or (sliding(3.0) if passing else _Staying(**dict(sliding(3.0))))
+    """Return a case with both bodies under one law, if both have places for it."""
+    kinematics = kinematics or sliding(3.0)
     others = (*more.values(), *more.get("observers", ()))
     material = for_models(STEEL, law, kinematics, *effects, *others)
     provided = {f.name for e in effects for f in (*e.provides, *e.state_fields)}
@@ -335,7 +320,7 @@ def small_case(
         kinematics=kinematics,
         friction=None if friction in provided else float(field(friction, (), given, np.zeros(()))),
         effects=[*([_providing(needed, given)] if needed else []), *effects],
-        **{"contact": SOLVERS[solver](), "stepping": LONG_STEPS, **more},
+        **{"contact": Winkler(), "stepping": LONG_STEPS, **more},
     )
 
 
@@ -351,16 +336,6 @@ class _Staying(Reciprocating):
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         return {name: Stationary(grid) for name in bodies}
-
-
-def served(effect: Effect, given: ContactConditions) -> list[tuple[str, int]]:
-    """Return the contacts that an effect does not refuse: solver, and how many bodies pass."""
-    found, names = [], list(given.materials)
-    for solver, passing in CONTACTS:
-        with suppress(CaseError):
-            effect.check(given.system, frozenset(names[len(names) - passing :]), solver)
-            found.append((solver, passing))
-    return found
 
 
 def _providing(names: Sequence[str], given: Mapping[str, FieldValue]) -> Effect:

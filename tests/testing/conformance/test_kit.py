@@ -3,6 +3,7 @@
 import inspect
 import subprocess
 import sys
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 from testing.conformance.honest import Counts, Hill, Law
 from testing.conformance.mistakes import MISTAKES
 
-from tribo import Grid, Quantity, Surface, WearRate
+from tribo import Field, Grid, Quantity, Surface, WearRate
 from tribo.testing import check, example_configs, parametrize_checks
 from tribo.testing.compare import CheckFailed
 from tribo.testing.kit import suites
@@ -31,15 +32,6 @@ def test_a_report_is_a_table_of_every_check_with_every_configuration():
     assert text[0] == f"surface Hill (honest.hill): {len(report.outcomes)} passed"
     assert "  with radius=0.005" in text
     assert len(text) == 3 + len(report.outcomes)
-
-
-@pytest.mark.slow
-def test_a_failure_says_what_was_found():
-    report = check(InwardHeight, [{}])
-    (failure,) = report.failures
-    assert not report.ok
-    assert failure.fact.startswith("The curvature is that at the highest point")
-    assert "heights are outward from the body" in str(report)
 
 
 def look_up(local):
@@ -129,35 +121,56 @@ class Heated(Law):
     state_fields = ()
 
     def rate(self, local):
-        heat = local.fields["heat"]
-        touching = np.where(local.pressure > 0, heat, 0.0)
-        return WearRate(1e-16 * touching, np.full_like(heat, 2e-16))
+        heat = np.where(local.pressure > 0, 1e-16 * local.fields["heat"], 0.0)
+        return WearRate(heat, np.full_like(heat, 2e-16))
 
 
-def test_a_field_has_the_value_given_and_may_follow_the_pressure():
-    (held,) = suites(Heated, [{}], {"heat": 1e9})
-    (followed,) = suites(Heated, [{}], {"heat": lambda pressure: 2 * pressure})
-    with pytest.raises(CheckFailed, match="Fields that follow the pressure"):
-        held.derivative_is_that_of_the_depth()
-    followed.derivative_is_that_of_the_depth()
-
-
-class Sloped(Law):
+class Sloped(Heated):
     """Its derivative is by a slope that it is told."""
 
     requires = ("heat", "heat_slope")
-    state_fields = ()
 
     def rate(self, local):
-        touching = local.pressure > 0
-        heat = np.where(touching, 1e-16 * local.fields["heat"], 0.0)
-        return WearRate(heat, 1e-16 * local.fields["heat_slope"])
+        return replace(super().rate(local), depth_slope=1e-16 * local.fields["heat_slope"])
 
 
-@pytest.mark.parametrize("fields", [{}, {"heat_slope": 2.0}, {"heat": lambda pressure: pressure}])
-def test_a_field_whose_slope_is_required_follows_the_pressure(fields):
-    report = check(Sloped, [{}], fields=fields)
+@pytest.mark.parametrize(
+    ("cls", "fields"),
+    [
+        (Heated, {"heat": lambda pressure: 2 * pressure}),
+        (Sloped, {}),
+        (Sloped, {"heat_slope": 2.0}),
+        (Sloped, {"heat": lambda pressure: pressure}),
+    ],
+)
+def test_a_field_may_follow_the_pressure_as_given_or_by_its_slope(cls, fields):
+    report = check(cls, [{}], fields=fields)
     assert report.ok, str(report)
+
+
+def test_a_field_that_is_given_as_a_number_does_not_follow_the_pressure():
+    (checks,) = suites(Heated, [{}], {"heat": 1e9})
+    with pytest.raises(CheckFailed, match="follows the pressure, say how"):
+        checks.derivative_is_that_of_the_depth()
+
+
+class Protected(Law):
+    """A law of a film some 50 nm thick, which nothing here provides."""
+
+    requires = (Field("zddp_film", "m", "Thickness of ZDDP.", at_least=0, typical=5e-8),)
+    state_fields = ()
+    thickness: Annotated[float, Quantity("m", above=0)] = 5e-8
+    """Film that takes the wear to 1/e."""
+
+    def rate(self, local):
+        k = self.k * np.exp(-local.fields["zddp_film"] / self.thickness)
+        return WearRate(k * local.pressure, k)
+
+
+def test_a_law_is_tried_at_the_scale_of_the_field_that_it_requires():
+    report = check(Protected, [{}])
+    assert report.ok, str(report)
+    assert statuses(report)["what_is_declared_matters"] == "passed"
 
 
 def as_pytest_has_it(cls, **expected):

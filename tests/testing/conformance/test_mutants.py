@@ -2,10 +2,9 @@
 
 import pytest
 from testing.conformance.models_of_contact import Slip
-from testing.conformance.mutants import MUTANTS, product
+from testing.conformance.mutants import MUTANTS, Spring, product
 from testing.conformance.test_mistakes import FOUND
 
-from tribo.registry.kinds import KINDS
 from tribo.testing import samples
 from tribo.testing.kit import SUITES, names_of, perform, suites
 
@@ -20,13 +19,16 @@ def test_a_mutant_is_caught_by_its_check(monkeypatch, name, mutant, raising):
         perform(checks, name)
 
 
-def test_a_product_that_is_right_is_none():
-    (checks,) = suites(type("Stated", (Slip,), {"pull_back": product}), [{}], {})
-    perform(checks, "product_is_that_of_differences")
-
-
-def test_there_are_mutants_of_every_kind():
-    assert {mutant.kind() for _, mutant, _ in MUTANTS} == set(KINDS)
+@pytest.mark.parametrize(
+    ("sound", "name"),
+    [
+        (type("Stated", (Slip,), {"pull_back": product}), "product_is_that_of_differences"),
+        (Spring, "runs_in_a_case"),
+    ],
+)
+def test_what_is_right_is_none(sound, name):
+    (checks,) = suites(sound, [{}], {})
+    perform(checks, name)
 
 
 def test_every_check_catches_a_mutant():
