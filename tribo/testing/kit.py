@@ -25,6 +25,7 @@ from tribo.testing.checks_surface import SurfaceChecks
 from tribo.testing.checks_wear_law import WearLawChecks
 from tribo.testing.child import Lost, Unknown, child
 from tribo.testing.compare import CheckFailed, NotApplicable
+from tribo.testing.likely import LIKELY
 from tribo.testing.process import process_restored
 
 SUITES: Mapping[str, type[Checks]] = MappingProxyType(
@@ -313,7 +314,8 @@ def _outcome(checks: Checks, name: str) -> Outcome:
     except NotApplicable as reason:
         return _came(checks, name, "not applicable", str(reason))
     except CheckFailed as fault:
-        return _came(checks, name, "failed", " ".join(str(fault).split()))
+        likely = f" (often: {LIKELY[name]})" if name in LIKELY else ""
+        return _came(checks, name, "failed", " ".join(str(fault).split()) + likely)
     except KeyboardInterrupt:
         raise
     except BaseException as error:

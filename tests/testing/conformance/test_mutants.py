@@ -7,6 +7,7 @@ from testing.conformance.test_mistakes import FOUND
 
 from tribo.testing import samples
 from tribo.testing.kit import SUITES, names_of, perform, suites
+from tribo.testing.likely import LIKELY
 
 
 @pytest.mark.parametrize(("name", "mutant", "raising"), MUTANTS)
@@ -34,4 +35,5 @@ def test_what_is_right_is_none(sound, name):
 def test_every_check_catches_a_mutant():
     checks = {name for suite in SUITES.values() for name in names_of(suite)}
     found = {name for row in FOUND for name in row["found_by"]}
+    assert {*LIKELY} <= checks
     assert checks == found | {name for name, _, _ in MUTANTS}
