@@ -24,7 +24,7 @@ a name that is not in requires: only_declared_fields_are_asked_for
 problem.wear, or a part of it, left out: wear_compliance_adds_its_depth
 a part of one body alone: cap_acts_where_it_is_reached no_mode_is_stiffer_than_stated
 the zero of the approach, or a part of one body alone: more_load_goes_deeper
-a distance since the start in place of a state, or wear rates that should feed it: state_is_all_that_remembers
+a distance in place of a state, or wear that should feed it: state_is_all_that_remembers
 the contact of the start: warm_start_changes_nothing
 the end of a rest in place of its beginning: time_is_the_first_at_its_distance
 a name, a state or an end that a run need not have: any_run_is_survived
