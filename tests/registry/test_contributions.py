@@ -118,11 +118,6 @@ def test_an_unknown_format_or_template_lists_what_there_is(args, meant, other):
     assert other in message
 
 
-def test_a_broken_plugin_is_left_out_of_the_formats(folder):
-    (folder / "adds_c.py").write_text("1/0")
-    assert "adds_c 1.0 is left out: ZeroDivisionError" in told("new", "adds_a.case", "new.toml")
-
-
 @pytest.mark.parametrize(
     ("instead", "words"),
     [
