@@ -1,5 +1,6 @@
 """Each mistake in a case is one line with its path and a remedy, in the words of the case."""
 
+import dummies_in_tables as dummies
 import pytest
 from pydantic import ValidationError
 
@@ -16,7 +17,7 @@ def ball(**changes):
 
 
 @pytest.fixture
-def lines(dummies):
+def lines():
     registry = dummies.registry()
 
     def explained(data):
