@@ -46,6 +46,8 @@ def test_other_names_stand_for_the_same_material():
     steel = tribo.materials["100Cr6"]
     assert steel == tribo.materials["52100"] == tribo.materials["suj2"]
     assert (steel.young, steel.poisson, steel.hardness) == (210e9, 0.3, 746 * 9806650.0)
+    # Of numbers without a value, the middle of their range.
+    assert tribo.materials["PTFE"].young == 600e6
 
 
 def test_an_override_changes_a_named_material():

@@ -8,7 +8,7 @@ from importlib import import_module
 
 import pytest
 from command_line import tribo
-from fake_distributions import LAW, OBSERVER, distribute
+from fake_distributions import LAW, OBSERVER, SHORT, distribute
 
 from tribo import Case, Registry, Result
 from tribo.config.schema import json_schema
@@ -19,8 +19,6 @@ from tribo.templates import template
 
 GOOD = LAW.format(name="odd.one")
 CASE = template("ball_on_disk")
-SHORT = ("kinematics.duration=0.1", "output.save_times=[]", "grid.size=0.7 mm", "grid.cells=32")
-SHORT = tuple(word for change in SHORT for word in ("--set", change))
 
 
 def install(folder, distribution="odd", code=GOOD, requires=(), name="odd.one"):

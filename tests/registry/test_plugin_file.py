@@ -4,6 +4,7 @@ import sys
 
 import pytest
 from command_line import tribo
+from fake_distributions import SHORT
 
 from tribo import Result
 from tribo.core.errors import CaseError
@@ -28,8 +29,6 @@ def tribo_lab_rows(result):
     return [LabRow("answer", 42.0, "m")]
 """
 STOP = "CALLS.append(1)\n        if len(CALLS) > 5: raise KeyboardInterrupt\n"
-SHORT = ("kinematics.duration=0.1", "output.save_times=[]", "grid.size=0.7 mm", "grid.cells=32")
-SHORT = tuple(word for change in SHORT for word in ("--set", change))
 
 
 @pytest.fixture
