@@ -37,6 +37,16 @@ def tribo_components():
 """
 
 
+SHORT = [
+    f"--set={change}"
+    for change in (
+        *("grid.size=0.7 mm", "grid.cells=32", "kinematics.duration=0.1"),
+        "output.save_times=[]",
+    )
+]
+"""Words that make a run of a template short."""
+
+
 def observer(name: str) -> str:
     """Return the code of a plugin with one observer of this name."""
     return OBSERVER.format(name=name, title=name.split(".")[-1].title())

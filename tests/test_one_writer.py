@@ -4,25 +4,14 @@ import ast
 import re
 from pathlib import Path
 
-import pytest
-
 import tribo
 
 ROOT = Path(tribo.__file__).parent
 SOURCES = sorted([*ROOT.rglob("*.py"), *(ROOT.parent / "plugins").glob("*/src/**/*.py")])
 WRITER = ROOT / "core" / "writing.py"
-CHANGES = {
-    "chmod",
-    "makedirs",
-    "mkdir",
-    "mkfifo",
-    "rename",
-    "rmdir",
-    "rmtree",
-    "symlink_to",
-    "touch",
-}
-CHANGES |= {"truncate", "unlink", "write_bytes", "write_text", "tofile", "to_netcdf", "imsave"}
+CHANGES = {"chmod", "makedirs", "mkdir", "mkfifo", "rename", "rmdir", "rmtree", "symlink_to"}
+CHANGES |= {"touch", "truncate", "unlink", "write_bytes", "write_text", "tofile", "to_netcdf"}
+CHANGES |= {"imsave"}
 TO_PATH_OR_MEMORY = {"File", "savefig", "savetxt", "savez", "savez_compressed"}
 TO_PATH_OR_MEMORY |= {"to_csv", "to_json", "to_html", "write_html", "ZipFile"}
 READ = {"r", "rb"}
@@ -83,32 +72,17 @@ def test_only_the_writer_writes():
     assert writing == {WRITER}
 
 
-@pytest.mark.parametrize(
-    "call",
-    [
-        'open("a", "w")',
-        'open(path, "xb")',
-        'open(path, mode="a")',
-        'path.open("wb")',
-        "path.write_text(text)",
-        "path.replace(other)",
-        "path.unlink()",
-        "path.mkdir()",
-        "os.replace(a, b)",
-        "os.open(a, flags)",
-        "shutil.rmtree(a)",
-        "shutil.move(a, b)",
-        "figure.savefig(path)",
-        "np.save(path, a)",
-        "np.savez_compressed(path, a=a)",
-        "table.to_csv(path)",
-        'h5py.File(path, "w")',
-        'open_hdf5(path, "w")',
-        'zipfile.ZipFile(path, "w")',
-    ],
-)
-def test_other_ways_to_write_are_found(call):
-    assert found_writing(call) == [call.replace('"', "'")]
+WRITING = """
+open("a", "w"); open(path, mode="a"); path.open("wb"); path.write_text(text); path.replace(other)
+path.unlink(); path.mkdir(); os.replace(a, b); os.open(a, flags); shutil.rmtree(a)
+shutil.move(a, b); figure.savefig(path); np.save(path, a); np.savez_compressed(path, a=a)
+table.to_csv(path); h5py.File(path, "w"); open_hdf5(path, "w"); zipfile.ZipFile(path, "w")
+"""
+
+
+def test_other_ways_to_write_are_found():
+    calls = [call for line in WRITING.strip().splitlines() for call in line.split("; ")]
+    assert found_writing(WRITING) == [call.replace('"', "'") for call in calls]
 
 
 STARTS = {"subprocess", "multiprocessing", "ProcessPoolExecutor", "fork", "LocalCluster", "spawn"}

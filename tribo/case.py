@@ -6,10 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
-from packaging.requirements import InvalidRequirement, Requirement
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
-from tribo.component import components
+from tribo.component import components, registry_of
 from tribo.contact.dcfft import DcFft
 from tribo.contact.solver import ContactSolver
 from tribo.core.errors import CaseError
@@ -24,6 +23,7 @@ from tribo.core.words import checked_name, did_you_mean, suggestion
 from tribo.effects.effect import Effect
 from tribo.motion.kinematics import Kinematics
 from tribo.observers.observer import Observer
+from tribo.registry.plugins import check_requirements
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 from tribo.surfaces.surface import Surface
@@ -219,14 +219,9 @@ class Case(Table):
 
     @field_validator("requires")
     @classmethod
-    def _requirements(cls, requires: tuple[str, ...]) -> tuple[str, ...]:
-        for text in requires:
-            try:
-                Requirement(text)
-            except InvalidRequirement:
-                raise ValueError(
-                    f"{text!r} is not a requirement; write one as 'acme-tribo>=1.2'"
-                ) from None
+    def _requirements(cls, requires: tuple[str, ...], info: ValidationInfo) -> tuple[str, ...]:
+        if requires:
+            check_requirements(requires, registry_of(info).plugins)
         return requires
 
     @field_validator("bodies", mode="before")

@@ -89,7 +89,7 @@ class Component(Table, ABC):
     @classmethod
     def hint(cls, info: ValidationInfo) -> str:
         """Return the names of the installed components of its kind, as text."""
-        return f"installed: {_registry(info).choices(cls.kind())}"
+        return f"installed: {registry_of(info).choices(cls.kind())}"
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
@@ -112,7 +112,7 @@ class Component(Table, ABC):
             fault = "must be text" if "type" in table else "is missing"
             raise refused((("type",), f"type {fault}; {cls.hint(info)}", name))
         try:
-            found = _registry(info).lookup(cls.kind(), name)
+            found = registry_of(info).lookup(cls.kind(), name)
         except CaseError as error:
             if isinstance(value, str):
                 raise told(str(error)) from None
@@ -203,5 +203,6 @@ def _snake_case(name: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
 
 
-def _registry(info: ValidationInfo) -> Any:
+def registry_of(info: ValidationInfo) -> Any:
+    """Return the registry of a validation, or else that of the installed plugins."""
     return (info.context or {}).get("registry") or call("registry")

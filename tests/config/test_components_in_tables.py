@@ -3,6 +3,7 @@
 import json
 import pickle
 
+import dummies_in_tables as dummies
 import jsonschema
 import pytest
 from pydantic import ValidationError
@@ -33,12 +34,12 @@ def refuses(data, schema):
 
 
 @pytest.fixture
-def validate(dummies):
+def validate():
     context = {"registry": dummies.registry()}
     return lambda data: dummies.Rig.model_validate(data, context=context)
 
 
-def test_a_table_becomes_the_component_its_type_names(dummies, validate):
+def test_a_table_becomes_the_component_its_type_names(validate):
     before = json.dumps(DATA)
     rig = validate(DATA)
     assert json.dumps(DATA) == before
@@ -49,7 +50,7 @@ def test_a_table_becomes_the_component_its_type_names(dummies, validate):
 
 
 @pytest.mark.parametrize("options", [{}, {"exclude_defaults": True}, {"exclude_unset": True}])
-def test_what_is_written_can_be_read_back(dummies, validate, options):
+def test_what_is_written_can_be_read_back(validate, options):
     rig = validate(DATA)
     dumped = rig.model_dump(**options)
     assert dumped["bodies"]["disk"]["wear"]["parts"][1]["type"] == "linear"
@@ -59,7 +60,7 @@ def test_what_is_written_can_be_read_back(dummies, validate, options):
 
 
 @pytest.fixture
-def schema(dummies):
+def schema():
     return json_schema(dummies.Rig, dummies.registry())
 
 
@@ -92,7 +93,7 @@ def test_the_json_schema_discriminates_by_a_required_type(schema):
     assert (k["description"], k["x-unit"]) == ("Coefficient.", "1/Pa")
 
 
-def test_the_json_schema_follows_the_registry(dummies):
+def test_the_json_schema_follows_the_registry():
     one = json_schema(dummies.Rig, dummies.registry(dummies.NoWear))
     jsonschema.validate(ball("none"), one)
     refuses(ball({"type": "linear", "k": 1}), one)

@@ -12,7 +12,6 @@ CASE = template("ball_on_disk")
 FILES = {
     "case.toml": CASE,
     "tables.toml": CASE + TABLES,
-    "inline.toml": f"{CASE}\n[odd]\nq = {{{PATH} = 1}}\n",
     "many_lists.toml": CASE + "\n[odd]\nq = " + 4000 * "[" + 4000 * "]",
     "study.toml": f"case = 'case.toml'\n[grid.load]\nnormal = [1, 2]\n{TABLES}",
     "measured.toml": "fit = ['bodies.ball.wear.k']\n[[measured]]\nbody = 'ball'\n"
@@ -20,7 +19,6 @@ FILES = {
 }
 COMMANDS = {
     "tables": "check tables.toml",
-    "an inline table": "check inline.toml",
     "many lists": "check many_lists.toml",
     "path": f"check case.toml --set {PATH}=1",
     "values": f"compare case.toml --vary load.normal={{{PATH}=1}},{{a=2}}",

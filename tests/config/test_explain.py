@@ -1,5 +1,6 @@
 """Each mistake in a case is one line with its path and a remedy, in the words of the case."""
 
+import dummies_in_tables as dummies
 import pytest
 from pydantic import ValidationError
 
@@ -16,7 +17,7 @@ def ball(**changes):
 
 
 @pytest.fixture
-def lines(dummies):
+def lines():
     registry = dummies.registry()
 
     def explained(data):
@@ -80,12 +81,8 @@ def test_a_mistake_is_one_line(lines, data, path, words):
 
 
 def test_unknown_keys_come_first(lines):
-    found = lines({"cells": 3, "bodies": {"ball": {"wear": {**LINEAR, "zzz": 1}}}})
-    assert [line.partition(": ")[0] for line in found] == [
-        "bodies.ball.wear.zzz",
-        "bodies.ball.material",
-        "cells",
-    ]
+    found = lines({"cells": 3, "bodies": {"ball": {}}, "zzz": 1})
+    assert [line.partition(": ")[0] for line in found] == ["zzz", "bodies.ball.material", "cells"]
 
 
 def test_no_word_of_the_library_appears(lines):

@@ -22,6 +22,7 @@ def test_repr_shows_what_is_inside_without_defaults():
     [
         ("207.123456789 GPa", "Pa", "207.123456789 GPa"),
         ("0.3 µm", "m", "300 nm"),
+        ("1 mm", "m", "1 mm"),
         ("1.2345678e-6 mm^3/(N m)", "1/Pa", "1.2345678e-15 1/Pa"),
     ],
 )

@@ -65,7 +65,7 @@ class Sensor(Observer):
     """Where they sit."""
 
 
-def test_a_description_has_keys_and_units_of_nested_tables_and_says_where_the_code_is(monkeypatch):
+def test_a_description_has_keys_and_units_of_nested_tables_and_says_where_the_code_is():
     described = describe(Sensor, given(Sensor))
     assert (
         "names (optional): What to call them.\n"
@@ -74,5 +74,3 @@ def test_a_description_has_keys_and_units_of_nested_tables_and_says_where_the_co
         "    below (optional): The next one.\n"
     ) in described
     assert described.endswith(f"File: {__file__}")
-    monkeypatch.setattr(Sensor, "__doc__", 7)
-    assert "(it has no description)" in describe(Sensor, given(Sensor))

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 from command_line import tribo
-from fake_distributions import distribute, observer, plugins
+from fake_distributions import SHORT, distribute, observer, plugins
 
 import tribo as package
 from tribo.cli.commands import offered
@@ -13,7 +13,6 @@ from tribo.registry.hookspecs import GROUP
 from tribo.registry.registry import default_registry
 from tribo.templates import template
 
-SHORT = ("grid={ size = '0.7 mm', cells = 32 }", "kinematics.duration=0.1", "output.save_times=[]")
 GROUPS = ("tribo", "tribo.v1.observer", "tribo.3")
 """Groups of entry points of other contracts."""
 
@@ -36,7 +35,7 @@ def test_a_case_that_names_another_contract_is_refused_and_no_other_is(folder, o
     case = template("ball_on_disk")
     (folder / "plain.toml").write_text(case)
     (folder / "named.toml").write_text(f'observers = ["other.calm"]\n{case}')
-    plain = tribo("run", "plain.toml", *(f"--set={each}" for each in SHORT), cwd=folder)
+    plain = tribo("run", "plain.toml", *SHORT, cwd=folder)
     assert (plain.returncode, "other" in plain.stderr) == (0, False)
     named = tribo("run", "named.toml", cwd=folder)
     assert named.returncode == 2

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from packaging.requirements import InvalidRequirement
 from pydantic import ValidationError
 
 from tribo.case import Case
@@ -16,7 +14,6 @@ from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
 from tribo.core.grid import FEWEST, MOST
-from tribo.registry.plugins import check_requirements
 from tribo.registry.registry import Registry, default_registry
 
 _LARGEST = 10_000_000
@@ -55,14 +52,8 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
     Components are looked up in `registry`, the installed plugins if left out. `CaseError`, with a
     line for each error, if anything is wrong.
     """
-    known = registry or default_registry()
-    requires = data.get("requires")
-    if isinstance(requires, list | tuple):
-        # First, so that the message names the package to install; Case refuses malformed ones.
-        with suppress(InvalidRequirement, TypeError):
-            check_requirements(requires, known.plugins)
     try:
-        case = Case.model_validate(data, context={"registry": known})
+        case = Case.model_validate(data, context={"registry": registry or default_registry()})
     except ValidationError as error:
         raise case_error(error) from None
     except RecursionError:

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from importlib import metadata
 from typing import TYPE_CHECKING, Literal
 
-from packaging.requirements import Requirement
+from packaging.requirements import InvalidRequirement, Requirement
 from packaging.utils import canonicalize_name
 
 from tribo.core.distributions import applies, entry_points, lacking
-from tribo.core.errors import CaseError, warn
+from tribo.core.errors import warn
 from tribo.registry.hookspecs import GROUP, PROJECT, api_version
 
 if TYPE_CHECKING:
@@ -151,21 +151,24 @@ def _choose(plugins: list[Plugin]) -> None:
         warn(f"no plugin is called {name!r}")
 
 
-def check_requirements(requires: Iterable[str], plugins: Iterable[Plugin] = ()) -> None:
-    """Raise `CaseError` unless every requirement, as ``"acme-tribo>=1.2"``, is met.
+def check_requirements(requires: Iterable[str], plugins: Sequence[Plugin] = ()) -> None:
+    """Raise ValueError unless every requirement, as ``"acme-tribo>=1.2"``, is met.
 
     One whose marker does not hold here is skipped. A distribution whose plugins are all disabled,
     broken or incompatible does not meet a requirement.
     """
-    known = list(plugins)
-    for text in filter(applies, requires):
+    for text in requires:
+        try:
+            name = canonicalize_name(Requirement(text).name)
+        except InvalidRequirement:
+            words = f"{text!r} is not a requirement; write one as 'acme-tribo>=1.2'"
+            raise ValueError(words) from None
         if lack := lacking(text):
-            raise CaseError(f"{text!r} is needed, but {lack}; install it with pip", "requires")
-        name = canonicalize_name(Requirement(text).name)
-        found = [plugin for plugin in known if canonicalize_name(plugin.distribution) == name]
-        if found and not any(plugin.usable for plugin in found):
+            raise ValueError(f"{text!r} is needed, but {lack}; install it with pip")
+        found = [each for each in plugins if canonicalize_name(each.distribution) == name]
+        if found and applies(text) and not any(plugin.usable for plugin in found):
             reason = f"the plugin {found[0]} is {found[0].status}: {found[0].reason}"
-            raise CaseError(f"{text!r} is needed, but {reason}", "requires")
+            raise ValueError(f"{text!r} is needed, but {reason}")
 
 
 def undeclared() -> list[str]:

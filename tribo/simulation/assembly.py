@@ -34,7 +34,6 @@ from tribo.model.laws import Laws
 from tribo.model.model import Model
 from tribo.motion.closed_track import Unidirectional
 from tribo.motion.exposure import Exposure
-from tribo.registry.plugins import check_requirements
 from tribo.simulation.effects import in_order
 from tribo.simulation.hardness import yielding
 from tribo.simulation.memory import check_memory, memory_needed
@@ -45,7 +44,6 @@ SAME_RADIUS = 1e-2
 
 def assemble(case: Case) -> Model:
     """Check that the parts of a case fit together, guard them, and derive what a run needs."""
-    check_requirements(case.requires)
     grid, bodies = case.grid, case.bodies
     motion, solver = GuardedMotion(case.kinematics), GuardedSolver(case.contact)
     with located("kinematics"):
