@@ -36,15 +36,22 @@ def test_a_time_limit_that_is_none_is_one_clear_error(folder, monkeypatch, limit
     [
         ("forks", FORKS + CALM, "loaded", ""),
         ("forks_and_crashes", FORKS + "os.abort()", "broken", "SIGABRT"),
-        ("forks_and_hangs", FORKS + "time.sleep(600)", "not ready", "1.5 s"),
-        ("threads_and_hangs", THREAD + CALM, "not ready", "1.5 s"),
+        ("forks_and_hangs", FORKS + "time.sleep(600)", "not ready", "0.3 s"),
+        ("threads_and_hangs", THREAD + CALM, "not ready", "0.3 s"),
+        ("burns_and_hangs", "while True: pass", "not ready", "0.3 s"),
+        (
+            "keeps_no_core",
+            "import resource; raise ValueError(resource.getrlimit(resource.RLIMIT_CORE))",
+            "broken",
+            "ValueError: (0, 0)",
+        ),
         ("leaves", "import os; os._exit(7)", "broken", "exit code 7"),
         ("asks", "input()" + CALM, "broken", "asks.py, line 1)"),
         ("ends_badly", "import atexit, os; atexit.register(os.abort)" + CALM, "broken", "SIGABRT"),
     ],
 )
 def test_a_plugin_cannot_hold_up_who_tries_it(folder, name, code, status, reason):
-    (tried,) = probe_all([plugin(folder, name, code)], 1.5 if "hangs" in name else 60.0)
+    (tried,) = probe_all([plugin(folder, name, code)], 0.3 if "hangs" in name else 60.0)
     assert tried.status == status
     assert not tried.usable or status == "loaded"
     assert reason in tried.reason

@@ -8,6 +8,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
@@ -19,10 +20,13 @@ from tribo.core.errors import CaseError
 from tribo.registry.plugins import Plugin, Status, installed
 from tribo.registry.registry import Registry
 
-SECONDS = 60.0
-"""Time of an import where none is set: SciPy takes 0.6 s, ten times that on a busy machine."""
+TIMES = 30
+"""CPU time of a plugin's import over that of tribo's own, which takes 0.6 s: SciPy takes 1 time."""
+WAIT = 200.0
+"""Time (s) after which an import that waits is ended: thirty imports of tribo, ten beside it."""
 LIMIT = "TRIBO_PLUGIN_TIME_LIMIT"
 
+_LATE = -getattr(signal, "SIGPROF", 0) or None
 _CHILD = "import sys; from tribo.registry.probe import answer; answer(*sys.argv[1:])"
 
 
@@ -30,11 +34,11 @@ def probe_all(plugins: Iterable[Plugin], time_limit: float | None = None) -> lis
     """Return the records of installed plugins after their import in one child process.
 
     Where that does not come to its end, each plugin has a process of its own. One is ``not ready``
-    if it takes more than `time_limit` seconds; those of the environment variable
-    TRIBO_PLUGIN_TIME_LIMIT, or 60, if left out. A plugin that is not ``available`` is returned
-    unchanged.
+    if it takes more than `time_limit` seconds of CPU time, or waits ten times as long; those of the
+    environment variable TRIBO_PLUGIN_TIME_LIMIT, or 30 times tribo's own import, if left out. A
+    plugin that is not ``available`` is returned unchanged.
     """
-    limit = time_limit_of_plugins(time_limit) or SECONDS
+    limit = time_limit_of_plugins(time_limit)
     plugins = list(plugins)
     waiting = [plugin for plugin in plugins if plugin.status == "available"]
     tried = _imported(waiting, limit) if waiting else []
@@ -45,7 +49,7 @@ def probe_all(plugins: Iterable[Plugin], time_limit: float | None = None) -> lis
 
 
 def time_limit_of_plugins(given: float | None = None) -> float | None:
-    """Return the seconds that a plugin has in a child process, if they are set."""
+    """Return the seconds of CPU time that a plugin has in a child process, if they are set."""
     chosen = os.environ.get(LIMIT) if given is None else given
     if chosen is None:
         return None
@@ -69,7 +73,7 @@ def how_it_ended(code: int) -> str:
     return f"ended the process with exit code {code}"
 
 
-def _imported(plugins: Sequence[Plugin], limit: float) -> list[Plugin]:
+def _imported(plugins: Sequence[Plugin], limit: float | None) -> list[Plugin]:
     """Return the records of plugins after their import in one child process.
 
     If it does not come to its end, none is returned but that of a plugin which was alone.
@@ -82,14 +86,15 @@ def _imported(plugins: Sequence[Plugin], limit: float) -> list[Plugin]:
     with TemporaryFile() as answers:
         try:
             child = subprocess.run(
-                [sys.executable, "-P", "-c", _CHILD, *names],
+                [sys.executable, "-P", "-c", _CHILD, f"{limit or 0}", *names],
                 stdin=subprocess.DEVNULL,
                 stdout=answers,
                 stderr=subprocess.DEVNULL,
                 env=environment,
-                timeout=limit,
+                timeout=10 * limit if limit else WAIT,
                 check=False,
             )
+            late = child.returncode == _LATE
             reason = f"its import {how_it_ended(child.returncode)}"
             answers.seek(0)
             # A process that crashes as it ends would take a command with it too.
@@ -98,15 +103,34 @@ def _imported(plugins: Sequence[Plugin], limit: float) -> list[Plugin]:
                     facts: list[dict[str, Any]] = json.load(answers)
                     return [replace(each, **its) for each, its in zip(plugins, facts, strict=True)]
         except subprocess.TimeoutExpired:
-            status, reason = "not ready", f"within {limit:g} s; {LIMIT}, in s, sets another limit"
+            late = True
+    if late:
+        within = f"{limit:g} s" if limit else f"{TIMES} times the CPU time of tribo's own import"
+        status, reason = "not ready", f"within {within}; {LIMIT}, in s, sets another limit"
     return [replace(plugins[0], status=status, reason=reason)] if len(plugins) == 1 else []
 
 
-def answer(*names: str) -> None:
+def answer(limit: str, *names: str) -> None:
     """Import plugins in this process, and write their records to stdout as JSON."""
+    # What this process has done so far is the import of tribo.
+    cpu = float(limit) or TIMES * time.process_time()
     answers = os.dup(1)
     os.dup2(2, 1)
     known = {(plugin.distribution, plugin.entry_point): plugin for plugin in installed()}
     registry = Registry([known[key] for key in zip(names[::2], names[1::2], strict=True)])
-    registry.load_all()
+    for plugin in registry.plugins:
+        _end_after(cpu)
+        registry.load(plugin)
     os.write(answers, json.dumps([plugin.facts for plugin in registry.plugins]).encode())
+
+
+def _end_after(cpu: float) -> None:
+    """Let the system end this process, without a core dump, after so many s of CPU time.
+
+    Windows has no such clock: there only the time of the parent counts.
+    """
+    if sys.platform != "win32":
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        signal.setitimer(signal.ITIMER_PROF, cpu)
