@@ -228,7 +228,7 @@ def test_the_transpose_is_the_derivative_where_states_relax_and_pass_breaks():
             depth, worked = values
             here = np.searchsorted(breaks, depth, side="right")
             rate = factor * k[here] * (1 + np.exp(-worked))
-            found = [rate, 1 + 0.1 * depth - 2 * worked, rate]
+            found = [rate, 1 + 0.1 * depth - worked**2, rate]
             states[id(found)] = found, here, worked, factor
             return found
 
@@ -251,7 +251,7 @@ def test_the_transpose_is_the_derivative_where_states_relax_and_pass_breaks():
         of_depth, of_worked, of_sum = given
         of_rate = of_depth + of_sum
         asked.append(float(np.sum(of_rate * found[0])))
-        by_worked = -factor * k[here] * np.exp(-worked) * of_rate - 2 * of_worked
+        by_worked = -factor * k[here] * np.exp(-worked) * of_rate - 2 * worked * of_worked
         return [0.1 * of_worked, by_worked]
 
     breaks = (0.5, 1.3)
