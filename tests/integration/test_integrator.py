@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scipy.special import lambertw
 
 from tribo.core.errors import BadValues, PluginError
 from tribo.integration.division import integrated
@@ -27,20 +26,6 @@ def turning(period):
 def test_an_oscillation_over_many_periods_is_refused_and_never_unstable():
     with pytest.raises(BadValues, match=r"\('a' of a test, 'a' of a test\) changes too often"):
         integrated(turning(0.05), [ONE, 0 * ONE], 3.0, [ANY, ANY])
-
-
-def test_an_oscillation_over_some_periods_is_followed():
-    a, b = integrated(turning(1.0), [ONE, 0 * ONE], 1.25, [ANY, ANY]).values
-    assert a[0, 0] == pytest.approx(0, abs=1e-3)
-    assert b[0, 0] == pytest.approx(-1, abs=1e-3)
-
-
-def test_a_rate_that_is_zero_at_both_ends_is_integrated():
-    def rates(values, passed):
-        return [ONE, passed * (1 - passed) * (1 + 1e-4 * passed**2) * ONE]
-
-    (total,) = integrated(rates, [0 * ONE], 1.0, [ANY], ONE_SUM).sums
-    assert total[0, 0] == pytest.approx(1 / 6 + 1e-4 / 20, rel=3e-5)
 
 
 @pytest.mark.parametrize("at", [1e-7, 1e-4, 0.3])
@@ -70,39 +55,12 @@ def test_a_state_relaxes_alike_with_limits_and_without_however_long_the_incremen
 BETWEEN = Kept("a", "a test", 0.0, 1.0)
 
 
-@pytest.mark.parametrize("length", [2.0, 3.5, 7.1, 70.0, 3e5])
-def test_a_state_that_begins_at_a_limit_leaves_it_however_long_the_increment(length):
-    (grown,) = integrated(lambda values, _: [1 - values[0]], [0 * ONE], length, [BETWEEN]).values
-    assert grown[0, 0] == pytest.approx(-np.expm1(-length), rel=1e-6)
-
-
-@pytest.mark.parametrize("length", [0.7, 1.5, 12.0, 1000.0])
-def test_a_state_may_come_to_its_limit_within_the_increment(length):
-    (left,) = integrated(
-        lambda values, _: [-2 * np.sqrt(np.maximum(values[0], 0))], [ONE], length, [BETWEEN]
-    ).values
-    assert left[0, 0] == pytest.approx(max(1 - length, 0) ** 2, abs=1e-3)
-
-
 @pytest.mark.parametrize("length", [0.7, 1.5, 10.0])
 def test_a_steady_loss_ends_at_a_limit(length):
     (left,) = integrated(
         lambda values, _: [-1.0 * (values[0] > 0)], [ONE], length, [BETWEEN]
     ).values
     assert left[0, 0] == pytest.approx(max(1 - length, 0), abs=1e-12)
-
-
-@pytest.mark.parametrize("length", [1.0, 60.0, 500.0])
-def test_a_state_that_another_drives_fades_with_it(length):
-    """As bodies that cool: b' = 0.1 a − 2 b from 0, while a decays."""
-
-    def rates(values, *_):
-        return [-values[0], 0.1 * values[0] - 2 * values[1]]
-
-    positive = Kept("a", "a test", 0.0)
-    a, b = integrated(rates, [ONE, 0 * ONE], length, [positive, positive]).values
-    assert a[0, 0] == pytest.approx(np.exp(-length), abs=1e-6)
-    assert b[0, 0] == pytest.approx(0.1 * (np.exp(-length) - np.exp(-2 * length)), abs=1e-6)
 
 
 @pytest.mark.parametrize("length", [1.0, 35.0, 1e3, 1e5])
@@ -241,14 +199,6 @@ def test_debris_that_stays_bears_part_of_the_load_that_wears(length):
     assert summed[0, 0] == pytest.approx(np.log1p(length), rel=3e-5, abs=0)
 
 
-@pytest.mark.parametrize("length", [30.0, 1e4])
-def test_debris_comes_to_where_it_flows_off_as_it_comes(length):
-    (last,) = integrated(
-        lambda values, _: [2 * np.exp(-values[0]) - values[0]], [0 * ONE], length, [FREE]
-    ).values
-    assert last[0, 0] == pytest.approx(float(lambertw(2).real), rel=3e-5)
-
-
 SEEDS = [np.array([each]) for each in ([1.0, -2.0, 0.5], [0.3, 1.0, -1.0], [2.0, 1.0, 1.0])]
 """Derivatives of an objective in two states, and in a sum."""
 
@@ -269,45 +219,7 @@ def by_state(objective, begin, state, point, nudge):
     return (higher - lower) / (2 * nudge)
 
 
-def test_the_transpose_is_the_derivative():
-    begin = [np.array([[0.2, 1.0, 3.0]]), np.array([[0.0, 0.5, 2.0]])]
-    limits, at, asked = [FREE, FREE], {}, list[float]()
-
-    def along(number):
-        def rates(values, *_):
-            a, b = values
-            found = [number - a - 0.2 * a * b, a - 4 * b, np.exp(-a) * b]
-            at[id(found)] = found, a, b
-            return found
-
-        return rates
-
-    plan = integrated(along(1.5), begin, 5.0, limits, ONE_SUM).plan
-    assert len(plan.parts) > 1
-
-    def parts(start, number):
-        rates = along(number)
-        return retraced(rates, start, rates(start, 0.0), 5.0, limits, ONE_SUM, plan.parts)
-
-    def objective(start, number=1.5):
-        return weighed(parts(start, number))
-
-    def behind(found, given):
-        (_, a, b), (of_a, of_b, of_sum) = at[id(found)], given
-        asked.append(float(np.sum(of_a)))
-        by_a = -(1 + 0.2 * b) * of_a + of_b - np.exp(-a) * b * of_sum
-        return [by_a, -0.2 * a * of_a - 4 * of_b + np.exp(-a) * of_sum]
-
-    found = transposed(parts(begin, 1.5), SEEDS[:2], [(Sum(), SEEDS[2])], behind).states
-    for state in (0, 1):
-        for point in range(3):
-            needed = by_state(objective, begin, state, point, 1e-5)
-            assert found[state][0, point] == pytest.approx(needed, rel=1e-6, abs=1e-8)
-    needed = (objective(begin, 1.5 + 1e-5) - objective(begin, 1.5 - 1e-5)) / 2e-5
-    assert sum(asked) == pytest.approx(needed, rel=1e-6)
-
-
-def test_the_transpose_is_the_derivative_where_breaks_are_passed():
+def test_the_transpose_is_the_derivative_where_states_relax_and_pass_breaks():
     begin = [np.array([[0.1, 0.45, 0.9]]), np.array([[0.0, 0.5, 2.0]])]
     k, states = np.array([1.0, 4.0, 0.5]), {}
 
@@ -316,7 +228,7 @@ def test_the_transpose_is_the_derivative_where_breaks_are_passed():
             depth, worked = values
             here = np.searchsorted(breaks, depth, side="right")
             rate = factor * k[here] * (1 + np.exp(-worked))
-            found = [rate, 1 + 0.1 * depth, rate]
+            found = [rate, 1 + 0.1 * depth - worked**2, rate]
             states[id(found)] = found, here, worked, factor
             return found
 
@@ -325,7 +237,7 @@ def test_the_transpose_is_the_derivative_where_breaks_are_passed():
     def parts(start, breaks, factor=1.0):
         kept = [Kept("a", "a test", breaks=breaks), ANY]
         rates, length = along(breaks, factor), 0.7
-        plan = ((0.25, False), (0.75, False))
+        plan = ((0.25, False), (0.75, True))
         first = rates(start, 0.0)
         return retraced(rates, start, first, length, kept, [Sum("")], plan)
 
@@ -339,7 +251,8 @@ def test_the_transpose_is_the_derivative_where_breaks_are_passed():
         of_depth, of_worked, of_sum = given
         of_rate = of_depth + of_sum
         asked.append(float(np.sum(of_rate * found[0])))
-        return [0.1 * of_worked, -factor * k[here] * np.exp(-worked) * of_rate]
+        by_worked = -factor * k[here] * np.exp(-worked) * of_rate - 2 * worked * of_worked
+        return [0.1 * of_worked, by_worked]
 
     breaks = (0.5, 1.3)
     found = transposed(parts(begin, breaks), SEEDS[:2], [(Sum(""), SEEDS[2])], behind)

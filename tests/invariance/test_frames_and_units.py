@@ -14,7 +14,6 @@ from paper_models import flat, motion, named, small
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
-from tribo.core.contact import ContactProblem
 from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.simulation.march import begin, march
@@ -145,15 +144,3 @@ def test_other_lengths_and_moduli(test, length, modulus):
 @given(test=wear_tests(), modulus=st.floats(1e-3, 1e3))
 def test_other_moduli_in_explicit_steps(test, modulus):
     agree(ran({**test, "modulus": modulus}, explicit=True), ran(test, explicit=True))
-
-
-@few
-@given(test=wear_tests())
-def test_the_contact_alone_turned_by_a_right_angle(test):
-    models = model(test), model({**test, "heights": test["heights"].T})
-    straight, turned = (each.contact for each in models)
-    pressures = [
-        each.solver.solve(ContactProblem(each.system, gap, each.system.load)).pressure
-        for each, gap in ((straight, straight.gap), (turned, straight.gap.T))
-    ]
-    agree([pressures[1].T], [pressures[0]])

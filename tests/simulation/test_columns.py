@@ -22,8 +22,6 @@ from tribo import (
     WearRate,
     hookimpl,
 )
-from tribo.study.comparison import compare
-from tribo.study.side_by_side import comparison_table
 
 
 def mean_pressure(snapshot, body):
@@ -121,14 +119,6 @@ def test_columns_of_a_law_and_an_observer_stand_in_every_table(tmp_path):
     for name in ("history", "saves"):
         rows = np.genfromtxt(tmp_path / f"{name}.csv", delimiter=",", names=True)
         assert rows["strokes"][-1] == pytest.approx(last["strokes"])
-
-
-def test_a_comparison_has_a_row_of_each_column():
-    loads = {"load.normal": [50, 100]}
-    with compare(case(), loads, registry=Registry.with_plugins(Acme())) as comparison:
-        rows = {row.values[0]: row.values for row in comparison_table(comparison, [3.0]).rows}
-    assert rows["strokes"][1].split()[0] == "150"
-    assert "ball mean_pressure_Pa" in rows
 
 
 def test_a_finding_may_follow_from_a_column():

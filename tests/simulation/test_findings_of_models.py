@@ -3,14 +3,11 @@
 import warnings
 
 import pytest
-from command_line import tribo
 from paper_models import K, archard, small
 
-from tribo import Archard, Finding, Observer, PluginError, Result, Simulation, Stop, TriboWarning
-from tribo.registry.registry import default_registry
+from tribo import Archard, Finding, Observer, PluginError, Simulation, Stop, TriboWarning
 from tribo.simulation.assembly import assemble
 from tribo.simulation.predict import predict
-from tribo.templates import template
 
 
 class Hot(Archard):
@@ -83,25 +80,6 @@ class Fails(Archard):
 def test_a_model_that_fails_to_speak_is_named():
     with pytest.raises(PluginError, match=r"test\.fails.*ZeroDivisionError"):
         Simulation(case(Fails(k=K))).run()
-
-
-def test_a_run_that_a_model_ends_is_no_failure_of_a_command(tmp_path):
-    code = (
-        "from tribo import Finding, Observer\n\nclass Mileage(Observer):\n"
-        "    def findings(self, snapshot):\n"
-        "        return [Finding('stop', 'far enough')] * (snapshot.state.distance > 0.005)\n"
-    )
-    (tmp_path / "law.py").write_text(code)
-    (tmp_path / "my.toml").write_text('observers = ["mileage"]\n' + template("ball_on_disk"))
-    changes = ("kinematics.duration=0.2", "output.save_times=[]", "grid.size=0.7 mm")
-    words = [word for change in (*changes, "grid.cells=24") for word in ("--set", change)]
-    default_registry.cache_clear()
-    done = tribo("run", "my.toml", "--plugin", "law.py", *words, cwd=tmp_path)
-    default_registry.cache_clear()
-    assert done.returncode == 0, done.stderr
-    assert "far enough" in done.stdout
-    with Result.open(tmp_path / "my.h5") as result:
-        assert result.times[-1] < 0.2
 
 
 def test_what_is_no_finding_is_refused():

@@ -128,8 +128,3 @@ def test_running_out_of_memory_all_the_same_is_one_message():
     surface = Huge(radius="5 mm")
     with pytest.raises(Exception, match=r"surface 'sphere' .*ran out of memory; lower grid\.cells"):
         small(bodies=[named("ball", surface, steel(), archard()), named("disk", flat(), steel())])
-
-
-def test_what_this_process_may_take_is_known():
-    left, _ = memory.memory_left()
-    assert 2**26 < left < 2**50

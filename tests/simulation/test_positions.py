@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import K, archard, case, flat, foundation, last, motion, named, pair, steel
+from paper_models import K, archard, case, flat, last, motion, named, pair, steel
 
 from tribo import (
     Begin,
@@ -16,14 +16,10 @@ from tribo import (
     Unidirectional,
     WearLaw,
 )
-from tribo.config.load import validate_case
 from tribo.simulation import positions
-from tribo.simulation.assembly import assemble, varied
-from tribo.simulation.positions import alike, chosen, composed
+from tribo.simulation.positions import alike, composed
 from tribo.simulation.predict import predict
-from tribo.simulation.validity import check_stroke
 from tribo.stepping.explicit import Explicit
-from tribo.stepping.first_contact import first_contact
 from tribo.surfaces.relief import Waves
 
 GRID = Grid((1.4e-3, 1.4e-3), (48, 48))
@@ -61,12 +57,6 @@ def test_the_choice_does_not_follow_the_grid():
             assert (len(model.cycle) == 1) == averaged
 
 
-def test_positions_lie_less_than_half_a_half_width_apart(resolved):
-    half_width = 0.149e-3
-    apart = 2e-3 / (len(resolved.cycle) - 1)
-    assert 0.35 * half_width < apart < 0.45 * half_width
-
-
 def test_the_positions_taken_are_enough_for_one_percent():
     grid = Grid((0.7e-3, 0.7e-3), (32, 32))
 
@@ -85,27 +75,6 @@ def test_a_pin_takes_the_positions_that_its_first_contact_needs_for_one_percent(
     for stroke, count in (("2 mm", 37), ("1.2 m", 1)):
         given = left_open(stroke).model_copy(update={"bodies": dict([pin, disk])})
         assert len(composed(given).cycle) == count
-
-
-@pytest.mark.slow
-def test_a_flat_pin_has_positions_close_enough_for_its_edge():
-    # Of its even pressure a position less is a step in the groove, which wear does not widen.
-    pin = named("ball", Pin(radius="0.4 mm", edge="0.15 mm"), steel(), archard())
-    disk = named("disk", flat(), steel(), archard())
-    parts = {"bodies": [pin, disk], "grid": Grid((1.2e-3, 1.2e-3), (36, 36)), "load": 50.0}
-
-    def groove(positions):
-        kinematics = motion(stroke="1 mm", duration=None, distance="20 m", positions=positions)
-        wear = (
-            last(composed(case(contact=foundation(), kinematics=kinematics, **parts)))
-            .bodies["disk"]
-            .wear
-        )
-        return np.max(wear[len(wear) // 2])
-
-    exact = groove(99)
-    assert groove("auto") == pytest.approx(exact, rel=0.01)
-    assert groove(9) != pytest.approx(exact, rel=0.01)
 
 
 @pytest.mark.parametrize(("stroke", "count"), [("0.05 mm", 5), ("0.4 mm", 1), ("2 mm", 32)])
@@ -130,22 +99,6 @@ def test_a_contact_without_ends_is_averaged_over_its_own_period_only(stroke, cou
     assert mean == pytest.approx(K * load * distance / edge**2, rel=1e-9, abs=0)
 
 
-def test_a_stroke_beyond_the_window_passes_a_contact_that_repeats_more_than_once():
-    # It touches in the middle of the window alone, and each point meets it five times a stroke.
-    edge, load, distance = 0.4e-3, 5.0, 0.5
-    model = composed(
-        case(
-            grid=Grid((edge, edge), (32, 32)),
-            load=load,
-            contact=Periodic(),
-            bodies=pair(disk=archard()),
-            kinematics=motion(stroke="2 mm", duration=None, distance=distance, positions="auto"),
-        )
-    )
-    mean = np.mean(last(model).bodies["disk"].wear)
-    assert mean == pytest.approx(K * load * distance / edge**2, rel=1e-9, abs=0)
-
-
 def test_a_track_that_does_not_wear_is_averaged():
     bodies = pair(archard())
     still = left_open().model_copy(update={"bodies": dict(bodies)})
@@ -165,12 +118,6 @@ def test_the_choice_is_told_once_and_kept():
         again = Simulation(result.case_tables).model
     assert len(again.cycle) == 11
     assert again.chosen is None
-
-
-def test_the_same_case_has_the_same_choice(resolved):
-    other = composed(validate_case(left_open().model_dump(mode="json")))
-    assert resolved.data == other.data
-    assert resolved.chosen == other.chosen
 
 
 @pytest.mark.parametrize(
@@ -246,25 +193,12 @@ def test_cases_that_must_be_resolved_stay_so_beside_each_other():
             assert each.kinematics.positions == count
 
 
-def test_a_choice_becomes_a_setting_where_there_was_one(resolved):
-    assert chosen(left_open(), resolved) == {"kinematics.positions": 33}
-    fixed = case()
-    assert chosen(fixed, composed(fixed)) == {}
-
-
 def test_a_load_that_changes_along_the_stroke_is_resolved_always():
     along = ((-1e-3, 0.5), (1e-3, 1.5))
     load = Load(normal=100, along=[{"at": at, "share": share} for at, share in along])
     model = composed(left_open(distance="0.1 m").model_copy(update={"load": load}))
     assert len(model.cycle) == 33
     assert model.chosen.words.endswith("as the load changes along the stroke")
-
-
-def test_a_load_that_falls_in_the_middle_of_the_stroke_takes_positions_for_the_contact_there():
-    along = ((-1e-3, 1.0), (0.0, 0.05), (1e-3, 1.0))
-    load = Load(normal=60, along=[{"at": at, "share": share} for at, share in along])
-    model = composed(case(load=load, kinematics=motion(positions="auto")))
-    check_stroke(model, first_contact(model))
 
 
 @pytest.mark.parametrize("positions", ["average", 21])
@@ -286,11 +220,6 @@ def test_a_load_along_the_stroke_cannot_go_on_from_averaged_bodies(tmp_path):
     changes = {"load": load, "begin": Begin(result=str(tmp_path / "a.h5"))}
     with pytest.raises(CaseError, match=r"begin\.result: the run of .* averaged its cycle, and"):
         composed(given.model_copy(update=changes))
-
-
-def test_more_positions_than_cells_are_every_cell():
-    model = composed(case(grid=GRID, kinematics=motion(stroke="0.58 mm", positions=501)))
-    assert (len(model.cycle), model.chosen) == (21, None)
 
 
 class Placed(WearLaw):
@@ -317,9 +246,3 @@ def test_a_law_that_needs_places_is_tried_without_them(body):
     model = composed(given.model_copy(update={"bodies": {**given.bodies, body: placed}}))
     assert len(model.cycle) > 1
     assert predict(model).problems == predict(composed(given)).problems
-
-
-def test_coarser_grids_of_a_case_keep_its_positions(resolved):
-    coarse = assemble(varied(resolved.case, grid=Grid(GRID.size, (32, 32))))
-    assert (len(resolved.cycle), len(coarse.cycle)) == (33, 33)
-    assert predict(resolved).positions == 33

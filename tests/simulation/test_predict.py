@@ -4,10 +4,10 @@ import re
 import time
 
 import pytest
-from paper_models import K, archard, half_space, motion, named, pair, small, sphere, steel
+from paper_models import K, archard, half_space, pair, small
 from tribo_inverse.adjoint.sensitivity import sensitivity
 
-from tribo import CaseError, Effect, Field, Grid, NumericalError, Simulation, Waves
+from tribo import CaseError, Effect, Field, Grid, NumericalError, Simulation
 from tribo.guards import trial_time
 from tribo.simulation.predict import predict
 from tribo.stepping import plastic_groove
@@ -29,13 +29,6 @@ def number(pattern, text):
 
 def test_a_sound_case_has_no_problems():
     assert predict(small()).problems == ()
-
-
-def test_a_run_on_finer_cells_is_said_to_take_longer(monkeypatch):
-    """The clock goes on by a second a look: 6.5 times the trial, a quarter more for each grid."""
-    monkeypatch.setattr("time.perf_counter", map(float, range(100)).__next__)
-    times = [predict(small(grid=Grid((1e-3, 1e-3), (n, n)))).run_time for n in (72, 144)]
-    assert times == pytest.approx([6.5 * 1.25, 6.5 * 2])
 
 
 def test_a_window_that_the_contact_outgrows_is_foreseen_with_the_time():
@@ -157,14 +150,3 @@ def test_a_case_refused_on_its_way_ends_check_as_it_ends_the_run():
     assert problem.kind == "trial"
     assert problem.words.endswith(str(stopped.value))
     assert found.stops == problem.words
-
-
-def test_a_rough_body_on_a_resolved_track_is_estimated_without_its_relief():
-    grid = Grid((0.8e-3, 0.8e-3), (64, 64))
-    relief = Waves(amplitude=1e-8, wavelength=4 * grid.spacing[0], along="x")
-    kinematics = motion(stroke="4 mm", positions=65)
-    both = [named("ball", sphere(), steel(), archard()), named("disk", relief, steel(), archard())]
-    found = predict(small(grid=grid, bodies=both, kinematics=kinematics))
-    smooth = predict(small(grid=grid, kinematics=motion(stroke="4 mm")))
-    assert found.last.bodies == smooth.last.bodies
-    assert not any(problem.kind == "trial" for problem in found.problems)

@@ -13,8 +13,6 @@ from paper_models import archard, flat, motion, named, pair, small, states, stee
 
 from tribo import CaseError, Grid, Interrupted, NumericalError, Result, Simulation
 from tribo.case import Stop
-from tribo.component import Component
-from tribo.contact.periodic import Periodic
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.observers.observer import Observer
 from tribo.result import checkpoint
@@ -68,19 +66,6 @@ def test_a_stopped_run_resumes_to_the_same_bits(tmp_path, undisturbed, number, s
         assert result.status == "done"
         assert bits(result) == undisturbed
     assert list(tmp_path.iterdir()) == [path]
-
-
-@pytest.mark.slow
-def test_a_run_gone_on_with_changed_components_and_stopped_again_says_how_to_go_on(
-    tmp_path, monkeypatch
-):
-    path = tmp_path / "run.h5"
-    with pytest.raises(Interrupted, match=r"tribo resume \S+$"):
-        Simulation(case(**SHORT)).run(path, observers=[Stopper(after=3)])
-    monkeypatch.setattr(Component, "facts", lambda self: {"serial number": "8"})
-    with pytest.raises(Interrupted, match=r"tribo resume \S+ --allow-changed$"):
-        Simulation(case(**SHORT)).resume(path, observers=[Stopper(after=6)], allow_changed=True)
-    Simulation(case(**SHORT)).resume(path, allow_changed=True).close()
 
 
 def test_a_stop_in_the_last_step_is_not_lost_nor_is_the_result(tmp_path):
@@ -203,18 +188,6 @@ def test_the_cells_of_a_line_contact_are_counted_by_hertz_as_check_counts_them()
     assert found in predict(model).problems
 
 
-def test_a_contact_that_fills_its_period_has_no_stroke_that_is_too_short():
-    model = small(
-        bodies=[
-            named("pin", flat(), steel(), archard()),
-            named("disk", flat(), steel(), archard()),
-        ],
-        contact=Periodic(),
-        kinematics=motion(stroke="0.7 mm", duration=1),
-    )
-    assert states(model)[-1].findings == ()
-
-
 def test_a_run_stopped_before_its_first_checkpoint_says_so_and_can_start_again(
     tmp_path, monkeypatch
 ):
@@ -230,16 +203,6 @@ def test_a_run_stopped_before_its_first_checkpoint_says_so_and_can_start_again(
     with pytest.raises(CaseError, match=r"before its first save; .* run --force"):
         Simulation(case(**SHORT)).resume(path)
     assert Simulation(case(**SHORT)).run(path, overwrite=True).status == "done"
-
-
-def test_the_checkpoint_of_another_case_is_not_gone_on_with(tmp_path):
-    ours, theirs = tmp_path / "ours.h5", tmp_path / "theirs.h5"
-    for path, load in ((ours, 100.0), (theirs, 80.0)):
-        with pytest.raises(Interrupted):
-            Simulation(case(load=load)).run(path, observers=[Stopper(after=5)])
-    theirs.replace(ours)
-    with pytest.raises(CaseError, match="belongs to another case"):
-        Simulation(case(load=80.0)).resume(ours)
 
 
 def test_replacing_a_result_drops_its_checkpoints(tmp_path):

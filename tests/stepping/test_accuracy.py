@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from paper_models import K, foundation, lost, motion, pair, pin, power, small, states, steel
+from paper_models import K, foundation, lost, motion, pair, power, small, steel
 
-from tribo import Field, Grid, WearLaw, WearRate
+from tribo import Grid, WearLaw, WearRate
 from tribo.core.fields import LocalConditions
 from tribo.guards.parts import GuardedLaw
 from tribo.stepping.implicit import Implicit
@@ -23,25 +23,6 @@ class Threshold(WearLaw):
         return WearRate(K * excess, K * (excess > 0))
 
 
-LENGTH = 0.05
-
-
-class Fading(WearLaw):
-    """dh/ds = k (0.1 + 0.9 m) p, with dm/ds = −m/(50 mm)."""
-
-    type = "test.fading"
-
-    state_fields = (Field("fresh", "1", "Part that has not yet run in."),)
-
-    def initial_state(self):
-        return {"fresh": 1.0}
-
-    def rate(self, local):
-        fresh = local.state["fresh"]
-        k = K * (0.1 + 0.9 * fresh)
-        return WearRate(k * local.pressure, k, {"fresh": -fresh / LENGTH})
-
-
 def volume(law, stepping, duration):
     parts = {"grid": Grid((0.7e-3, 0.7e-3), (24, 24)), "kinematics": motion(duration=duration)}
     return lost(small(bodies=pair(law), contact=foundation(), stepping=stepping, **parts))
@@ -52,12 +33,6 @@ def volume(law, stepping, duration):
 def test_a_law_not_linear_in_pressure_is_right_to_0_3_percent(law):
     default, fine = (volume(law, stepping, 50) for stepping in (Implicit(), FINE))
     assert default == pytest.approx(fine, rel=3e-3, abs=0)
-
-
-def test_a_law_that_has_run_in_after_a_twentieth_of_the_path_follows_its_integral():
-    state = states(pin(Fading()))[-1]
-    needed = 10e6 * K * (0.1 + 0.9 * LENGTH * (1 - np.exp(-1 / LENGTH)))
-    assert state.bodies["pin"].wear == pytest.approx(needed, rel=1e-4, abs=0)
 
 
 class Steepless(Power):

@@ -1,26 +1,18 @@
 """State of effects: where it lies, its limits, rests, and that it goes on after a stop."""
 
-import json
 from collections.abc import Mapping
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from paper_models import K, archard, foundation, goes_on, motion, pair, pin, small, states
-from strangers.debris import Covered, Debris, Filling
+from strangers.debris import Covered, Debris
 
-from tribo import CaseError, Effect, Field, Grid, Result, RunningIn, Simulation, WearLaw, WearRate
-from tribo.case import Begin
-from tribo.cli.show import show
+from tribo import CaseError, Effect, Field, Grid, RunningIn, Simulation, WearLaw, WearRate
 from tribo.core.errors import PluginError
 from tribo.core.fields import LOAD_SHARE
-from tribo.core.words import checked_name
-from tribo.evolution.states import place
 from tribo.motion.closed_track import Unidirectional
-from tribo.observers.observer import Observer
-from tribo.simulation.assembly import assemble
-from tribo.simulation.march import begin
 from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
 
 COVERED = Covered(k=K, cover="50 nm")
 WARM = Field("warm", "K", "Temperature of a bath.", uniform=True, at_least=0)
@@ -87,12 +79,13 @@ def test_what_is_uniform_is_one_number_and_relaxes_as_it_should(law):
         assert seen[end][0, 0] - 300 == pytest.approx(rise, rel=2e-4)
 
 
-@pytest.mark.parametrize("stepping", ["implicit", "explicit"])
-def test_both_schemes_come_to_the_same(stepping):
-    steps = {"stepping": Explicit(time_step="0.2 s")} if stepping == "explicit" else {}
-    last = states(model(effects=[Debris(length="0.5 m")], **steps))[-1]
+@pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step="0.2 s")])
+def test_both_schemes_come_to_the_same_in_few_solves(stepping):
+    last = states(model(effects=[Debris(length="0.5 m")], stepping=stepping))[-1]
     middle = last.between["debris_thickness"][10, 10]
     assert middle == pytest.approx(1.0052e-7, rel=5e-3, abs=0)
+    # Without the slopes through what is remembered implicit steps take 37.
+    assert last.contact_solves <= 26
 
 
 def test_on_a_body_that_passes_it_moves_with_it():
@@ -120,7 +113,6 @@ class Film(Debris):
 
 
 ON_EACH = [Film(length=1e9, on=on, begins=begins) for on, begins in (("ball", 0), ("disk", 5e-8))]
-LYING = [[Filling(length="0.5 m")], [Debris(length="0.5 m", on="disk")], ON_EACH]
 
 
 @pytest.mark.slow
@@ -137,86 +129,6 @@ def test_a_law_follows_the_film_on_its_own_body_where_each_has_one():
     bare = states(model(kinematics=short, bodies=pair(archard(), archard(K / np.e))))[-1]
     for name, body in bare.bodies.items():
         np.testing.assert_allclose(filmed.bodies[name].wear, body.wear, rtol=1e-9)
-
-
-def test_the_result_has_a_film_on_each_body_under_one_name(tmp_path):
-    with Simulation(model(effects=ON_EACH, kinematics=motion(duration=0.1)).case).run() as result:
-        assert result.dataset.debris_thickness.dims == ("time", "body", "x", "y")
-        for film in ON_EACH:
-            values = result.body(film.on).state["debris_thickness"]
-            assert values[0].max() == values[0].min() == film.begins
-            assert values[-1].max() > film.begins
-
-
-def test_the_result_has_it_without_being_asked(tmp_path):
-    path = tmp_path / "run.h5"
-    Simulation(model(effects=[Debris(length="0.5 m"), Bath()]).case).run(path).close()
-    with Result.open(path) as result:
-        thickness, warm = result.dataset.debris_thickness, result.dataset.warm
-        assert thickness.dims == ("time", "x", "y")
-        assert warm.dims == ("time",)
-        assert thickness.attrs["units"] == "m"
-        assert warm[-1] > warm[0] == 300
-    told = CliRunner().invoke(show, [str(path), "--json"], catch_exceptions=False)
-    last = json.loads(told.output)["saves"][-1]["between"]
-    assert last["debris_thickness_m"]["max"] == pytest.approx(
-        float(thickness[-1].max()), rel=1e-9, abs=0
-    )
-    assert last["warm_K"]["min"] == last["warm_K"]["max"] > 300
-    shown = CliRunner().invoke(show, [str(path)], catch_exceptions=False).output
-    assert "warm, K" in shown
-
-
-class Last(Observer):
-    """Keeps the state after the last step."""
-
-    _state: object = None
-
-    def on_step(self, snapshot):
-        self._state = snapshot.state
-
-    @property
-    def state(self):
-        return self._state
-
-
-@pytest.mark.parametrize("debris", LYING)
-def test_a_run_that_begins_worn_goes_on_with_it(tmp_path, debris):
-    effects = [*debris, Bath()]
-    case = model(effects=effects, kinematics=motion(duration=0.5)).case
-    watched = Last()
-    Simulation(case).run(tmp_path / "worn.h5", observers=[watched]).close()
-    last = watched.state
-    begun = case.model_copy(update={"begin": Begin(result=str(tmp_path / "worn.h5"))})
-    first = begin(assemble(begun))
-    for name, values in last.between.items():
-        np.testing.assert_array_equal(first.between[name], values)
-    pressure = last.contact.pressure
-    np.testing.assert_allclose(first.contact.pressure, pressure, atol=1e-6 * pressure.max())
-
-
-class Runaway(Effect):
-    type = "test.runaway"
-    state_fields = (Field("left", "1", "Part that is left.", at_least=0, at_most=1),)
-
-    def initial_state(self):
-        return {"left": 1.0}
-
-    def state_rates(self, contact):
-        assert contact.state["left"].min() >= 0, "beyond its limits at a trial"
-        return {"left": np.full((1, 1), -1.0)}
-
-
-@pytest.mark.slow
-def test_a_state_that_leaves_its_limits_ends_the_run_by_name():
-    words = r"'left' of effect 'test\.runaway' goes on beyond its limits of 0 to 1"
-    with pytest.raises(PluginError, match=words):
-        states(model(archard(), effects=[Runaway()], grid=Grid((0.7e-3, 0.7e-3), (10, 10))))
-
-
-def test_a_place_is_called_as_no_body_can_be():
-    with pytest.raises(ValueError, match="is no good as a body's name"):
-        checked_name(place(small(), None))
 
 
 class Twice(Bath):
@@ -266,18 +178,6 @@ def test_an_effect_may_require_what_a_law_remembers():
     with Simulation(model(bodies=bodies, effects=[Follows()])).run() as result:
         twice = result.body("disk").effects["rubbed_twice"][-1]
         assert twice.max() == pytest.approx(2 * result.distances[-1])
-
-
-class Clashes(Follows):
-    type = "test.clashes"
-    requires = ()
-    provides = (Field("rubbed", "m", "What a law remembers too."),)
-
-
-def test_a_field_may_not_have_the_name_of_what_a_law_remembers():
-    bodies = pair(Rubbed())
-    with pytest.raises(CaseError, match=r"'rubbed' is provided twice.*test\.clashes"):
-        model(bodies=bodies, effects=[Clashes()])
 
 
 class OfBoth(Follows):

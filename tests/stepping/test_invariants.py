@@ -1,15 +1,12 @@
 """What must hold at every step: that a run keeps it, and stops where a part does not."""
 
-import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from paper_models import K, archard, flat, last, motion, named, small, sphere, states, steel
 
 from tribo import Result, Simulation
-from tribo.cli.show import show
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
 from tribo.core.errors import NumericalError, TriboWarning
@@ -159,24 +156,3 @@ def test_the_load_balance_is_measured_and_not_taken_on_trust():
 
     result = Simulation(one_body(contact=Boasts())).run()
     assert result.worst()["force_error"] == pytest.approx(3e-7, rel=1e-3)
-
-
-def test_the_worst_of_each_is_shown(tmp_path):
-    path = tmp_path / "run.h5"
-    with Simulation(one_body()).run(path) as result:
-        history = result.table("history")
-    shown = CliRunner().invoke(show, [str(path), "--json"], catch_exceptions=False)
-    worst = json.loads(shown.stdout)["invariants"]
-    assert set(worst) == {
-        "force_error",
-        "complementarity_error",
-        "penetration_error",
-        "volume_error",
-        "regrowth_m",
-        "chattering",
-    }
-    assert worst == {name: max(history[name]) for name in worst}
-    assert worst["volume_error"] > 0
-    assert worst["chattering"] > 0
-    text = CliRunner().invoke(show, [str(path)], catch_exceptions=False).stdout
-    assert "At worst: load off by" in text

@@ -54,17 +54,6 @@ def test_nothing_yields_twice_under_one_load():
     assert max(np.max(contact.overlap) for contact in again) < 1e-5 * deepest
 
 
-def test_a_layer_of_the_bodys_hardness_limits_as_none_does():
-    case = yielding("0.9 GPa", "0.9 GPa", "20 nm", distance="0.01 m")
-    plain = yielding("0.9 GPa", "0.9 GPa", "20 nm", distance="0.01 m")
-    plain["bodies"]["pin"]["layers"] = []
-    depths = []
-    for each in (case, plain):
-        with Simulation(each).run() as result:
-            depths.append(result.body("pin").plastic_depth[-1])
-    np.testing.assert_allclose(*depths, rtol=1e-6, atol=1e-6 * depths[0].max())
-
-
 def test_a_solver_that_knows_one_hardness_refuses_two():
     case = flat(pin=coated(hardness="10 GPa"), contact={"type": "winkler", "modulus": 1e15})
     case["bodies"]["pin"]["material"] = {**STEEL, "hardness": "4 GPa"}

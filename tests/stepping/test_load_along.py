@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from paper_models import K, case, foundation, last, motion, small
+from paper_models import K, foundation, last, motion, small
 from stroke import GRID, STROKE
 
-from tribo import CaseError, Load, Periodic, Place, Simulation, Stage
-from tribo.simulation.predict import predict
+from tribo import CaseError, Load, Periodic, Place, Stage
 
 HALVED = [(-6, 0.5), (-3, 1.0), (3, 1.0), (6, 0.5)]
 """Cells from the middle of the stroke, and the load there."""
@@ -35,26 +34,6 @@ def test_the_volumes_are_those_of_the_mean_load_over_the_path_and_time():
     loads = [np.sum(c.pressure) * GRID.cell_area for c in state.contacts]
     shares = np.interp(np.arange(-6, 7), *zip(*HALVED, strict=True))
     np.testing.assert_allclose(loads, 100 * shares, rtol=1e-8)
-
-
-def test_a_load_that_is_the_same_at_both_ends_leaves_the_cycle_symmetrical():
-    state = last(loaded(Load(normal=100, along=along()), positions=13, duration=5))
-    disk = state.bodies["disk"].wear
-    np.testing.assert_array_equal(state.contacts[0].pressure[::-1], state.contacts[-1].pressure)
-    np.testing.assert_allclose(disk, disk[::-1], atol=1e-12 * disk.max())
-
-
-@pytest.mark.slow
-def test_what_it_will_do_is_predicted_and_positions_are_chosen():
-    load = Load(normal=100, along=along())
-    kinematics = motion(stroke=STROKE, duration=20, positions="auto")
-    model = Simulation(
-        case(grid=GRID, contact=foundation(), kinematics=kinematics, load=load)
-    ).model
-    assert len(model.cycle) == 13
-    found = predict(model)
-    volume = found.last.bodies["disk"].wear_volume
-    assert volume == pytest.approx(K * 87.5 * model.end_distance, rel=0.05, abs=0)
 
 
 @pytest.mark.parametrize(

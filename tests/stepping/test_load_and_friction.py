@@ -1,7 +1,6 @@
 """Effects that carry load or set the friction, and the work of friction."""
 
 import numpy as np
-import paper_models
 import pytest
 from edited import bits
 from paper_models import (
@@ -14,7 +13,6 @@ from paper_models import (
     named,
     pair,
     small,
-    states,
     steel,
 )
 
@@ -32,9 +30,7 @@ from tribo import (
 from tribo.core.errors import PluginError
 from tribo.motion.closed_track import Unidirectional
 from tribo.stepping.explicit import Explicit
-from tribo.stepping.implicit import Implicit
 from tribo.wear.archard import Power
-from tribo.wear.running_in import RunningIn
 
 
 class Film(Effect):
@@ -49,30 +45,22 @@ class Film(Effect):
         return {"load_share": dict.fromkeys(contact.materials, share)}
 
 
-class Faster(Effect):
-    """A coefficient of friction in proportion to the speed."""
+class Rubs(Effect):
+    """A coefficient of friction that a function of the contact gives, on each body if it does."""
 
-    type = "test.faster"
-    per_speed: float = 2.0
+    type = "test.rubs"
     provides = (FRICTION_COEFFICIENT,)
+    _function: object = None
 
     def fields(self, contact):
-        friction = np.full((1, 1), self.per_speed * contact.speed)
-        return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
+        values = np.broadcast_to(self._function(contact), (2, 1, 1))
+        return {"friction_coefficient": dict(zip(contact.materials, values, strict=True))}
 
 
-class Loaded(Effect):
-    """A coefficient of friction in proportion to the mean pressure of the window."""
-
-    type = "test.loaded"
-    provides = (FRICTION_COEFFICIENT,)
-
-    def fields(self, contact):
-        friction = np.full((1, 1), PER_LOAD * contact.pressure.sum() * contact.grid.cell_area)
-        return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
-
-
-PER_LOAD = 2e-3
+def rubs(function):
+    effect = Rubs()
+    effect._function = function
+    return effect
 
 
 def run(law=None, **changes):
@@ -179,7 +167,9 @@ def test_the_work_of_friction_is_that_of_the_load():
 def test_friction_may_follow_the_speed():
     stages = [{"until": 10, "speed": "0.1 m/s"}, {"until": 20, "speed": "0.2 m/s"}]
     motion = Unidirectional(speed=stages, track_length="2 mm", duration=20)
-    with run(effects=[Faster()], kinematics=motion, save_times=(10,)) as result:
+    with run(
+        effects=[rubs(lambda contact: 2 * contact.speed)], kinematics=motion, save_times=(10,)
+    ) as result:
         begin, first, last = result.saves()
     assert begin["friction_force_N"] == pytest.approx(20.0, rel=1e-9)
     assert first["friction_force_N"] == pytest.approx(20.0, rel=1e-9)
@@ -190,32 +180,22 @@ def test_friction_may_follow_the_speed():
 
 def test_friction_may_follow_the_load():
     jumps = [{"until": 10, "normal": 20}, {"until": 11, "normal": 100}, {"until": 20, "normal": 20}]
-    parts = {"effects": [Loaded()], "stepping": Explicit(time_step=2), **pin(archard())}
+    c = 2e-3
+    follows = rubs(lambda contact: c * contact.pressure.sum() * contact.grid.cell_area)
+    parts = {"effects": [follows], "stepping": Explicit(time_step=2), **pin(archard())}
     with run(load={"normal": jumps}, **parts) as result:
         work = result.saves()[-1]["friction_energy_J"]
     # ∫ μ F ds with μ = c F; each stage from the load after its jump on.
-    assert work == pytest.approx(PER_LOAD * 0.1 * (20**2 * 19 + 100**2), rel=1e-9)
+    assert work == pytest.approx(c * 0.1 * (20**2 * 19 + 100**2), rel=1e-9)
     ramp = [{"at": 0, "normal": 20}, {"at": 20, "normal": 100}]
     with run(load={"normal": ramp}, **parts) as result:
         work = result.saves()[-1]["friction_energy_J"]
-    assert work == pytest.approx(PER_LOAD * 0.1 * 20 * (20**2 + 20 * 100 + 100**2) / 3, rel=1e-10)
-
-
-class Since(Effect):
-    """A coefficient of friction of 0.1 (1 + sin t) on one body, and some more on the other."""
-
-    type = "test.since"
-    more: float = 0.0
-    provides = (FRICTION_COEFFICIENT,)
-
-    def fields(self, contact):
-        friction = 0.1 * (1 + np.sin(contact.time))
-        values = np.array([friction, friction + self.more]).reshape(-1, 1, 1)
-        return {"friction_coefficient": dict(zip(contact.materials, values, strict=True))}
+    assert work == pytest.approx(c * 0.1 * 20 * (20**2 + 20 * 100 + 100**2) / 3, rel=1e-10)
 
 
 def test_the_work_of_friction_that_follows_the_time_is_that_of_its_integral():
-    with run(effects=[Since()], **pin(archard())) as result:
+    follows = rubs(lambda contact: 0.1 * (1 + np.sin(contact.time)))
+    with run(effects=[follows], **pin(archard())) as result:
         history = result.table("history")
     exact = 0.1 * (1 - np.cos(20) + 20) * 100 * 0.1
     assert history["friction_energy_J"][-1] == pytest.approx(exact, rel=3e-5)
@@ -223,7 +203,7 @@ def test_the_work_of_friction_that_follows_the_time_is_that_of_its_integral():
 
 def test_friction_that_is_not_alike_on_both_bodies_is_refused():
     with pytest.raises(PluginError, match="friction_coefficient"):
-        run(effects=[Since(more=0.1)])
+        run(effects=[rubs(lambda _: [[[0.1]], [[0.2]]])])
 
 
 class Fading(Effect):
@@ -263,74 +243,11 @@ def test_at_rest_there_is_no_force_of_friction():
     assert forces[::2] == [0, 0]
 
 
-class Jumps(Effect):
-    """A coefficient of friction that jumps at a time."""
-
-    type = "test.jumps"
-    at: float = 10.0
-    provides = (FRICTION_COEFFICIENT,)
-
-    def fields(self, contact):
-        friction = np.full((1, 1), 0.1 if contact.time < self.at else 0.4)
-        return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
-
-
-@pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step="6.67 s")])
-@pytest.mark.parametrize("at", [6.5, 19.9])
-def test_the_work_of_friction_that_jumps_is_close(at, stepping):
-    with run(effects=[Jumps(at=at)], stepping=stepping, **pin(archard())) as result:
-        work = result.saves()[-1]["friction_energy_J"]
-    assert work == pytest.approx(100 * 0.1 * (0.1 * at + 0.4 * (20 - at)), rel=1e-3)
-
-
-class Square(Effect):
-    """A coefficient of friction that jumps, to and fro, with what it remembers."""
-
-    type = "test.square"
-    provides = (FRICTION_COEFFICIENT,)
-    state_fields = (Field("covered", "1", "Part that is covered.", uniform=True, at_most=1),)
-
-    def state_rates(self, contact):
-        return {"covered": (1 - contact.state["covered"]) * contact.speed / 0.5}
-
-    def fields(self, contact):
-        friction = 0.3 + 0.2 * np.sign(np.sin(6 * np.pi * contact.state["covered"]))
-        return {"friction_coefficient": dict.fromkeys(contact.materials, friction)}
-
-
-@pytest.mark.slow
-def test_friction_that_jumps_often_shortens_steps():
-    with run(effects=[Square()], **pin(archard())) as result:
-        work = result.saves()[-1]["friction_energy_J"]
-    slid = np.linspace(0, 2, 200_001)
-    friction = 0.3 + 0.2 * np.sign(np.sin(6 * np.pi * -np.expm1(-slid / 0.5)))
-    assert work == pytest.approx(100 * 2 * np.mean(friction), rel=1e-2)
-
-
 def test_friction_has_one_source():
     with pytest.raises(CaseError, match="'friction_coefficient' is provided twice"):
-        run(effects=[Faster()], friction_coefficient=0.1)
+        run(effects=[rubs(lambda _: 0.1)], friction_coefficient=0.1)
 
 
 def test_without_friction_its_columns_are_empty():
     with run() as result:
         assert np.isnan(result.table("history")["friction_energy_J"]).all()
-
-
-class Late(Film):
-    """One that carries its part from a time on."""
-
-    type = "test.late"
-    after: float
-
-    def fields(self, contact):
-        share = self.share * (contact.time > self.after) * np.ones_like(contact.pressure)
-        return {LOAD_SHARE.name: dict.fromkeys(contact.materials, share)}
-
-
-def test_a_law_with_a_closed_form_sees_a_film_that_comes_within_a_step():
-    law = RunningIn(law=archard(), factor=1, over="0.2 GPa m")
-    last = states(paper_models.pin(law=law, effects=[Late(share=0.9, after=4)]))[-1]
-    # It slides 1 m at 0.1 m/s.
-    worn = K * 10e6 * (0.4 + 0.1 * 0.6)
-    assert last.bodies["pin"].wear == pytest.approx(worn, rel=1e-4, abs=0)

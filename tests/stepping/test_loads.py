@@ -16,7 +16,7 @@ from paper_models import (
     states,
 )
 
-from tribo import CaseError, Explicit, Grid, Implicit, Load, Measured, Simulation, Stage, load_case
+from tribo import CaseError, Explicit, Grid, Load, Simulation, Stage, load_case
 
 GRID = Grid((0.7e-3, 0.7e-3), (32, 32))
 SPEED = 0.1
@@ -59,20 +59,6 @@ def test_explicit_steps_take_a_ramp_to_first_order():
     assert -5e-3 < off[0] < 0
 
 
-def depth_after(steps, load):
-    """Return the depth (m) of the ball after equal steps."""
-    model = loaded(load)
-    state = states(loaded(load, duration=1e-6))[0]
-    for step in range(1, steps + 1):
-        state = model.case.stepping.step(model, state, 8.0 * SPEED / steps, 8.0 * step / steps)
-    return float(state.bodies["ball"].wear.max())
-
-
-def test_steps_under_a_ramp_are_of_first_order():
-    exact, coarse, fine = (depth_after(steps, RAMP) for steps in (128, 8, 16))
-    assert (coarse - exact) / (fine - exact) == pytest.approx(2, abs=0.35)
-
-
 @pytest.mark.slow
 def test_a_save_at_a_jump_shows_the_load_before_it_and_the_run_goes_on_under_the_next():
     with Simulation(loaded(BLOCKS, save_times=(3, 6, 7))).run() as result:
@@ -84,14 +70,6 @@ def test_a_save_at_a_jump_shows_the_load_before_it_and_the_run_goes_on_under_the
     assert rate == pytest.approx(1e9 * K, rel=1e-9, abs=0)
 
 
-def test_a_jump_costs_no_more_steps_than_a_start():
-    model = loaded(BLOCKS)
-    steady = last(loaded(100.0))
-    jumped = last(model)
-    assert jumped.steps < 2.5 * steady.steps
-    assert jumped.rejected_steps <= steady.rejected_steps + 5
-
-
 @pytest.mark.slow
 def test_a_jump_to_a_higher_load_yields_anew_up_to_the_hardness():
     bodies = pair(archard(), archard(), hardness=(None, 1.2e9))
@@ -99,27 +77,6 @@ def test_a_jump_to_a_higher_load_yields_anew_up_to_the_hardness():
     deepest = {state.time: state.bodies["disk"].plastic.max() for state in found}
     assert deepest[20.0] > 2 * deepest[6.0] > 0
     assert all(state.contact.pressure.max() <= 1.2e9 * (1 + 1e-9) for state in found)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step=0.5)], ids=lambda s: s.type)
-def test_a_load_that_changes_while_the_motion_rests_presses_without_wear(stepping):
-    path = [[0, 0], [2, 0.6e-3], [6, 0.6e-3], [8, 0]]
-    load = (Stage(until=3, normal=20), Stage(until=4, normal=60), Stage(at=8, normal=100))
-    model = loaded(
-        load,
-        grid=Grid((0.6e-3, 0.6e-3), (32, 32)),
-        kinematics=Measured(path=path, positions=15),
-        save_times=(2.5, 3.5, 5, 6),
-        stepping=stepping,
-    )
-    with Simulation(model).run() as result:
-        np.testing.assert_allclose(result.load, [20, 20, 60, 70, 80, 100])
-        carried = [np.sum(result.field("pressure", save)) for save in range(6)]
-        np.testing.assert_allclose(carried, result.load / model.grid.cell_area, rtol=1e-8)
-        worn = result.body("ball").wear_depth
-        np.testing.assert_array_equal(worn[1], worn[4])
-        assert worn[5].max() > worn[4].max() > 0
 
 
 @pytest.mark.slow

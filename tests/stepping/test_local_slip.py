@@ -128,15 +128,3 @@ def test_a_slip_of_each_body_is_refused():
 def test_two_slips_are_refused():
     with pytest.raises(CaseError, match="local_slip"):
         small(effects=[Slips(), Slips()])
-
-
-def test_nothing_wears_where_all_sticks():
-    class Sticks(Slips):
-        type = "test.sticks"
-
-        def fields(self, contact):
-            return {"local_slip": dict.fromkeys(contact.materials, 0.0 * contact.pressure)}
-
-    state = last(small(effects=[Sticks()], friction_coefficient=MU))
-    assert state.friction_energy == 0
-    assert all(np.max(body.wear) == 0 for body in state.bodies.values())

@@ -36,19 +36,6 @@ def test_the_same_points_of_a_body_wear_wherever_they_pass():
         assert wear[rows // 2].max() > 0
 
 
-def test_a_place_moves_through_the_window_with_its_body():
-    model = sliding("cells")
-    dx = GRID.spacing[0]
-    starts = model.cycle.maps["disk"].starts
-    for position, start in enumerate(starts):
-        places = model.cycle.fields[position]
-        np.testing.assert_array_equal(places["place_x"]["ball"][:, 3], GRID.x)
-        np.testing.assert_allclose(
-            places["place_x"]["disk"][:, 3], GRID.x + (start - starts[6]) * dx, atol=1e-12
-        )
-        np.testing.assert_array_equal(places["place_y"]["disk"][5], GRID.y)
-
-
 def test_an_averaged_body_has_no_places_for_a_law():
     with pytest.raises(CaseError, match=r"bodies\.disk\.wear: 'test\.half_hard' wears places"):
         sliding("average")

@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-from paper_models import archard, half_space, motion, pair, small, states
+from paper_models import archard, motion, pair, small, states
 
 from tribo import Grid, Load, Measured, Stage
 from tribo.core.contact import ContactProblem
 from tribo.stepping.contacts import undeformed
-from tribo.stepping.first_contact import first_contact
 from tribo.stepping.step import start_sliding
 
 HARDNESS = 4e9
@@ -71,31 +70,6 @@ def test_wear_takes_the_pressure_below_the_cap_for_good(run):
     assert pressures[-1] < 0.9 * HARDNESS
     depths = [state.bodies["disk"].plastic.max() for state in run[1]]
     assert depths[-1] == depths[1]
-
-
-def test_without_plasticity_the_pressure_is_hertzs():
-    first = first_contact(yielding(contact=half_space(plasticity=False)))
-    assert first.contact.pressure.max() == pytest.approx(4.643e9, rel=5e-3)
-    assert first.contact.overlap.max() == 0
-
-
-@pytest.mark.slow
-def test_a_softer_disk_gets_a_groove_that_comes_to_rest():
-    model = yielding(hardness=("6 GPa", "4 GPa"), kinematics=motion(duration=20))
-    all_states = states(model)
-    assert all(state.bodies["ball"].plastic.max() == 0 for state in all_states)
-    last = all_states[-1]
-    disk = last.bodies["disk"].plastic
-    # Without the ball's share the disk alone sinks deeper than with equal hardness.
-    assert disk.max() > 2e-6
-    assert np.ptp(disk, axis=0).max() == 0
-    assert last.contact.pressure.max() < model.contact.system.cap
-
-
-def test_what_is_pressed_in_is_shared_out_whole(run):
-    first = run[1][0]
-    shared = first.bodies["ball"].plastic + first.bodies["disk"].plastic
-    np.testing.assert_allclose(shared, first.contact.overlap, rtol=1e-12)
 
 
 def test_every_pressure_belongs_to_the_geometry_saved_with_it(run):

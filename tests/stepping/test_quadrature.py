@@ -33,11 +33,6 @@ def test_of_smooth_values_the_estimate_is_the_error(count):
     assert estimate == pytest.approx(error, rel=0.08)
 
 
-def test_what_is_missed_adds_no_volume():
-    nodes, shares = quadrature(17)
-    assert np.sum(missed_shares(nodes, shares)) == pytest.approx(0, abs=1e-16)
-
-
 def true_error(state, finest, model):
     """Return the mean error over the contact, relative to the deepest wear, as it is estimated."""
     errors = []

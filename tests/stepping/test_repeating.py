@@ -15,7 +15,6 @@ from paper_models import (
     named,
     small,
     sphere,
-    states,
     steel,
 )
 
@@ -123,15 +122,6 @@ def test_both_bodies_wear_as_in_a_plain_loop_that_goes_round(path):
         assert volume == pytest.approx(K * LOAD * state.distance, rel=1e-10, abs=0)
 
 
-@pytest.mark.slow
-def test_which_body_is_called_moving_changes_nothing():
-    one, other = (last(repeating(strokes(6, swept=name))) for name in ("lower", "upper"))
-    for name in ("lower", "upper"):
-        # A path and its way back are alike, so the window stays on the one as well as the other.
-        found, expected = (state.bodies[name].wear for state in (one, other))
-        np.testing.assert_allclose(found, expected, atol=2e-3 * expected.max())
-
-
 SINE = {"waveform": "sinusoidal"}
 PATH = [(0, 0), (1, 50 * DX), (2, 50 * DX), (5, -3.3 * DX), (6, 0)]
 
@@ -185,24 +175,12 @@ def test_of_a_contact_without_an_end_the_average_holds_for_a_track_of_one_period
         assert begin(repeating(other, **flats)).findings == ()
 
 
-def test_a_ball_alone_in_its_window_is_averaged_over_its_own_track():
-    ball = {"bodies": bodies(sphere(), flat()), "load": 5, "contact": Periodic()}
-    found = begin(repeating(track(positions="average"), **ball)).findings
-    assert "averaging" not in [each.kind for each in found]
-
-
 def test_a_check_foresees_them():
     foreseen = predict(repeating(track(), contact=Periodic(), load=2000.0))
     depth = K * 2000 / (GRID.size[0] * GRID.size[1])
     assert foreseen.problems == ()
     assert [b.max_wear_depth for b in foreseen.last.bodies.values()] == pytest.approx([depth] * 2)
     assert foreseen.positions == 16
-
-
-def test_an_even_number_of_positions_has_no_middle_to_mirror():
-    # Nothing wears, so that all positions are alike.
-    model = repeating(track(), bodies=bodies(flat(), flat(), wears=(False, False)))
-    assert {len(state.contacts) for state in states(model)} == {16}
 
 
 def test_waves_press_at_each_position_as_far_apart_as_they_have_come():
@@ -217,13 +195,6 @@ def test_waves_press_at_each_position_as_far_apart_as_they_have_come():
         expected = mean + 0.5 * model.contact.system.modulus * q * wave
         assert np.min(expected) > 0
         np.testing.assert_allclose(contact.pressure, expected + 0 * GRID.y, rtol=1e-9)
-
-
-def test_waves_that_slide_over_a_flat_wear_off_evenly():
-    bodies_ = bodies(Waves(amplitude=2e-8, wavelength=GRID.size[0], along="x"), flat())
-    model = repeating(track(), contact=Periodic(), bodies=bodies_, load=2000)
-    lower = last(model).bodies["lower"].wear
-    np.testing.assert_allclose(lower, K * 2000 / (GRID.size[0] * GRID.size[1]), rtol=1e-3)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,6 @@ import scipy.fft
 from paper_models import (
     K,
     archard,
-    case,
     flat,
     foundation,
     goes_on,
@@ -29,37 +28,13 @@ from tribo import (
     NumericalError,
     Passing,
     Pin,
-    Position,
-    Simulation,
     Waves,
 )
 from tribo.core.contact import ContactProblem
 from tribo.core.errors import PluginError
-from tribo.lab.inferred import track_section
 from tribo.motion.exposure import Stationary
 from tribo.plotting.profiles import body_profiles
 from tribo.stepping.contacts import undeformed
-
-
-@pytest.fixture(scope="module")
-def every_cell():
-    return last(resolved())
-
-
-@pytest.mark.slow
-def test_the_cycle_stays_symmetrical(every_cell):
-    disk = every_cell.bodies["disk"].wear
-    np.testing.assert_allclose(disk, disk[::-1], atol=1e-4 * disk.max())
-
-
-@pytest.mark.slow
-def test_which_body_is_called_moving_changes_nothing(every_cell):
-    kinematics = motion(stroke=STROKE, duration=600, positions="cells", swept="ball")
-    other = last(resolved(kinematics=kinematics))
-    ball, disk = (every_cell.bodies[name].wear for name in ("ball", "disk"))
-    # The window stays on the disk now, and the ball moves in it.
-    np.testing.assert_allclose(other.bodies["ball"].wear[6:-6], ball, atol=2e-3 * ball.max())
-    np.testing.assert_allclose(other.bodies["disk"].wear, disk[6:-6], atol=2e-3 * disk.max())
 
 
 @pytest.mark.slow
@@ -122,86 +97,48 @@ def test_a_contact_that_leaves_the_window_away_from_mid_stroke_ends_the_run():
         last(small(grid=narrow, contact=foundation(), kinematics=kinematics))
 
 
-@pytest.mark.parametrize("starts", [(2, 1), (3, 1, 0), (2, 2, 0), (2, 1, -1)])
-def test_starts_that_do_not_fit_the_cycle_are_refused(starts):
+class Scaled(Passing):
+    """A body that passes, with an average that is not the rate."""
+
+    def average(self, rate):
+        return 0.5 * rate
+
+
+class Turning(Stationary):
+    """A body that stays, and pretends to pass."""
+
+    swept = True
+
+
+def from_starts(*starts):
+    def made(grid, right):
+        passing = Passing(grid, right, STROKE)
+        passing.starts = starts
+        return passing
+
+    return made
+
+
+@pytest.mark.parametrize(
+    ("made", "words"),
+    [
+        (from_starts(*range(12)), "starts"),
+        (from_starts(13, *range(11, -1, -1)), "starts"),
+        (from_starts(*range(11, -1, -1), -1), "starts"),
+        (lambda grid, right: Scaled(grid, right, STROKE), "'average' for body"),
+        (lambda grid, right: Turning(grid), "32 rows without starts"),
+    ],
+)
+def test_a_body_that_passes_as_it_cannot_is_refused(made, words):
     class Odd(type(motion())):
         type = "test.odd"
 
-        def cycle(self, grid):
-            return [Position(1 / 3)] * 3
-
         def exposures(self, grid, bodies):
-            passing = Passing(grid, (2, 1, 0), 1e-3)
-            passing.starts = starts
+            passing = made(grid, self._stroke(grid).starts)
             return {bodies[0]: Stationary(grid), bodies[1]: passing}
 
-    with pytest.raises(PluginError, match="starts"):
-        resolved(kinematics=Odd(stroke=1e-3, frequency=1.0, cycles=1))
-
-
-def test_an_average_of_a_body_with_rows_that_is_not_the_rate_is_refused():
-    class Scaled(Passing):
-        def average(self, rate):
-            return 0.5 * rate
-
-    class Odd(type(motion())):
-        type = "test.odd"
-
-        def exposures(self, grid, bodies):
-            passing = Scaled(grid, self._stroke(grid).starts, self.stroke)
-            return {bodies[0]: Stationary(grid), bodies[1]: passing}
-
-    with pytest.raises(PluginError, match="'average' for body"):
+    with pytest.raises(PluginError, match=words):
         resolved(kinematics=Odd(stroke=STROKE, frequency=1.0, cycles=1, positions=13))
-
-
-def test_a_body_that_pretends_to_pass_is_refused():
-    class Turning(Stationary):
-        swept = True
-
-    class Odd(type(motion())):
-        type = "test.odd"
-
-        def exposures(self, grid, bodies):
-            return {bodies[0]: Stationary(grid), bodies[1]: Turning(grid)}
-
-    with pytest.raises(PluginError, match="32 rows without starts"):
-        resolved(kinematics=Odd(stroke=STROKE, frequency=1.0, cycles=1, positions=13))
-
-
-def test_a_body_that_stays_may_have_one_row_for_all_beside_one_that_passes():
-    class Row(Stationary):
-        def __init__(self, grid):
-            super().__init__(grid)
-            self.rows = 1
-
-        def average(self, rate):
-            return np.mean(rate, axis=0, keepdims=True)
-
-        def envelope(self, field):
-            return np.max(field, axis=0, keepdims=True)
-
-        def volume(self, depth):
-            return GRID.cells[0] * super().volume(depth)
-
-    class Odd(type(motion())):
-        type = "test.odd"
-
-        def exposures(self, grid, bodies):
-            return {**super().exposures(grid, bodies), bodies[0]: Row(grid)}
-
-    kinematics = Odd(stroke=STROKE, frequency=1.0, cycles=1, positions=13)
-    state = last(resolved(kinematics=kinematics, contact=half_space()))
-    assert state.bodies["ball"].wear.shape == (1, GRID.cells[1])
-    assert state.bodies["ball"].wear.max() > 0
-
-
-def test_the_section_of_the_track_is_that_at_mid_stroke():
-    kinematics = motion(stroke=STROKE, duration=20, positions=9)
-    with Simulation(case(grid=GRID, contact=foundation(), kinematics=kinematics)).run() as result:
-        depth = result.body("disk").wear_depth[-1][15]
-        section = track_section(result, result.body("disk"))
-    assert section == pytest.approx(np.sum(depth) * GRID.spacing[1], rel=1e-9, abs=0)
 
 
 @pytest.mark.slow

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from paper_models import Faster, K, foundation, lost, motion, pair, small
 
-from tribo import Effect, Field, Grid, WearLaw, WearRate
+from tribo import Effect, Field, Grid
 from tribo.core.errors import PluginError
 from tribo.evolution.local_fields import effect_fields
 from tribo.motion.closed_track import Rotating, Unidirectional
@@ -21,25 +21,6 @@ MEAN = 2 * 2e-3 * 25
 OVER_PATH = math.pi / 4 * math.pi * 2e-3 * 25
 
 
-class Warmth(Effect):
-    type = "test.warmth"
-
-    provides = (Field("warmth", "m/s", "As warm as it is fast."),)
-
-    def fields(self, contact):
-        return {"warmth": dict.fromkeys(contact.materials, np.full((1, 1), contact.speed))}
-
-
-class Warm(WearLaw):
-    type = "test.warm"
-
-    requires = ("warmth",)
-
-    def rate(self, local):
-        k = K * local.fields["warmth"] / MEAN
-        return WearRate(k * local.pressure, k)
-
-
 def worn(kinematics, law=None, **changes):
     parts = {"grid": Grid((0.7e-3, 0.7e-3), (32, 32)), "contact": foundation(), **changes}
     return lost(small(bodies=pair(law or Faster()), kinematics=kinematics, **parts))
@@ -51,18 +32,6 @@ def test_short_and_long_steps_wear_the_closed_form(time_step):
     found = worn(motion(duration=0.4, **SINE), stepping=Explicit(time_step=time_step))
     needed = K * 100 * MEAN * 0.4 * OVER_PATH / MEAN
     assert found == pytest.approx(needed, rel=1e-5, abs=0)
-
-
-@pytest.mark.slow
-def test_an_effect_is_asked_at_the_same_speeds():
-    found = worn(motion(duration=2, **SINE), Warm(), effects=[Warmth()])
-    assert found == pytest.approx(worn(motion(duration=2, **SINE)), rel=1e-9, abs=0)
-
-
-def test_the_mean_pace_of_the_speeds_is_that_of_the_path():
-    # A cycle takes Σ share/v per metre.
-    pace = sum(share / speed for speed, share in motion(**SINE).speeds())
-    assert pace == pytest.approx(1 / MEAN, rel=1e-9)
 
 
 class Silent(Reciprocating):

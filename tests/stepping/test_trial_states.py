@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 from paper_models import K, archard, foundation, lost, motion, pair, small
-from pydantic import PrivateAttr
 
-from tribo import Effect, Field, Grid, Simulation, WearLaw, WearRate
+from tribo import Field, Grid, Simulation, WearLaw, WearRate
 from tribo.core.errors import PluginError
 
 SPOILT = {"negative": np.negative, "nan": lambda h: h * np.nan, "wrong shape": lambda h: h[1:]}
@@ -29,31 +28,6 @@ class Once(WearLaw):
         return WearRate(depth, k)
 
 
-class Heat(Effect):
-    type = "test.heat"
-
-    provides = (Field("heat", "1", "Beyond its limit at the first trial.", at_most=1),)
-
-    _seen: list = PrivateAttr(default_factory=list)
-
-    def fields(self, contact):
-        if not any(np.array_equal(contact.pressure, p) for p in self._seen):
-            self._seen.append(contact.pressure.copy())
-        first_trial = len(self._seen) > 1 and np.array_equal(contact.pressure, self._seen[1])
-        heat = np.full((1, 1), 2.0 if first_trial else 1.0)
-        return {"heat": dict.fromkeys(contact.materials, heat)}
-
-
-class Heated(WearLaw):
-    type = "test.heated"
-
-    requires = ("heat",)
-
-    def rate(self, local):
-        k = K * local.fields["heat"]
-        return WearRate(k * local.pressure, k)
-
-
 def model(law, **changes):
     return small(
         grid=Grid((0.7e-3, 0.7e-3), (32, 32)),
@@ -67,11 +41,6 @@ def model(law, **changes):
 @pytest.mark.parametrize("spoil", SPOILT)
 def test_one_bad_answer_of_a_law_is_a_shorter_step(spoil):
     assert lost(model(Once(spoil=spoil))) == pytest.approx(lost(model(archard())), rel=1e-9, abs=0)
-
-
-def test_one_bad_answer_of_an_effect_is_a_shorter_step():
-    case = model(Heated(), effects=[Heat()])
-    assert lost(case) == pytest.approx(lost(model(archard())), rel=1e-9, abs=0)
 
 
 class Worn(WearLaw):

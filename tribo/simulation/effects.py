@@ -27,8 +27,8 @@ def in_order(case: Case, effects: Sequence[GuardedEffect]) -> tuple[GuardedEffec
     kept: dict[str, set[str]] = {}
     for effect in effects:
         for field in effect.state_fields:
-            body = effect.body_of(field)
-            bodies, others = {*case.bodies} if body is None else {body}, kept.get(field.name, set())
+            on = effect.body_of(field)
+            bodies, others = {*case.bodies} if on is None else {on}, kept.get(field.name, set())
             if field.name in known | of_laws or bodies & others:
                 raise _twice(field, effect)
             kept[field.name] = bodies | others

@@ -13,6 +13,7 @@ from tribo.core.measures import half_widths
 from tribo.core.state import State
 from tribo.model.model import Model
 from tribo.simulation.beginning import first_state
+from tribo.simulation.gap_filling import check_filling
 from tribo.simulation.validity import (
     check_stroke,
     coarse_cycle,
@@ -48,6 +49,7 @@ def begin(model: Model) -> State:
     with doubting(model.case):
         state = hold(model, None, first_state(model))
         check_stroke(model, state)
+        check_filling(model, state)
         model.case.stepping.check(model, state)
     if model.chosen is not None:
         state = state.with_findings(model.chosen)

@@ -24,6 +24,7 @@ from tribo.model.model import Model
 from tribo.result.provenance import stated_facts
 from tribo.simulation.assembly import as_it_repeats, assemble, varied
 from tribo.simulation.beginning import first_state
+from tribo.simulation.gap_filling import check_filling
 from tribo.simulation.march import begin, march
 from tribo.simulation.memory import memory_needed, size_of_fields
 from tribo.simulation.validity import (
@@ -169,6 +170,7 @@ def _stopping(
     """
     stopping, warned, end = list[tuple[int, Finding]](), None, model.end_time
     try:
+        check_filling(model, state)
         warned = model.case.stepping.check(model, state)
     except CaseError as error:
         stopping.append((error.exit_code, would_stop(f"at once: {error}", 0.0, end)))

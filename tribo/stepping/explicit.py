@@ -55,9 +55,8 @@ class Explicit(Scheme):
     def check(self, model: Model, state: State) -> Finding | None:
         """Check the first step; see `Scheme.check`.
 
-        `CaseError` also if steps are too short to come to an end, or the first is not stable.
+        `CaseError` if steps are too short to come to an end, or the first is not stable.
         """
-        super().check(model, state)
         steps = model.end_time / self.time_step
         if steps > MOST_STEPS:
             raise CaseError(

@@ -81,26 +81,6 @@ class Trial:
 
 
 @dataclass(frozen=True)
-class Errors:
-    """Errors of a step as multiples of what is allowed."""
-
-    depth: float
-    pressure: float
-    volume: float
-
-    @property
-    def factor(self) -> float:
-        """By how much the next increment may differ."""
-        # The depth error of a step grows as its square, the two others in proportion.
-        wanted = SAFETY * min(
-            1 / math.sqrt(self.depth) if self.depth > 0 else math.inf,
-            1 / self.pressure if self.pressure > 0 else math.inf,
-            1 / self.volume if self.volume > 0 else math.inf,
-        )
-        return min(GROW, max(SHRINK, wanted))
-
-
-@dataclass(frozen=True)
 class Guess:
     """What a step would wear if its contacts were these.
 
@@ -151,19 +131,19 @@ class Implicit(Scheme):
             time = until if last else time_at(model, state, state.distance + increment, until)
             try:
                 trial = self._attempt(model, state, increment, time)
-                errors = self._errors(model, state, trial)
-                if max(errors.depth, errors.pressure, errors.volume) <= 1:
+                errors = depth, pressure, volume = self._errors(model, state, trial)
+                if max(errors) <= 1:
                     ended = trial.ended(model, state)
                     break
                 changes = load_changes(model, state, trial.state)
-                if changes and increment < AT_REST * target and errors.depth <= 1:
+                if changes and increment < AT_REST * target and depth <= 1:
                     # The load goes on to change over a rest, however short the step.
                     return replace(
                         trial.ended(model, state),
                         increment=0.0,
                         rejected_steps=state.rejected_steps + rejected,
                     )
-                factor = SHRINK if changes and rejected >= FEW else errors.factor
+                factor = SHRINK if changes and rejected >= FEW else _factor(*errors)
                 failure: NumericalError | None = None
             except (StepRejected, BadValues) as error:
                 factor, failure = SHRINK, error
@@ -173,13 +153,13 @@ class Implicit(Scheme):
                     raise failure
                 raise NumericalError(
                     f"steps down to {increment:.3g} m at {state.distance:.6g} m still miss their "
-                    f"tolerances (depth error {errors.depth:.3g}, pressure change "
-                    f"{errors.pressure:.3g}, volume error {errors.volume:.3g} times what is "
-                    "allowed); raise stepping.depth_tolerance or pressure_tolerance"
+                    f"tolerances (depth error {depth:.3g}, pressure change {pressure:.3g}, volume "
+                    f"error {volume:.3g} times what is allowed); raise stepping.depth_tolerance or "
+                    "pressure_tolerance"
                 )
             natural = factor * increment
         # A step cut short to meet a save says little about the next: keep the longer of the two.
-        proposal = max(errors.factor * increment, natural if increment < natural else 0.0)
+        proposal = max(_factor(*errors) * increment, natural if increment < natural else 0.0)
         return replace(ended, increment=proposal, rejected_steps=state.rejected_steps + rejected)
 
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
@@ -259,7 +239,7 @@ class Implicit(Scheme):
         state = accepted(model, after, contacts, loads, exact=exact)
         return Trial(state, forward, contacts, slid)
 
-    def _errors(self, model: Model, before: State, trial: Trial) -> Errors:
+    def _errors(self, model: Model, before: State, trial: Trial) -> tuple[float, float, float]:
         """Return the step's depth, pressure and volume errors as multiples of their tolerances.
 
         The local error of backward Euler in depth is half of what its wear
@@ -300,11 +280,22 @@ class Implicit(Scheme):
                 share = min(1.0, float(np.max(own)) / (LATE * scale))
                 missed = 0.5 * abs(float(np.sum(worn)) - float(np.sum(forward)))
                 volume_error = max(volume_error, share * missed / float(np.sum(own)))
-        return Errors(
+        return (
             depth_error / self.depth_tolerance,
             change / load / self.pressure_tolerance,
             volume_error / (VOLUME * self.depth_tolerance),
         )
+
+
+def _factor(depth: float, pressure: float, volume: float) -> float:
+    """Return by how much the next increment may differ, by the errors of a step."""
+    # The depth error of a step grows as its square, the two others in proportion.
+    wanted = SAFETY * min(
+        1 / math.sqrt(depth) if depth > 0 else math.inf,
+        1 / pressure if pressure > 0 else math.inf,
+        1 / volume if volume > 0 else math.inf,
+    )
+    return min(GROW, max(SHRINK, wanted))
 
 
 def _deformed(contacts: Sequence[ContactSolution], gaps: Array) -> float:

@@ -10,7 +10,6 @@ from pydantic import ConfigDict
 from tribo.core.findings import Finding
 from tribo.core.state import State
 from tribo.core.table import Table
-from tribo.stepping.gap_filling import check_filling
 from tribo.stepping.step import distance_until, rested, start_sliding
 
 if TYPE_CHECKING:
@@ -36,11 +35,7 @@ class Scheme(Table, ABC):
         return False
 
     def check(self, model: Model, state: State) -> Finding | None:
-        """Return what is wrong with the first step from `state`, if anything is.
-
-        `CaseError` if it cannot be taken, or what fills the gap draws the load together.
-        """
-        check_filling(model, state)
+        """Return what is wrong with the first step from `state`; `CaseError` if it is refused."""
         return None
 
     def advance(self, model: Model, state: State, until: float) -> State:
