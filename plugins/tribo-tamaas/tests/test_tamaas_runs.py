@@ -44,14 +44,6 @@ def case(contact="tamaas.half_space", load=100, width="0.7 mm", duration="40 s",
 
 
 @needs_tamaas
-def test_implicit_stepping_stops_with_an_error_that_names_both():
-    with pytest.raises(CaseError) as raised:
-        Simulation(case(stepping={"type": "implicit"}))
-    for word in ("'implicit'", "'tamaas.half_space'", "'explicit'", "stepping.type"):
-        assert word in str(raised.value)
-
-
-@needs_tamaas
 @pytest.mark.slow
 def test_explicit_wear_of_yielding_bodies_is_that_of_dcfft():
     # Without yield it is a row of `tribo verify`.

@@ -102,27 +102,6 @@ def test_unconfirmed_scale_is_told_once_with_the_figures(write):
     measured.height(Grid(SIZE, PIXELS))
 
 
-@pytest.mark.parametrize(
-    ("form", "left"), [("none", 0b1111), ("mean", 0b1110), ("tilt", 0b1100), ("curvature", 0b1000)]
-)
-def test_detrend_takes_off_what_it_says(write, form, left):
-    x, y = Grid((2, 2), PIXELS).mesh
-    parts = [3 + 0 * x * y, 2 * x - y, x**2 + x * y - 2 * y**2, np.cos(9 * x) * np.cos(7 * y)]
-    parts[3] = parts[3] - _fit(parts[3], x, y)
-    parts[2] = parts[2] - parts[2].mean()
-    parts = [1e-7 * part * np.ones(PIXELS) for part in parts]
-    path = write("npy", sum(parts))
-    expected = sum(part for number, part in enumerate(parts) if left >> number & 1)
-    values = quiet(path, expected, detrend=form).height(Grid(SIZE, PIXELS))
-    np.testing.assert_allclose(values, expected, rtol=0, atol=1e-15)
-
-
-def _fit(values, x, y):
-    basis = [x * 0 + y * 0 + 1, x + 0 * y, y + 0 * x, x**2 + 0 * y, x * y, y**2 + 0 * x]
-    basis = np.array([term.ravel() for term in basis]).T
-    return (basis @ np.linalg.lstsq(basis, values.ravel(), rcond=None)[0]).reshape(values.shape)
-
-
 def test_rotate_and_mirror_bring_the_lay_to_where_it_is_asked_for(write, heights):
     path = write("x3p")
     turned = {"expect_size": SIZE, "expect_range": np.ptp(heights), "detrend": "none"}
