@@ -19,13 +19,6 @@ def reciprocating(**values):
     return motion(**{"duration": "1 h", **values})
 
 
-def test_the_papers_hour_is_360_metres():
-    motion = reciprocating()
-    assert motion.end_time == 3600
-    assert motion.distance_at(3600) == pytest.approx(360)
-    assert motion.distance_at(0.25) == pytest.approx(0.025)
-
-
 def test_the_end_may_be_given_as_time_cycles_or_distance():
     for end in ({"cycles": 90000}, {"distance": "360 m"}):
         assert reciprocating(duration=None, **end).end_time == pytest.approx(3600)

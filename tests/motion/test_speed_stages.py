@@ -2,16 +2,12 @@
 
 import numpy as np
 import pytest
-from paper_models import Faster, K, foundation, pair, small, states
+from paper_models import foundation, small
 
 from tribo import (
     CaseError,
-    Explicit,
     FrequencyStage,
-    Grid,
-    Implicit,
     Reciprocating,
-    Rotating,
     SpeedStage,
     Unidirectional,
 )
@@ -44,29 +40,6 @@ def test_distance_is_the_integral_of_the_speed_and_time_its_first_inverse(motion
     assert track(duration=None, revolutions=45).end_time == pytest.approx(10)
     assert strokes(duration=None, distance=0.9).end_time == pytest.approx(10)
     assert strokes(duration=None, cycles=22.5).end_time == pytest.approx(10)
-
-
-@pytest.mark.parametrize(
-    ("motion", "stepping"),
-    [
-        (track(), Explicit(time_step=0.3)),
-        (Rotating(speed=STAGES, track_radius="1 m", duration=12), Implicit()),
-        (strokes(), Implicit()),
-    ],
-)
-def test_a_law_is_asked_at_the_speed_of_each_stage_by_itself(motion, stepping):
-    bodies = pair(Faster())
-    grid = Grid((0.7e-3, 0.7e-3), (24, 24))
-    model = small(
-        grid=grid, bodies=bodies, kinematics=motion, contact=foundation(), stepping=stepping
-    )
-    found = states(model)
-    assert {4.0, 9.0, 12.0} < {state.time for state in found}
-    volume = np.sum(found[-1].bodies["ball"].wear) * grid.cell_area
-    # At 0.5 m/s it wears five times as much per metre.
-    asked = K * 100 * (0.4 + 5 * 1.5)
-    # Rows on a disk of 1 m slide by up to 0.04 % more or less.
-    assert volume == pytest.approx(asked, rel=1e-6 if motion.type == "rotating" else 1e-10, abs=0)
 
 
 @pytest.mark.parametrize(

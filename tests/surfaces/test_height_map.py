@@ -12,12 +12,6 @@ SIZE = (2e-3, 1e-3)
 HEIGHTS = np.add.outer(np.arange(8.0), 10 * np.arange(4.0)) * 1e-8
 
 
-def test_a_map_on_its_own_cells_is_itself():
-    given = HeightMap(size=SIZE, heights=HEIGHTS)
-    np.testing.assert_allclose(given.height(Grid(SIZE, (8, 4))), HEIGHTS, atol=1e-22)
-    assert given == HeightMap.model_validate(given.model_dump(mode="json"))
-
-
 def test_finer_cells_and_a_smaller_window_lie_on_the_same_plane():
     grid = Grid((1e-3, 0.5e-3), (13, 7))
     x, y = grid.mesh

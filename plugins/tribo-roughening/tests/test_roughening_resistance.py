@@ -66,10 +66,3 @@ def test_it_repeats_after_its_period():
     other = resistance(x - 1e-4, y + 3e-4, depth, repeats=10, **MADE)
     np.testing.assert_allclose(other, one, rtol=1e-9)
     assert np.max(np.abs(resistance(x - 1e-4, y, depth, **MADE) - one)) > 0.1
-
-
-def test_a_seed_and_a_spread_make_a_material():
-    x, y = places(30, 1e-4)
-    one = resistance(x, y, 0 * x, **MADE)
-    assert np.max(np.abs(resistance(x, y, 0 * x, **{**MADE, "seed": 2}) - one)) > 0.1
-    assert np.ptp(resistance(x, y, 0 * x, **{**MADE, "spread": 1e-3})) < 0.01

@@ -43,11 +43,6 @@ def test_hardness_falls_linearly_to_its_floor(temperature, part):
     )
 
 
-def test_softening_takes_its_own_hardness_before_the_materials():
-    own = coefficient(softening(hardness="2 GPa"), 300.0)
-    assert own == pytest.approx(2 * coefficient(softening(), 300.0), rel=1e-6, abs=0)
-
-
 def test_softening_needs_a_hardness():
     soft = Material(young="207 GPa", poisson=0.3)
     with pytest.raises(CaseError, match="hardness is needed"):

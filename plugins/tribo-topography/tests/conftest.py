@@ -29,38 +29,6 @@ def _opd(path, heights, size):
     path.write_bytes(b"\x01\x00" + directory + b"".join(content for _, _, content in blocks))
 
 
-def _sur(path, heights, size):
-    """A Digital Surf .sur: 32-bit heights in nm, rows along x; bad pixels two below the lowest."""
-    nx, ny = heights.shape
-    step = 1e-3  # nm
-    whole = np.round(1e9 * heights.T / step)
-    low, high = int(np.nanmin(whole)), int(np.nanmax(whole))
-    bad = np.isnan(whole)
-    unit = [text.ljust(16) for text in (b"X", b"Y", b"Z", b"mm", b"mm", b"nm", b"mm", b"mm", b"nm")]
-    header = struct.pack(
-        "<12s4H30s30s5H8xH4iI3f144s3f3H12x7Hf10x2H128s3f34x",
-        b"DIGITAL SURF",
-        *(0, 1, 0, 2),
-        b"made for a test",
-        b"none",
-        *(0, 0, 0, int(bad.any()), 1),
-        32,
-        *(low, high, nx, ny),
-        nx * ny,
-        *(1e3 * size[0] / nx, 1e3 * size[1] / ny, step),
-        b"".join(unit),
-        *(1.0, 1.0, 1.0),
-        *(0, 0, 0),
-        *(0, 0, 0, 1, 1, 2026, 4),
-        0.0,
-        *(0, 0),
-        b"",
-        *(0.0, 0.0, 0.0),
-    )
-    assert len(header) == 512
-    path.write_bytes(header + np.where(bad, low - 2, whole).astype("<i4").tobytes())
-
-
 def _x3p(path, heights, size):
     from SurfaceTopography import Topography
 
@@ -83,7 +51,7 @@ def _npy(path, heights, size):
     np.save(path, heights)
 
 
-WRITERS = {"opd": _opd, "sur": _sur, "x3p": _x3p, "asc": _asc, "npy": _npy}
+WRITERS = {"opd": _opd, "x3p": _x3p, "asc": _asc, "npy": _npy}
 
 
 @pytest.fixture(scope="session")

@@ -16,6 +16,7 @@ test_sampled_at_points = parametrize_checks(
     configs=[
         {**KNOWN, "detrend": "none", "expect_range": "2.55 um"},
         {**KNOWN, "detrend": "tilt", "expect_range": "2.57 um"},
+        {**KNOWN, "detrend": "curvature", "expect_range": "2.56 um"},
         {
             **KNOWN,
             "detrend": "mean",

@@ -27,7 +27,7 @@ def quiet(path, heights, **config):
     return surface(path, **config)
 
 
-@pytest.mark.parametrize("kind", ["opd", "sur", "x3p", "asc", "npy"])
+@pytest.mark.parametrize("kind", ["opd", "x3p", "asc", "npy"])
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::ImportWarning")
 def test_size_range_sq_and_every_pixel_come_back(write, heights, kind):
@@ -36,7 +36,7 @@ def test_size_range_sq_and_every_pixel_come_back(write, heights, kind):
     facts = measured.scale
     assert facts.format == kind
     assert facts.pixels == PIXELS
-    # Sizes are kept as float32 in .opd and .sur, heights as float32 and to 1 pm.
+    # Sizes and heights are kept as float32 in .opd.
     assert facts.size == pytest.approx(SIZE, rel=1e-6)
     assert facts.range == pytest.approx(np.ptp(heights), rel=1e-5)
     assert facts.sq == pytest.approx(0.2e-6, rel=1e-5)
@@ -51,7 +51,7 @@ def test_size_range_sq_and_every_pixel_come_back(write, heights, kind):
             assert read_heights(path, (1e-6, 2e-6)).pitch == (1e-6, 2e-6)
 
 
-@pytest.mark.parametrize("kind", ["opd", "sur", "x3p", "asc", "npy"])
+@pytest.mark.parametrize("kind", ["opd", "x3p", "asc", "npy"])
 def test_holes_are_an_error_or_filled_from_their_neighbours(write, heights, kind):
     holed = heights.copy()
     holed[20:22, 30:33] = holed[0, 0] = holed[-1, 20:23] = np.nan
@@ -100,27 +100,6 @@ def test_unconfirmed_scale_is_told_once_with_the_figures(write):
     with pytest.warns(UserWarning, match=told):
         measured.height(Grid(SIZE, PIXELS))
     measured.height(Grid(SIZE, PIXELS))
-
-
-@pytest.mark.parametrize(
-    ("form", "left"), [("none", 0b1111), ("mean", 0b1110), ("tilt", 0b1100), ("curvature", 0b1000)]
-)
-def test_detrend_takes_off_what_it_says(write, form, left):
-    x, y = Grid((2, 2), PIXELS).mesh
-    parts = [3 + 0 * x * y, 2 * x - y, x**2 + x * y - 2 * y**2, np.cos(9 * x) * np.cos(7 * y)]
-    parts[3] = parts[3] - _fit(parts[3], x, y)
-    parts[2] = parts[2] - parts[2].mean()
-    parts = [1e-7 * part * np.ones(PIXELS) for part in parts]
-    path = write("npy", sum(parts))
-    expected = sum(part for number, part in enumerate(parts) if left >> number & 1)
-    values = quiet(path, expected, detrend=form).height(Grid(SIZE, PIXELS))
-    np.testing.assert_allclose(values, expected, rtol=0, atol=1e-15)
-
-
-def _fit(values, x, y):
-    basis = [x * 0 + y * 0 + 1, x + 0 * y, y + 0 * x, x**2 + 0 * y, x * y, y**2 + 0 * x]
-    basis = np.array([term.ravel() for term in basis]).T
-    return (basis @ np.linalg.lstsq(basis, values.ravel(), rcond=None)[0]).reshape(values.shape)
 
 
 def test_rotate_and_mirror_bring_the_lay_to_where_it_is_asked_for(write, heights):
@@ -212,7 +191,7 @@ def test_missing_file_says_where_it_was_looked_for(tmp_path, monkeypatch):
 
 
 def test_truncated_file_is_an_error(write):
-    for kind in ("opd", "sur", "x3p"):
+    for kind in ("opd", "x3p"):
         path = write(kind)
         path.write_bytes(path.read_bytes()[:-2000])
         with pytest.raises(CaseError, match=str(path)):
