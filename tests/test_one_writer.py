@@ -111,7 +111,7 @@ def test_other_ways_to_write_are_found(call):
     assert found_writing(call) == [call.replace('"', "'")]
 
 
-STARTS = {"subprocess", "multiprocessing", "ProcessPoolExecutor", "fork", "LocalCluster", "spawn"}
+STARTS = {"subprocess", "multiprocessing", "ProcessPoolExecutor", "fork", "spawn"}
 
 
 def test_processes_start_where_the_test_of_hostile_folders_looks():
