@@ -90,13 +90,6 @@ def test_what_is_done_is_not_done_again_and_a_study_may_grow(again):
     assert {path: path.stat().st_mtime_ns for path in before} == before
 
 
-@pytest.mark.slow
-def test_another_executor_than_processes_can_carry_it(tmp_path):
-    with ThreadPoolExecutor(2) as executor:
-        assert statuses(sweep(sweeps.study(tmp_path), executor=executor)) == ["done"] * 2
-        assert executor.submit(len, "ab").result() == 2
-
-
 FAILING = """
 [[list]]
 load.normal = "50 N"
@@ -139,13 +132,6 @@ def test_a_worker_with_a_folder_of_its_own_is_told_of(tmp_path):
     swept = sweep(sweeps.study(tmp_path), executor=sweeps.Inline(lambda case: ("done", "")))
     assert statuses(swept) == ["failed"] * 2
     assert "must be one that all share" in swept.table["message"][0]
-
-
-def test_an_executor_that_takes_no_runs_ends_the_sweep(tmp_path):
-    executor = ThreadPoolExecutor(1)
-    executor.shutdown()
-    with pytest.raises(OutputError, match=r"takes no more runs .* the same command goes on"):
-        sweep(sweeps.study(tmp_path), executor=executor)
 
 
 ENERGY = """

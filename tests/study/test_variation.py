@@ -32,15 +32,6 @@ def test_an_axis_is_a_path_and_its_values(text, values):
     assert read_axes([text]) == {"a.b": values}
 
 
-def test_axes_multiply_and_the_last_varies_first():
-    assert grid({"a": (1, 2), "b": ("x", "y")}) == [
-        {"a": 1, "b": "x"},
-        {"a": 1, "b": "y"},
-        {"a": 2, "b": "x"},
-        {"a": 2, "b": "y"},
-    ]
-
-
 def test_a_variant_is_the_case_with_its_settings_and_the_defaults_of_another_type():
     found = made("contact.type=winkler,dcfft", "load.normal=50 N", "contact.plasticity=false")
     winkler, dcfft = found.values()
