@@ -100,12 +100,12 @@ def test_a_result_says_what_it_is(path):
 @pytest.mark.parametrize("save", [3, 17, -4])
 def test_a_save_out_of_range_is_refused_with_how_many_there_are(path, save):
     with Result.open(path) as result:
-        with pytest.raises(CaseError, match=f"no save {save}: it has 3 saves, 0 to 2"):
+        with pytest.raises(CaseError, match=f"no save {save}; it has 3, counted from 0"):
             result.field("pressure", save)
-        with pytest.raises(CaseError, match=f"no save {save}: it has 3 saves, 0 to 2"):
+        with pytest.raises(CaseError, match=f"no save {save}; it has 3, counted from 0"):
             result.field("wear_depth", save, "ball")
         ball = result.body("ball")
-    with pytest.raises(CaseError, match=f"'ball' has no save {save}: it has 3 saves, 0 to 2"):
+    with pytest.raises(CaseError, match=f"'ball' has no save {save}; it has 3, counted from 0"):
         ball.surface(save)
 
 

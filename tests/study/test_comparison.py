@@ -16,7 +16,6 @@ from tribo.config.overrides import apply_settings
 from tribo.contact.winkler import Winkler
 from tribo.core.errors import CaseError, NumericalError
 from tribo.simulation import run
-from tribo.study.differences import differences
 from tribo.study.runs import file_names
 from tribo.templates import template
 
@@ -48,26 +47,6 @@ def done(foundations, tmp_path):
     """Return a folder with the same results."""
     kept = Path(foundations.results["dcfft"].name).parent
     return shutil.copytree(kept, tmp_path / "done")
-
-
-@pytest.mark.slow
-def test_energy_wear_with_alpha_k_over_mu_is_archards_to_round_off():
-    data = case(friction={"coefficient": MU}, effects=["energy.friction_traction"])
-    wear = [
-        {"type": "archard", "k": K},
-        {"type": "energy.dissipation", "alpha": K / MU},
-        {"type": "energy.dissipation", "alpha": 1.1 * K / MU},
-    ]
-    laws = [{f"bodies.{name}.wear": law for name in ("ball", "disk")} for law in wear]
-    with compare(data, laws, labels=["archard", "energy", "more"]) as comparison:
-        archard, energy, more = comparison.results.values()
-        assert energy.case_tables["bodies"]["ball"]["wear"]["type"] == "energy.dissipation"
-        for time in (0, 100, 300):
-            for each in differences(energy, archard, time).values():
-                # α μ is k to the last bit; the steps amplify it.
-                assert each.largest < 1e-11, each
-        worn = differences(more, archard, 300.0)["bodies.ball.wear_depth"]
-        assert worn.largest == pytest.approx(0.05, abs=0.02)
 
 
 def test_json_has_every_common_save_and_is_json(foundations):
