@@ -42,12 +42,6 @@ def test_it_is_a_dataset_that_xarray_reads_without_tribo(path):
         assert float(worn.max()) > 0
 
 
-def test_no_dimension_is_unlimited(path):
-    """Such ones take xarray several times as long to open."""
-    with xarray.open_dataset(path, engine="h5netcdf") as data:
-        assert not data.encoding["unlimited_dims"]
-
-
 @pytest.mark.slow
 def test_a_result_in_memory_is_the_same_dataset_and_can_be_saved(tmp_path):
     with made() as result:

@@ -6,16 +6,14 @@ import tomllib
 import warnings
 from pathlib import Path
 
-import numpy as np
 import pytest
 from made_results import written
 
-from tribo import Interrupted, Observer, Registry, Result, TriboWarning, compare
+from tribo import Registry, TriboWarning, compare
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.contact.winkler import Winkler
 from tribo.core.errors import CaseError, NumericalError
-from tribo.simulation import run
 from tribo.study.runs import file_names
 from tribo.templates import template
 
@@ -103,41 +101,6 @@ def test_a_folder_with_another_case_is_left_alone_unless_told(done):
         assert all(r.case_tables["load"]["normal"] == 120 for r in comparison.results.values())
 
 
-@pytest.mark.slow
-def test_a_run_that_was_interrupted_goes_on(foundations, tmp_path):
-    class StopAt(Observer):
-        def on_step(self, snapshot):
-            if snapshot.state.steps == 5:
-                raise KeyboardInterrupt
-
-    with pytest.raises(Interrupted, match=r"^contact\.type=dcfft: stopped at"):
-        compare(CASE, CONTACTS, tmp_path, observers=lambda: [StopAt()])
-    with compare(CASE, CONTACTS, tmp_path) as resumed:
-        pairs = zip(resumed.results.values(), foundations.results.values(), strict=True)
-        for one, other in pairs:
-            assert one.status == "done"
-            assert np.array_equal(one.field("pressure", -1), other.field("pressure", -1))
-
-
-@pytest.mark.slow
-def test_a_run_that_fails_as_it_goes_on_keeps_what_was_saved(tmp_path, monkeypatch):
-    def march(model, state, watch, error):
-        raise error
-        yield
-
-    path = tmp_path / "contact.type=dcfft.h5"
-    monkeypatch.setattr(run, "march", lambda *given: march(*given, KeyboardInterrupt()))
-    with pytest.raises(Interrupted):
-        compare(CASE, CONTACTS, tmp_path)
-    monkeypatch.setattr(run, "march", lambda *given: march(*given, CaseError("too long a step")))
-    monkeypatch.setattr(run, "begin", None)
-    with pytest.raises(CaseError, match="too long a step"):
-        compare(CASE, CONTACTS, tmp_path)
-    with Result.open(path) as result:
-        assert result.notices == ("failed: too long a step",)
-        assert list(result.times) == [0]
-
-
 @pytest.mark.parametrize("damaged", [False, True])
 def test_a_file_that_is_not_a_sound_result_is_kept(done, damaged):
     path = done / "contact.type=dcfft.h5"
@@ -147,17 +110,6 @@ def test_a_file_that_is_not_a_sound_result_is_kept(done, damaged):
     with pytest.raises(CaseError, match=r"dcfft\.h5 is .* or run all anew with --force"):
         compare(CASE, CONTACTS, done)
     assert path.read_bytes() == content
-
-
-@pytest.mark.slow
-def test_an_empty_result_is_made_anew(done):
-    path = done / "contact.type=dcfft.h5"
-    path.write_bytes(b"")
-    told = []
-    with pytest.warns(TriboWarning, match=r"dcfft\.h5 is begun anew: .* not a whole tribo file"):
-        compare(CASE, CONTACTS, done, tell=told.append).close()
-    assert ["done already" in line for line in told] == [False, True]
-    Result.open(path).close()
 
 
 @pytest.mark.slow

@@ -1,8 +1,6 @@
 """A sweep does every run once, records what fails, and its tables agree with its results."""
 
-import os
 import shutil
-import signal
 import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
@@ -13,7 +11,7 @@ import pandas
 import pytest
 import sweeps
 
-from tribo import Interrupted, Result, Simulation, sweep
+from tribo import sweep
 from tribo.core.errors import CaseError, OutputError, TriboWarning
 from tribo.study.sweeping.sweep import plan
 from tribo.study.sweeping.worker import locked
@@ -146,37 +144,6 @@ def test_a_worker_that_lacks_a_plugin_says_so(tmp_path):
     assert "cannot compose this case: bodies.ball.wear.type: " in message
     assert "tribo-energy" in message
     assert statuses(sweep(path, executor=sweeps.Inline(), retry=True)) == ["done"]
-
-
-@pytest.mark.slow
-def test_a_stopped_run_goes_on_from_its_checkpoint(tmp_path, monkeypatch):
-    path = sweeps.study(tmp_path, sweeps.SLOW + '[grid]\nload.normal = ["50 N"]')
-    folder = tmp_path / "study-sweep"
-
-    def on_step(self, snapshot):
-        if snapshot.state.steps == 100:
-            os.kill(os.getpid(), signal.SIGINT)
-            end = time.monotonic() + 60
-            while not self.path.exists():
-                assert time.monotonic() < end
-                time.sleep(0.01)
-            raise KeyboardInterrupt
-
-    with ThreadPoolExecutor(1) as executor, monkeypatch.context() as patch:
-        patch.setattr("tribo.study.sweeping.worker._StopFile.on_step", on_step)
-        with pytest.raises(Interrupted, match="same command"):
-            sweep(path, executor=executor)
-    table = pandas.read_csv(folder / "runs.csv")
-    assert list(table["status"]) == ["interrupted"]
-    assert not (folder / "sweep.stop").exists()
-    with monkeypatch.context() as patch:
-        # From now on no run can begin anew.
-        patch.delattr(Simulation, "run")
-        assert statuses(sweep(path, executor=sweeps.Inline())) == ["done"]
-    with Result.open(folder / "results" / table["file"][0]) as result:
-        assert np.array_equal(
-            Simulation(result.case).run().field("pressure", -1), result.field("pressure", -1)
-        )
 
 
 @pytest.mark.slow
