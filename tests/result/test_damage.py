@@ -31,7 +31,7 @@ def test_every_bit_counts(tmp_path):
     damages += [sound + b"\0", sound[100:200] + sound[:100] + sound[200:], sound[:100] + sound]
     for damage in damages:
         path.write_bytes(damage)
-        with pytest.raises(CaseError, match=r"damaged|not a whole"):
+        with pytest.raises(CaseError, match="is damaged"):
             open_sealed(path)
     path.write_bytes(sound)
     open_sealed(path).close()
@@ -61,7 +61,7 @@ def test_what_fails_to_be_written_leaves_the_file_as_it_was(tmp_path):
 def test_a_damaged_result_is_refused(sound, tmp_path, damage):
     path = tmp_path / "damaged.h5"
     path.write_bytes(damage(sound.read_bytes()))
-    with pytest.raises(CaseError, match=r"damaged\.h5 is (damaged|not a whole tribo file)"):
+    with pytest.raises(CaseError, match=r"damaged\.h5 is damaged"):
         Result.open(path)
 
 

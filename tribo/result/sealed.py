@@ -46,10 +46,5 @@ def _check(file: BinaryIO, path: Path) -> None:
         digest.update(block)
         left -= len(block)
     end = file.read()
-    if left < 0 or not end.startswith(_MARK):
-        raise CaseError(
-            f"{path} is not a whole tribo file: it was cut short, or another program has written "
-            "to it"
-        )
     if end != _MARK + digest.digest():
-        raise CaseError(f"{path} is damaged: its checksum does not match")
+        raise CaseError(f"{path} is damaged, or no file of tribo: its checksum does not match")
