@@ -123,6 +123,13 @@ def test_a_worker_with_a_folder_of_its_own_is_told_of(tmp_path):
     assert "must be one that all share" in swept.table["message"][0]
 
 
+def test_an_executor_that_takes_no_runs_ends_the_sweep(tmp_path):
+    executor = ThreadPoolExecutor(1)
+    executor.shutdown()
+    with pytest.raises(OutputError, match="takes no more runs"):
+        sweep(sweeps.study(tmp_path), executor=executor)
+
+
 ENERGY = """
 [[list]]
 bodies.ball.wear = { type = "energy.dissipation", alpha = "1e-6 mm^3/J" }
