@@ -3,7 +3,6 @@
 import os
 import subprocess
 import sys
-from importlib.util import find_spec
 
 import pytest
 import sweeps
@@ -11,7 +10,6 @@ import sweeps
 PACKAGES = {"click", "h5py", "matplotlib", "numpy", "pandas", "pluggy", "pydantic", "rich", "scipy"}
 COMMANDS = {
     "sweep": ["sweep", "study.toml", "--jobs", "1"],
-    "dask": ["sweep", "study.toml", "--jobs", "1", "--dask"],
     "kit": ["plugins", "check", "energy.friction_traction"],
 }
 
@@ -27,8 +25,6 @@ def needed_to_start(folder):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_command_imports_nothing_from_the_folder_it_starts_in(tmp_path, name):
-    if name == "dask" and not find_spec("distributed"):
-        pytest.skip("dask.distributed is not installed")
     folder = sweeps.study(tmp_path / "hostile", sweeps.QUICK + "[grid]\ngrid.cells = [10]").parent
     for module in (sys.stdlib_module_names | PACKAGES) - {*needed_to_start(tmp_path)}:
         code = f"print('a stranger', file=open({str(tmp_path / 'seen')!r}, 'a')); raise ImportError"
@@ -44,5 +40,5 @@ def test_a_command_imports_nothing_from_the_folder_it_starts_in(tmp_path, name):
     )
     assert not (tmp_path / "seen").exists()
     assert done.returncode == 0, done.stderr
-    # Runs warn in their tables, though one on a cluster of its own writes to this one's stderr.
+    # Runs warn in their tables.
     assert "Warning" not in done.stderr

@@ -85,7 +85,7 @@ def test_other_ways_to_write_are_found():
     assert found_writing(WRITING) == [call.replace('"', "'") for call in calls]
 
 
-STARTS = {"subprocess", "multiprocessing", "ProcessPoolExecutor", "fork", "LocalCluster", "spawn"}
+STARTS = {"subprocess", "multiprocessing", "ProcessPoolExecutor", "fork", "spawn"}
 
 
 def test_processes_start_where_the_test_of_hostile_folders_looks():

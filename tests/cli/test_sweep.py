@@ -61,7 +61,7 @@ def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["study.toml", "--scheduler", "tcp://a:1", "--dask"], "has workers of its own"),
+        (["study.toml", "--scheduler", "tcp://a:1", "--jobs", "2"], "has workers of its own"),
         (["study.toml", "--jobs", 0], "0 is not in the range x>=1"),
     ],
 )

@@ -5,128 +5,71 @@ PYTHONPATH=tests python -m fuzz.fuzzing --only 4711 --seed 1
 """
 
 import argparse
-import multiprocessing
-import os
-import signal
 import sys
 import time
 from collections import Counter
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, field
-from queue import SimpleQueue
-from tempfile import TemporaryDirectory
 
 from fuzz import trial
 
+from tribo.study.sweeping.executors import processes
+
 HANG = 120.0
 """Time after which a case that does not heed being stopped is said to hang, in s."""
-START = "spawn"
 
 
 @dataclass
 class Fuzz:
     """How the cases ended."""
 
-    counts: Counter = field(default_factory=Counter)
-    """How many ended how, by (kind, exit code)."""
+    codes: Counter = field(default_factory=Counter)
+    """How many ended with which exit code."""
     faults: dict = field(default_factory=dict)
     """What must not be, by the number of the case."""
     slowest: float = 0.0
     """In s."""
     seconds: float = 0.0
-    stopped: bool = False
-    """Whether it was, before all cases were tried."""
 
     @property
     def good(self):
-        return not (self.faults or self.stopped)
-
-    def add(self, number, code, fault, seconds):
-        self.counts[trial.kind(number), code] += 1
-        self.slowest = max(self.slowest, seconds)
-        if fault is not None:
-            self.faults[number] = fault
+        return not self.faults
 
     def figures(self):
         """Return the figures by name."""
-        codes = Counter()
-        for (_, code), count in self.counts.items():
-            codes[code] += count
         return {
-            "cases": sum(codes.values()),
-            "exit codes": {str(code): codes[code] for code in sorted(codes)},
+            "cases": self.codes.total(),
+            "exit codes": {str(code): self.codes[code] for code in sorted(self.codes)},
             "faults": len(self.faults),
-            "hangs": sum(fault.startswith("hang") for fault in self.faults.values()),
             "deaths": sum(fault.startswith("death") for fault in self.faults.values()),
             "slowest, s": round(self.slowest, 2),
             "in all, s": round(self.seconds),
         }
 
     def __str__(self):
-        lines = [f"{kind:10}exit {code:<5}{n}" for (kind, code), n in sorted(self.counts.items())]
-        lines += [f"case {number}: {fault}" for number, fault in sorted(self.faults.items())]
+        lines = [f"case {number}: {fault}" for number, fault in sorted(self.faults.items())]
         return "\n".join([*lines, *(f"{k}: {v}" for k, v in self.figures().items())])
 
 
-class Worker:
-    """A process that tries one case after another, replaced where it hangs or dies."""
-
-    def __init__(self):
-        self._start()
-
-    def _start(self):
-        self._folder = TemporaryDirectory()
-        context = multiprocessing.get_context(START)
-        self._pool = ProcessPoolExecutor(1, context, trial.prepare, (self._folder.name,))
-        self._pid = self._pool.submit(os.getpid).result()
-
-    def tried(self, number, seed):
-        """Return (exit code, fault, time) of a case."""
-        try:
-            return self._pool.submit(trial.timed, number, seed).result(HANG)
-        except TimeoutError:
-            os.kill(self._pid, signal.SIGKILL)
-            fault = -9, f"hang: more than {HANG:g} s", HANG
-        except BrokenProcessPool:
-            fault = -1, "death: the process ended", 0.0
-        self.stop()
-        self._start()
-        return fault
-
-    def stop(self):
-        self._pool.shutdown(cancel_futures=True)
-        self._folder.cleanup()
-
-
 def fuzz(count, seed, *, workers=None, numbers=None):
-    """Try `count` cases of `seed`, or those of certain numbers."""
-    fuzz, begun = Fuzz(), time.monotonic()
-    waiting = list(numbers if numbers is not None else range(count))
-    idle, threads = SimpleQueue(), workers or os.cpu_count() or 1
-
-    def tried(number):
-        worker = idle.get()
-        try:
-            return number, *worker.tried(number, seed)
-        finally:
-            idle.put(worker)
-
-    for _ in range(threads):
-        idle.put(Worker())
-    pool = ThreadPoolExecutor(threads)
-    try:
-        for answer in pool.map(tried, waiting):
-            fuzz.add(*answer)
-    except KeyboardInterrupt:
-        fuzz.stopped = True
-        print("stopped; what was tried so far:", file=sys.stderr)
-    finally:
-        pool.shutdown(cancel_futures=True)
-        for _ in range(threads):
-            idle.get().stop()
-    fuzz.seconds = time.monotonic() - begun
-    return fuzz
+    """Try `count` cases of `seed`, or those of certain numbers; TimeoutError if one hangs."""
+    done, begun = Fuzz(), time.monotonic()
+    numbers = range(count) if numbers is None else numbers
+    with processes(workers) as executor:
+        futures = {number: executor.submit(trial.timed, number, seed) for number in numbers}
+        for number, future in futures.items():
+            try:
+                code, fault, seconds = future.result(HANG)
+            except BrokenProcessPool:
+                code, fault, seconds = -1, "death: the process ended", 0.0
+            except TimeoutError:
+                raise TimeoutError(f"case {number} takes more than {HANG:g} s") from None
+            done.codes[code] += 1
+            done.slowest = max(done.slowest, seconds)
+            if fault is not None:
+                done.faults[number] = fault
+    done.seconds = time.monotonic() - begun
+    return done
 
 
 def main():

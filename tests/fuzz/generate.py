@@ -9,59 +9,35 @@ import tribo.templates
 
 ROOT = Path(__file__).parents[2]
 NUMBERS = (0, 1, -1, 2, 0.3, 0.5, 1e-16, 1e-9, 1e-6, 1e-3, 10, 25, 1e3, 1e9, 2e11, 1e300, 1e-320)
-STRINGS = ("", " ", "5 mm", "4 GPa", "1 h", "25 Hz", "0.3", "3 parsec", "nan Pa", "-1 m", "1e999 m")
-STRINGS += (
-    "ball",
-    "disk",
-    "dcfft",
-    "wnkler",
-    "flat",
-    "archard",
-    "µ",
-    "a\tb",
-    "x" * 300,
-    "/dev/null",
-)
+STRINGS = ("", " ", "5 mm", "4 GPa", "1 h", "0.3", "3 parsec", "nan Pa", "-1 m", "1e999 m", "ball")
+STRINGS += ("dcfft", "wnkler", "archard", "µ", "a\tb", "x" * 300, "/dev/null")
 ODD = (True, False, nan, inf, -inf, [], {}, [1, "a"], {"type": "x"}, 10**30, [[]], {"": 1})
 PARTS = {
     "contact": (
-        {"type": "winkler", "modulus": 1.3e15},
         {"type": "winkler", "match": "contact_radius"},
         {"type": "tamaas.half_space"},
         {"type": "periodic"},
-        {"type": "dcfft", "tolerance": 1e-3},
         {"type": "dcfft", "plasticity": False},
     ),
     "stepping": (
         {"type": "explicit", "time_step": 0.5},
-        {"type": "explicit", "time_step": 5, "allow_unstable": True},
         {"type": "explicit", "time_step": 60, "allow_unstable": True},
         {"type": "implicit", "depth_tolerance": 0.1, "pressure_tolerance": 1.0},
-        {"type": "implicit", "depth_tolerance": 1e-4},
     ),
     "effects": ([{"type": "thermal.flash", "ambient": "90 degC"}], ["energy.friction_traction"]),
     "friction": ({"coefficient": 0.1}, {"coefficient": 0.6}),
     "load": (
         {"normal": [{"until": "3 s", "normal": "20 N"}, {"until": "1 h", "normal": "100 N"}]},
-        {
-            "normal": [
-                {"at": 0, "normal": "80 N"},
-                {"at": 8, "normal": 5},
-                {"until": 1e9, "normal": 40},
-            ]
-        },
         {"normal": [{"at": 0, "normal": 10}, {"at": 9, "normal": 90}]},
     ),
     "stop": ({"depth": "0.1 µm"}, {"distance": "0.5 m"}, {"depth": "1 nm", "body": "ball"}),
 }
 LAWS = (
-    {"type": "archard", "k": 1e-14},
     {"type": "archard", "k": 0},
     {"type": "archard", "K": 1e-6, "hardness": "2 GPa"},
-    {"type": "power", "k": 3e-16, "p_exponent": 1.5, "reference_pressure": 1e9},
+    {"type": "power", "k": 3e-16, "p_exponent": 4, "reference_pressure": 1e9},
     {"type": "energy.dissipation", "alpha": 3e-15, "threshold_energy": "1 MJ/m^2"},
     {"type": "thermal.softening", "K": 1e-6, "softening": 1e-3, "reference_temperature": 363},
-    {"type": "power", "k": 3e-16, "p_exponent": 4, "reference_pressure": 1e9},
 )
 SURFACES = (
     {"type": "flat"},
@@ -77,20 +53,11 @@ def odd(chance):
 
 
 def valid_cases():
-    """All cases that come with tribo, and small ones of every contact and stepping."""
+    """All cases that come with tribo."""
     texts = [tribo.templates.template(name) for name in tribo.templates.TEMPLATES]
     texts += [path.read_text() for path in sorted(ROOT.glob("examples/*.toml"))]
     # Beside cases there are studies and measurements.
-    cases = [case for case in map(tomllib.loads, texts) if {"bodies", "grid"} <= case.keys()]
-    for contact in ("winkler", "periodic"):
-        other = deepcopy(cases[0])
-        other["contact"] = {"type": contact}
-        if contact == "winkler":
-            other["contact"]["modulus"] = 1.3e15
-        cases.append(other)
-    stepped = deepcopy(cases[0])
-    stepped["stepping"] = {"type": "explicit", "time_step": "2 s"}
-    return [*cases, stepped]
+    return [case for case in map(tomllib.loads, texts) if {"bodies", "grid"} <= case.keys()]
 
 
 def small(case, chance):

@@ -19,13 +19,9 @@ def sound(tmp_path_factory):
     return path
 
 
-def written(path, data):
-    write_sealed(path, data)
-
-
 def test_every_bit_counts(tmp_path):
     path = tmp_path / "file"
-    written(path, bytes(range(256)) * 4)
+    write_sealed(path, bytes(range(256)) * 4)
     sound = path.read_bytes()
     damages = [
         sound[:at] + bytes([sound[at] ^ 1 << at % 8]) + sound[at + 1 :]
@@ -35,7 +31,7 @@ def test_every_bit_counts(tmp_path):
     damages += [sound + b"\0", sound[100:200] + sound[:100] + sound[200:], sound[:100] + sound]
     for damage in damages:
         path.write_bytes(damage)
-        with pytest.raises(CaseError, match=r"damaged|not a whole"):
+        with pytest.raises(CaseError, match="is damaged"):
             open_sealed(path)
     path.write_bytes(sound)
     open_sealed(path).close()
@@ -43,31 +39,29 @@ def test_every_bit_counts(tmp_path):
 
 def test_what_fails_to_be_written_leaves_the_file_as_it_was(tmp_path):
     path = tmp_path / "file"
-    written(path, b"first")
+    write_sealed(path, b"first")
     with pytest.raises(TypeError):
-        written(path, "no bytes")
+        write_sealed(path, "no bytes")
     open_sealed(path).close()
     assert path.read_bytes().startswith(b"first")
     assert list(tmp_path.iterdir()) == [path]
 
 
 @pytest.mark.parametrize(
-    ("damage", "words"),
+    "damage",
     [
-        (lambda data: b"", "is no result of tribo"),
-        (lambda data: b"not a result", "is no result of tribo"),
-        (lambda data: b"\x89PNG" + data, "is no result of tribo"),
-        (lambda data: data[:-1], "is not a whole tribo file"),
-        (lambda data: data[:-40], "is not a whole tribo file"),
-        (lambda data: bytes([data[0] ^ 1]) + data[1:], "is no result of tribo"),
-        (lambda data: data[:5000] + bytes([data[5000] ^ 1]) + data[5001:], "is damaged: its check"),
+        lambda data: b"",
+        lambda data: b"not a result",
+        lambda data: data[:-1],
+        lambda data: bytes([data[0] ^ 1]) + data[1:],
+        lambda data: data[:5000] + bytes([data[5000] ^ 1]) + data[5001:],
     ],
-    ids=["empty", "text", "picture", "cut", "no checksum", "first bit", "a bit"],
+    ids=["empty", "text", "cut", "first bit", "a bit"],
 )
-def test_it_is_refused(sound, tmp_path, damage, words):
+def test_a_damaged_result_is_refused(sound, tmp_path, damage):
     path = tmp_path / "damaged.h5"
     path.write_bytes(damage(sound.read_bytes()))
-    with pytest.raises(CaseError, match=f"damaged.h5 {words}"):
+    with pytest.raises(CaseError, match=r"damaged\.h5 is damaged"):
         Result.open(path)
 
 

@@ -48,25 +48,6 @@ def test_each_save_has_the_field_of_its_own_pressure(path):
                 )
 
 
-def test_it_has_unit_and_meaning(path):
-    with Result.open(path) as result:
-        assert set(result.body("ball").effects) == {OXIDE}
-        shown = result.dataset[OXIDE]
-    assert shown.attrs["units"] == "1"
-    assert shown.attrs["long_name"] == "Part of the surface under oxide."
-    assert shown.dims == ("time", "body", "x", "y")
-
-
-def test_it_is_exported_in_the_profiles(path, tmp_path):
-    with Result.open(path) as result:
-        write_tables(si_tables(result), tmp_path)
-    with (tmp_path / "profiles_x.csv").open() as file:
-        rows = list(csv.DictReader(file))
-    for row in rows[::7]:
-        film = expected(float(row["pressure_Pa"]))
-        assert float(row[f"bodies.ball.effects.{OXIDE}"]) == pytest.approx(film, rel=0.01, abs=1e-9)
-
-
 def test_its_largest_value_and_its_mean_are_exported_with_the_saves(path, tmp_path):
     with Result.open(path) as result:
         write_tables(si_tables(result), tmp_path)

@@ -9,6 +9,7 @@ from made_results import TIMES, written
 
 from tribo import CaseError
 from tribo.cli.export import export
+from tribo.result.export import write_tables
 
 
 @pytest.fixture(scope="module")
@@ -47,6 +48,11 @@ def test_excel_has_the_tables_of_the_csv_files(path, tmp_path):
 def test_an_unknown_column_is_refused_with_those_there_are(path):
     with pytest.raises(CaseError, match="'depth'; there are: time, path, p max,"):
         exported(path, "--columns", "time,depth")
+
+
+def test_a_table_longer_than_a_sheet_of_excel_is_refused(tmp_path):
+    with pytest.raises(CaseError, match="2²⁰ rows at most"):
+        write_tables({"history": {"time_s": range(2**20)}}, tmp_path, "xlsx")
 
 
 def test_excel_without_openpyxl_names_what_to_install(path, tmp_path, monkeypatch):

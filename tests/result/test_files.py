@@ -1,6 +1,5 @@
 """What a result file keeps, and how other programs read it."""
 
-import h5py
 import numpy as np
 import pytest
 import xarray
@@ -43,12 +42,6 @@ def test_it_is_a_dataset_that_xarray_reads_without_tribo(path):
         assert float(worn.max()) > 0
 
 
-def test_no_dimension_is_unlimited(path):
-    """Such ones take xarray several times as long to open."""
-    with xarray.open_dataset(path, engine="h5netcdf") as data:
-        assert not data.encoding["unlimited_dims"]
-
-
 @pytest.mark.slow
 def test_a_result_in_memory_is_the_same_dataset_and_can_be_saved(tmp_path):
     with made() as result:
@@ -62,12 +55,6 @@ def test_its_variables_are_attributes():
         drawn = result.max_pressure.plot()
         assert len(drawn) == 1
         assert {"pressure", "wear_volume", "history_time"} <= set(dir(result))
-
-
-def test_every_number_has_a_checksum_for_other_programs(path):
-    with h5py.File(path) as file:
-        names = {"x", "time", "pressure", "wear_depth", "history_wear_volume"}
-        assert all(file[name].fletcher32 for name in names)
 
 
 def test_the_result_says_what_made_it(path):
@@ -107,12 +94,12 @@ def test_a_result_says_what_it_is(path):
 @pytest.mark.parametrize("save", [3, 17, -4])
 def test_a_save_out_of_range_is_refused_with_how_many_there_are(path, save):
     with Result.open(path) as result:
-        with pytest.raises(CaseError, match=f"no save {save}: it has 3 saves, 0 to 2"):
+        with pytest.raises(CaseError, match=f"no save {save}; it has 3, counted from 0"):
             result.field("pressure", save)
-        with pytest.raises(CaseError, match=f"no save {save}: it has 3 saves, 0 to 2"):
+        with pytest.raises(CaseError, match=f"no save {save}; it has 3, counted from 0"):
             result.field("wear_depth", save, "ball")
         ball = result.body("ball")
-    with pytest.raises(CaseError, match=f"'ball' has no save {save}: it has 3 saves, 0 to 2"):
+    with pytest.raises(CaseError, match=f"'ball' has no save {save}; it has 3, counted from 0"):
         ball.surface(save)
 
 

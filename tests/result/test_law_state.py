@@ -1,6 +1,5 @@
 """What a wear law keeps per material point is kept in the result."""
 
-import csv
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +8,6 @@ from paper_models import archard, case, motion, pair, small
 from strangers.running_in import RunningIn
 
 from tribo import Field, Grid, Implicit, Result, Simulation
-from tribo.result.export import si_tables, write_tables
 from tribo.simulation.predict import predict
 
 LAW = RunningIn(k_first=9e-16, k_last=3e-16, length=20.0)
@@ -65,15 +63,6 @@ def test_what_one_law_does_not_keep_is_nan_there_and_a_taken_name_gets_its_kind(
         assert np.isnan(kept.sel(body="disk")).all()
         assert list(result.body("ball").state) == ["pressure"]
         assert result.body("disk").state == {}
-
-
-def test_it_is_exported_in_the_profiles(path, tmp_path):
-    with Result.open(path) as result:
-        write_tables(si_tables(result), tmp_path)
-    with (tmp_path / "profiles_y.csv").open() as file:
-        rows = list(csv.DictReader(file))
-    slips = [float(row["bodies.disk.state.slip_m"]) for row in rows]
-    assert max(slips[:24]) == 0 < max(slips[24:48]) < max(slips[48:])
 
 
 def test_the_predicted_size_counts_it(path):

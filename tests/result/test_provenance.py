@@ -1,10 +1,6 @@
 """Where each model of a result came from, and when it counts as another."""
 
 import io
-import os
-import subprocess
-import sys
-from pathlib import Path
 from typing import ClassVar
 
 import pytest
@@ -16,7 +12,6 @@ from tribo import CaseError, Simulation
 from tribo.cli.lab_report import print_provenance
 from tribo.core.errors import PluginError
 from tribo.result.provenance import changed_components, origin, provenance, stated_facts
-from tribo.result.read import Result
 from tribo.surfaces.forms import Sphere
 
 
@@ -42,18 +37,6 @@ def made(**changes):
     before = provenance({"contact": origin(archard())})
     before["components"]["contact"].update(changes)
     return before
-
-
-def test_each_component_of_a_model_made_of_objects_has_its_configuration_and_facts():
-    with Simulation(model().case).run() as result:
-        components = result.provenance["components"]
-        bodies = result.case_tables["bodies"]
-    ball = components["bodies.ball.surface"]
-    assert ball["config"] == {"type": "sphere", "radius": 0.005}
-    assert ball["facts"] == {"serial number": "7"}
-    assert components["bodies.disk.surface"]["facts"] == {}
-    assert components["bodies.ball.wear"]["config"] == bodies["ball"]["wear"]
-    assert "bodies.disk.wear" not in components
 
 
 def test_show_prints_configuration_and_facts_of_each():
@@ -116,43 +99,3 @@ def test_facts_that_are_not_text_are_an_error_that_names_the_component(facts):
     wrong = Wrong(radius="5 mm")
     with pytest.raises(PluginError, match=r"'sphere' states .* as its facts"):
         stated_facts(wrong)
-
-
-PIPED = """
-import numpy as np
-from paper_models import pair, small
-
-from tribo import Simulation
-from tribo import WearLaw, WearRate
-
-
-class Linear(WearLaw):
-    type = "linear"
-
-    def rate(self, local):
-        return WearRate(3e-16 * local.pressure, np.full_like(local.pressure, 3e-16))
-
-
-Simulation(small(bodies=pair(Linear()))).run("piped.h5")
-"""
-
-
-@pytest.mark.slow
-def test_a_law_piped_to_python_runs_and_its_source_is_said_not_to_be_available(tmp_path):
-    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[1])}
-    done = subprocess.run(
-        [sys.executable, "-"],
-        input=PIPED,
-        cwd=tmp_path,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    console = Console(file=io.StringIO(), width=200, highlight=False)
-    with Result.open(tmp_path / "piped.h5") as result:
-        print_provenance(result, console)
-    (line,) = (line for line in console.file.getvalue().splitlines() if "__main__.Linear" in line)
-    assert line.startswith("  bodies.ball.wear: linear, ")
-    assert line.endswith(", source not available")

@@ -6,14 +6,7 @@ import made_results
 import pytest
 
 from tribo import CaseError
-
-
-@pytest.mark.slow
-def test_measures_and_plots_are_a_method_away(monkeypatch, tmp_path):
-    made_results.empty_pictures(monkeypatch)
-    result = made_results.made()
-    assert set(result.report().bodies) == {"ball", "disk"}
-    assert {path.name for path in result.plot(tmp_path)} >= {"pressure_map.png", "wear_history.png"}
+from tribo.result.quantity import quantity
 
 
 def test_a_notebook_shows_the_lab_table_and_a_picture(monkeypatch):
@@ -34,3 +27,17 @@ def test_a_misspelt_variable_is_not_called_damage():
         result.field("presure", -1)
     with pytest.raises(AttributeError, match="did you mean 'pressure'"):
         result.presure  # noqa: B018
+
+
+@pytest.mark.parametrize(("name", "body"), [("height", "ball"), ("x", None), ("density", "ball")])
+def test_what_is_not_saved_each_time_is_no_field(name, body):
+    with (
+        made_results.made(times=(0.0, 1.0)) as result,
+        pytest.raises(CaseError, match=f"^{name} has no value of its own at each save"),
+    ):
+        quantity(result, name, body)
+
+
+def test_a_number_of_each_save_has_no_places():
+    with made_results.made() as result, pytest.raises(CaseError, match="leave out the places"):
+        quantity(result, "max_pressure", places=[(0.0, 0.0)])

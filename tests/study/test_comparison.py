@@ -6,17 +6,14 @@ import tomllib
 import warnings
 from pathlib import Path
 
-import numpy as np
 import pytest
 from made_results import written
 
-from tribo import Interrupted, Observer, Registry, Result, TriboWarning, compare
+from tribo import Registry, TriboWarning, compare
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.contact.winkler import Winkler
 from tribo.core.errors import CaseError, NumericalError
-from tribo.simulation import run
-from tribo.study.differences import differences
 from tribo.study.runs import file_names
 from tribo.templates import template
 
@@ -48,40 +45,6 @@ def done(foundations, tmp_path):
     """Return a folder with the same results."""
     kept = Path(foundations.results["dcfft"].name).parent
     return shutil.copytree(kept, tmp_path / "done")
-
-
-@pytest.mark.slow
-def test_energy_wear_with_alpha_k_over_mu_is_archards_to_round_off():
-    data = case(friction={"coefficient": MU}, effects=["energy.friction_traction"])
-    wear = [
-        {"type": "archard", "k": K},
-        {"type": "energy.dissipation", "alpha": K / MU},
-        {"type": "energy.dissipation", "alpha": 1.1 * K / MU},
-    ]
-    laws = [{f"bodies.{name}.wear": law for name in ("ball", "disk")} for law in wear]
-    with compare(data, laws, labels=["archard", "energy", "more"]) as comparison:
-        archard, energy, more = comparison.results.values()
-        assert energy.case_tables["bodies"]["ball"]["wear"]["type"] == "energy.dissipation"
-        for time in (0, 100, 300):
-            for each in differences(energy, archard, time).values():
-                # α μ is k to the last bit; the steps amplify it.
-                assert each.largest < 1e-11, each
-        worn = differences(more, archard, 300.0)["bodies.ball.wear_depth"]
-        assert worn.largest == pytest.approx(0.05, abs=0.02)
-
-
-def test_the_first_contact_on_springs_has_four_thirds_of_the_peak(foundations):
-    peaks = [foundations.save(label, 0.0)["max_pressure_Pa"] for label in ("dcfft", "winkler")]
-    # 26 cells on the window are eight across the contact.
-    assert peaks[1] / peaks[0] == pytest.approx(4 / 3, rel=0.03)
-
-
-def test_a_notebook_shows_the_last_common_time(foundations):
-    shown = foundations._repr_html_()
-    assert f"at {foundations.times[-1]:g} s" in shown
-    for label in foundations.results:
-        assert label in shown
-        assert label in repr(foundations)
 
 
 def test_json_has_every_common_save_and_is_json(foundations):
@@ -130,56 +93,12 @@ def test_results_without_a_common_save_are_refused(saved_at):
         saved_at((0, 100, 150), (75, 200))
 
 
-def test_what_is_done_is_not_done_again(done):
-    before = {path.name: path.stat().st_mtime_ns for path in done.iterdir()}
-    assert set(before) == {"contact.type=dcfft.h5", "contact.type=winkler.h5"}
-    told = []
-    compare(CASE, CONTACTS, done, tell=told.append).close()
-    assert all("done already" in line for line in told)
-    assert {path.name: path.stat().st_mtime_ns for path in done.iterdir()} == before
-
-
 @pytest.mark.slow
 def test_a_folder_with_another_case_is_left_alone_unless_told(done):
     with pytest.raises(CaseError, match="is the result of another case; choose another folder"):
         compare(case(load={"normal": 120}), CONTACTS, done)
     with compare(case(load={"normal": 120}), CONTACTS, done, overwrite=True) as comparison:
         assert all(r.case_tables["load"]["normal"] == 120 for r in comparison.results.values())
-
-
-@pytest.mark.slow
-def test_a_run_that_was_interrupted_goes_on(foundations, tmp_path):
-    class StopAt(Observer):
-        def on_step(self, snapshot):
-            if snapshot.state.steps == 5:
-                raise KeyboardInterrupt
-
-    with pytest.raises(Interrupted, match=r"^contact\.type=dcfft: stopped at"):
-        compare(CASE, CONTACTS, tmp_path, observers=lambda: [StopAt()])
-    with compare(CASE, CONTACTS, tmp_path) as resumed:
-        pairs = zip(resumed.results.values(), foundations.results.values(), strict=True)
-        for one, other in pairs:
-            assert one.status == "done"
-            assert np.array_equal(one.field("pressure", -1), other.field("pressure", -1))
-
-
-@pytest.mark.slow
-def test_a_run_that_fails_as_it_goes_on_keeps_what_was_saved(tmp_path, monkeypatch):
-    def march(model, state, watch, error):
-        raise error
-        yield
-
-    path = tmp_path / "contact.type=dcfft.h5"
-    monkeypatch.setattr(run, "march", lambda *given: march(*given, KeyboardInterrupt()))
-    with pytest.raises(Interrupted):
-        compare(CASE, CONTACTS, tmp_path)
-    monkeypatch.setattr(run, "march", lambda *given: march(*given, CaseError("too long a step")))
-    monkeypatch.setattr(run, "begin", None)
-    with pytest.raises(CaseError, match="too long a step"):
-        compare(CASE, CONTACTS, tmp_path)
-    with Result.open(path) as result:
-        assert result.notices == ("failed: too long a step",)
-        assert list(result.times) == [0]
 
 
 @pytest.mark.parametrize("damaged", [False, True])
@@ -191,17 +110,6 @@ def test_a_file_that_is_not_a_sound_result_is_kept(done, damaged):
     with pytest.raises(CaseError, match=r"dcfft\.h5 is .* or run all anew with --force"):
         compare(CASE, CONTACTS, done)
     assert path.read_bytes() == content
-
-
-@pytest.mark.slow
-def test_an_empty_result_is_made_anew(done):
-    path = done / "contact.type=dcfft.h5"
-    path.write_bytes(b"")
-    told = []
-    with pytest.warns(TriboWarning, match=r"dcfft\.h5 is begun anew: .* no result of tribo"):
-        compare(CASE, CONTACTS, done, tell=told.append).close()
-    assert ["done already" in line for line in told] == [False, True]
-    Result.open(path).close()
 
 
 @pytest.mark.slow
@@ -239,7 +147,7 @@ def test_files_are_compared_under_their_names(tmp_path):
     for names, message in (
         ([], "0 results; give 2 to 12"),
         ([a], "1 result; give 2 to 12"),
-        ([a, a], r"a\.h5 is given twice"),
+        ([a, a], "2 results need as many different labels"),
         ([a, tmp_path / "none.h5"], "is not a file"),
     ):
         with pytest.raises(CaseError, match=message):

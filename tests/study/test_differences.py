@@ -47,10 +47,6 @@ def test_a_groove_does_not_end_with_the_cells():
             assert 0 < differences(*pair, 3600.0)["bodies.disk.wear_depth"].largest < 0.01
 
 
-def test_a_single_row_of_cells_is_even():
-    assert difference(Made(1.0, 1, lambda x, y: 2.0), Made(1.0, 4, lambda x, y: 2.0)).largest == 0
-
-
 def test_norms_are_over_all_cells_and_relative_to_the_reference():
     def tilted(x, y):
         return 2 + x + y * y

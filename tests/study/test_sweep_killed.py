@@ -16,7 +16,7 @@ import sweeps
 
 from tribo import Result, sweep
 from tribo.core.errors import CaseError
-from tribo.study.sweeping.executors import THREADS, on_scheduler, processes
+from tribo.study.sweeping.executors import on_scheduler, processes
 
 # Of checkpoints that were not whole when their process was killed.
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::tribo.TriboWarning")]
@@ -162,16 +162,6 @@ def test_the_death_of_a_worker_costs_no_other_run():
             fatal.result(PATIENCE)
         assert slow.result(PATIENCE) is None
         assert executor.submit(abs, -1).result(PATIENCE) == 1
-
-
-def test_a_worker_has_one_thread_and_leaves_those_of_its_parent(monkeypatch):
-    monkeypatch.setenv(THREADS[0], "7")
-    monkeypatch.delenv(THREADS[1], raising=False)
-    with processes(1) as executor:
-        found = [executor.submit(os.getenv, name).result(PATIENCE) for name in THREADS]
-    assert found == ["1"] * len(THREADS)
-    assert os.environ[THREADS[0]] == "7"
-    assert THREADS[1] not in os.environ
 
 
 @pytest.fixture

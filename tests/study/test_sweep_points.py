@@ -87,12 +87,6 @@ def test_a_sample_multiplies_what_is_listed_and_reads_its_ranges_there(tmp_path)
     assert math.isfinite(point["kinematics.stroke"])
 
 
-def test_a_path_may_be_quoted_or_lie_in_tables(tmp_path):
-    nested = "[grid]\nload.normal = [50]\n[grid.contact]\ntype = ['winkler']"
-    quoted = "[grid]\n'load.normal' = [50]\n'contact.type' = ['winkler']"
-    assert made(tmp_path, nested) == made(tmp_path, quoted)
-
-
 GRID, SAMPLE = "[grid]\n", '[sample]\nmethod = "sobol"\ncount = 2\n[sample.ranges]\n'
 
 

@@ -1,8 +1,6 @@
 """A sweep does every run once, records what fails, and its tables agree with its results."""
 
-import os
 import shutil
-import signal
 import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
@@ -13,9 +11,8 @@ import pandas
 import pytest
 import sweeps
 
-from tribo import Interrupted, Result, Simulation, sweep
+from tribo import sweep
 from tribo.core.errors import CaseError, OutputError, TriboWarning
-from tribo.study.sweeping.study_file import load_study
 from tribo.study.sweeping.sweep import plan
 from tribo.study.sweeping.worker import locked
 
@@ -33,14 +30,6 @@ def swept(tmp_path_factory):
 def again(swept, tmp_path):
     """Return the study of a copy of that sweep."""
     return shutil.copytree(swept.folder.parent, tmp_path / "copy") / "study.toml"
-
-
-def test_a_result_has_the_bits_of_the_run_alone(swept):
-    study, data = load_study(swept.folder.parent / "study.toml")
-    data["load"]["normal"] = study.grid["load.normal"][1]
-    with Simulation(data).run() as alone, Result.open(swept.runs[1].path) as result:
-        assert np.array_equal(alone.field("pressure", -1), result.field("pressure", -1))
-        assert np.array_equal(alone.body("disk").wear_depth, result.body("disk").wear_depth)
 
 
 def test_the_tables_load_in_pandas_with_units_in_the_column_names(swept):
@@ -90,13 +79,6 @@ def test_what_is_done_is_not_done_again_and_a_study_may_grow(again):
     assert {path: path.stat().st_mtime_ns for path in before} == before
 
 
-@pytest.mark.slow
-def test_another_executor_than_processes_can_carry_it(tmp_path):
-    with ThreadPoolExecutor(2) as executor:
-        assert statuses(sweep(sweeps.study(tmp_path), executor=executor)) == ["done"] * 2
-        assert executor.submit(len, "ab").result() == 2
-
-
 FAILING = """
 [[list]]
 load.normal = "50 N"
@@ -144,7 +126,7 @@ def test_a_worker_with_a_folder_of_its_own_is_told_of(tmp_path):
 def test_an_executor_that_takes_no_runs_ends_the_sweep(tmp_path):
     executor = ThreadPoolExecutor(1)
     executor.shutdown()
-    with pytest.raises(OutputError, match=r"takes no more runs .* the same command goes on"):
+    with pytest.raises(OutputError, match="takes no more runs"):
         sweep(sweeps.study(tmp_path), executor=executor)
 
 
@@ -172,43 +154,11 @@ def test_a_worker_that_lacks_a_plugin_says_so(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_stopped_run_goes_on_from_its_checkpoint(tmp_path, monkeypatch):
-    path = sweeps.study(tmp_path, sweeps.SLOW + '[grid]\nload.normal = ["50 N"]')
-    folder = tmp_path / "study-sweep"
-
-    def on_step(self, snapshot):
-        if snapshot.state.steps == 100:
-            os.kill(os.getpid(), signal.SIGINT)
-            end = time.monotonic() + 60
-            while not self.path.exists():
-                assert time.monotonic() < end
-                time.sleep(0.01)
-            raise KeyboardInterrupt
-
-    with ThreadPoolExecutor(1) as executor, monkeypatch.context() as patch:
-        patch.setattr("tribo.study.sweeping.worker._StopFile.on_step", on_step)
-        with pytest.raises(Interrupted, match="same command"):
-            sweep(path, executor=executor)
-    table = pandas.read_csv(folder / "runs.csv")
-    assert list(table["status"]) == ["interrupted"]
-    assert not (folder / "sweep.stop").exists()
-    with monkeypatch.context() as patch:
-        # From now on no run can begin anew.
-        patch.delattr(Simulation, "run")
-        assert statuses(sweep(path, executor=sweeps.Inline())) == ["done"]
-    with Result.open(folder / "results" / table["file"][0]) as result:
-        assert np.array_equal(
-            Simulation(result.case).run().field("pressure", -1), result.field("pressure", -1)
-        )
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("damage", ["no result", "a flipped bit"])
-def test_a_damaged_result_is_done_again(again, damage):
+def test_a_damaged_result_is_done_again(again):
     damaged = plan(again, again.with_name("study-sweep"))[0][1].path
     content = bytearray(damaged.read_bytes())
     content[len(content) // 2] ^= 1
-    damaged.write_bytes(b"no" if damage == "no result" else content)
+    damaged.write_bytes(content)
     executor = sweeps.Inline()
     with pytest.warns(TriboWarning, match=f"{damaged.name} is begun anew: "):
         assert statuses(sweep(again, executor=executor)) == ["done"] * 2

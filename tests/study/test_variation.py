@@ -32,15 +32,6 @@ def test_an_axis_is_a_path_and_its_values(text, values):
     assert read_axes([text]) == {"a.b": values}
 
 
-def test_axes_multiply_and_the_last_varies_first():
-    assert grid({"a": (1, 2), "b": ("x", "y")}) == [
-        {"a": 1, "b": "x"},
-        {"a": 1, "b": "y"},
-        {"a": 2, "b": "x"},
-        {"a": 2, "b": "y"},
-    ]
-
-
 def test_a_variant_is_the_case_with_its_settings_and_the_defaults_of_another_type():
     found = made("contact.type=winkler,dcfft", "load.normal=50 N", "contact.plasticity=false")
     winkler, dcfft = found.values()
@@ -83,7 +74,7 @@ def test_values_alone_are_the_labels_where_the_paths_are_the_same():
         (["load.normal=1,2", 'load."normal"=3'], 'load."normal": varies twice'),
         (["load.normal=50,50 N"], "load.normal=50 and load.normal=50 N are the same case"),
         (["loda.normal=1,2"], "did you mean 'load'?"),
-        (["bodies.bal.wear.k=1,2"], "did you mean 'ball'?"),
+        (["bodies.bal.wear.k=1,2"], "two bodies, as [bodies.ball] and [bodies.disk]; given: "),
         (["contact.type=winklr,dcfft"], "did you mean 'winkler'?"),
         (["load.normal='1 N,2 N'"], "load.normal: '1 N,2 N': cannot read the unit"),
         (["load.normal=1 N,2 Pa"], "with load.normal=2 Pa: load.normal: "),

@@ -2,20 +2,25 @@
 
 import random
 import resource
+import warnings
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from unittest import mock
 
-from trust.trial import contents, resume, run, same, start, whole
+from trust.trial import contents, same, simulation, whole
 
-from tribo import Result
-
-OUTPUT_ERROR = 3
+import tribo.simulation.run
+from tribo import OutputError, Result
+from tribo.observers.observer import Observer
+from tribo.observers.recorder import Recorder
 
 
 @dataclass
 class FullDisks:
-    """What became of the runs that met a full disk."""
+    """What became of the runs that met a full disk; whatever else comes out of one is raised."""
 
     stopped: int = 0
     finished: int = 0
@@ -23,23 +28,35 @@ class FullDisks:
     not_begun: int = 0
     """There was no room for the first save."""
     identical: int = 0
-    other_exits: int = 0
     lost_saves: int = 0
-    different: int = 0
 
     @property
     def good(self):
-        return self.stopped == self.identical > 0 and not (self.other_exits + self.lost_saves)
+        return self.stopped == self.identical > 0 and not self.lost_saves
+
+
+class Acknowledge(Observer):
+    """Keeps the time of each save once the recorder has it."""
+
+    told: list
+
+    def on_save(self, snapshot):
+        self.told.append(snapshot.state.time)
 
 
 def fill_and_resume(count, seed):
     """Stop `count` runs by less room than they need, which is a limit on the size of a file."""
-    disks = FullDisks()
-    chance = random.Random(seed)
-    with TemporaryDirectory() as folder:
+    disks, chance = FullDisks(), random.Random(seed)
+    # A checkpoint at every step.
+    often = partial(Recorder, checkpoint_every=0.0)
+    with (
+        TemporaryDirectory() as folder,
+        mock.patch.object(tribo.simulation.run, "Recorder", often),
+        warnings.catch_warnings(action="ignore"),
+    ):
         path = whole(folder)
         undisturbed, most = contents(path), path.stat().st_size
-        while disks.stopped + disks.other_exits < count:
+        while disks.stopped < count:
             # A part is smaller than the result.
             room = chance.randrange(most // 2, most)
             _one(Path(folder) / "run.h5", room, undisturbed, disks)
@@ -47,33 +64,29 @@ def fill_and_resume(count, seed):
 
 
 def _one(path, room, undisturbed, disks):
-    path.unlink(missing_ok=True)
-    code, told = start(limited(room), path).wait()
-    if code == 0:
-        disks.finished += 1
-        return
-    if code != OUTPUT_ERROR:
-        disks.other_exits += 1
-        return
-    if len(told) == 0:
-        disks.not_begun += 1
-        return
-    disks.stopped += 1
-    with Result.open(path) as result:
-        disks.lost_saves += len(set(told) - set(result.times))
-    code, _ = start(resume, path).wait()
-    if code == 0 and same(contents(path), undisturbed):
-        disks.identical += 1
+    saves = Acknowledge(told=[])
+    try:
+        with limited(room):
+            simulation().run(path, observers=[saves], overwrite=True).close()
+    except OutputError:
+        disks.stopped += bool(saves.told)
+        disks.not_begun += not saves.told
     else:
-        disks.different += 1
+        disks.finished += 1
+    if saves.told and path.with_name("run.h5.run").exists():
+        with Result.open(path) as result:
+            disks.lost_saves += len({*saves.told} - {*result.times})
+        simulation().resume(path).close()
+        disks.identical += same(contents(path), undisturbed)
+    path.unlink(missing_ok=True)
 
 
+@contextmanager
 def limited(room):
-    """Return `run` in which no file may grow beyond `room` bytes."""
-
-    def worked(path, pipe):
-        hard = resource.getrlimit(resource.RLIMIT_FSIZE)[1]
-        resource.setrlimit(resource.RLIMIT_FSIZE, (room, hard))
-        run(path, pipe)
-
-    return worked
+    """Let no file grow beyond so many bytes."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (room, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)

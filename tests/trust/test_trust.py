@@ -8,12 +8,10 @@ pytestmark = pytest.mark.slow
 
 
 def test_damaged_files_are_never_read_wrong():
-    damages = damage_and_read(2 * len(KINDS), seed=3)
-    assert set(damages.ends()) <= {"refused", "read right"}
-    assert damages.ends()["refused"] > 8
+    damages = damage_and_read(5 * len(KINDS), seed=3)
+    assert damages.good
+    assert damages.refused > 20
 
 
 def test_a_full_disk_costs_nothing_that_was_saved():
-    disks = fill_and_resume(1, seed=5)
-    assert disks.stopped == disks.identical == 1
-    assert (disks.other_exits, disks.lost_saves) == (0, 0)
+    assert fill_and_resume(1, seed=5).good

@@ -24,7 +24,6 @@ NAMED = 5
 @click.option("-o", "--output", type=PATH, help="Folder; STUDY-sweep.")
 @click.option("-j", "--jobs", type=click.IntRange(1), help="Runs at once; a core each.")
 @click.option("--scheduler", metavar="ADDRESS", help="Run on this dask scheduler's workers.")
-@click.option("--dask", is_flag=True, help="Run on a dask cluster on this machine.")
 @click.option("--retry", is_flag=True, help="Run again what failed before.")
 @click.option("--yes", is_flag=True, help="More than 1000 runs are meant.")
 @JSON
@@ -34,7 +33,6 @@ def sweep(
     output: Path | None,
     jobs: int | None,
     scheduler: str | None,
-    dask: bool,
     retry: bool,
     yes: bool,
     as_json: bool,
@@ -55,7 +53,7 @@ def sweep(
     """
     from tribo.study.sweeping.sweep import sweep as run
 
-    with _executor(scheduler, dask, jobs) as executor, _shown() as tell:
+    with _executor(scheduler, jobs) as executor, _shown() as tell:
         swept = run(study, output, executor=executor, jobs=jobs, retry=retry, many=yes, tell=tell)
     total, reasons = len(swept.runs), swept.failures()
     failed = sum(map(len, reasons.values()))
@@ -81,18 +79,16 @@ def sweep(
         raise NumericalError("\n".join(lines))
 
 
-def _executor(
-    scheduler: str | None, dask: bool, jobs: int | None
-) -> AbstractContextManager[Executor | None]:
-    from tribo.study.sweeping.executors import on_local_cluster, on_scheduler
-
-    if scheduler and (dask or jobs):
+def _executor(scheduler: str | None, jobs: int | None) -> AbstractContextManager[Executor | None]:
+    if not scheduler:
+        return nullcontext()
+    if jobs:
         raise CaseError(
-            "--scheduler has workers of its own; leave out --dask and --jobs, which start some here"
+            "--scheduler has workers of its own; leave out --jobs, which starts some here"
         )
-    if scheduler:
-        return on_scheduler(scheduler)
-    return on_local_cluster(jobs) if dask else nullcontext()
+    from tribo.study.sweeping.executors import on_scheduler
+
+    return on_scheduler(scheduler)
 
 
 @contextmanager

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import time
 from collections.abc import Iterator, Mapping
@@ -19,11 +18,13 @@ from tribo.core.state import RunInfo, Snapshot, State
 from tribo.observers.observer import Observer
 from tribo.result.checkpoint import Checkpoint, RunFolder, fingerprint
 from tribo.result.hdf5 import empty_image, filled_image
+from tribo.result.header import Header
 from tribo.result.layout import (
     EFFECT,
     SAVED,
     Rows,
     Variable,
+    constants,
     part_of,
     save_row,
     step_row,
@@ -46,8 +47,6 @@ class Recorder(Observer):
     _empty: bytes = b""
     _image: BytesIO = PrivateAttr()
     _case: str = ""
-    _effects: bool = False
-    _kept: list[Rows] = PrivateAttr(default_factory=list)
     _steps: list[Rows] = PrivateAttr(default_factory=list)
     _saves: list[Rows] = PrivateAttr(default_factory=list)
     _count: int = 0
@@ -99,22 +98,22 @@ class Recorder(Observer):
         self._clock = time.monotonic()
         # With a map of heights in the case this takes as long as a step.
         self._case, self._table = fingerprint(run.case), variables(run)
-        self._effects = bool(run.effect_fields)
         resumed, folder = run.resumed_from is not None, self._folder
+        header, values = Header.of_run(run), constants(run)
         with self._writing():
             if folder is None:
-                self._empty = empty_image(run)
+                self._empty = empty_image(header, self._table, values)
                 return
             folder.lock()
             try:
                 if resumed:
                     self._last_checkpoint = self._clock
                     with Result(folder.result, str(folder.result)) as stopped:
-                        provenance = json.dumps(_gone_on_with(stopped, run))
-                    self._empty = empty_image(run, provenance=provenance)
+                        made = _gone_on_with(stopped, run)
+                    header = header.model_copy(update={"provenance": made})
                 else:
-                    self._empty = empty_image(run)
                     folder.clear()
+                self._empty = empty_image(header, self._table, values)
                 self._write(BytesIO(self._empty))
             except BaseException:
                 # Of a run that was stopped its checkpoints stay.
@@ -137,28 +136,27 @@ class Recorder(Observer):
 
     def on_finish(self, snapshot: Snapshot | None, reason: str) -> None:
         """Write the whole result; keep the checkpoint unless the run is done."""
+        folder, findings = self._folder, () if snapshot is None else snapshot.state.findings
         try:
             with self._writing():
                 if snapshot is not None and reason != "done":
                     self._keep_last(snapshot)
-                self._finish_part()
-                folder, found = self._folder, () if snapshot is None else snapshot.state.findings
                 self._image = filled_image(
                     self._empty,
-                    self._kept if folder is None else folder.parts(self._count),
+                    self._parts(),
                     self._saved,
                     self._rows,
                     status=reason,
                     wall_time_s=self._spent(),
-                    findings=as_json(found),
+                    findings=as_json(findings),
                 )
                 if folder is not None:
                     self._write(self._image)
                     if reason == "done":
                         folder.remove()
         finally:
-            if self._folder is not None:
-                self._folder.unlock()
+            if folder is not None:
+                folder.unlock()
 
     @property
     def holds(self) -> Path | None:
@@ -179,24 +177,25 @@ class Recorder(Observer):
         self._saved += 1
         self._last_save = snapshot.state.time
 
-    def _finish_part(self) -> None:
-        part = {**part_of(self._steps), **part_of(self._saves)}
-        if not part:
-            return
-        if self._folder is None:
-            self._kept.append(part)
-        else:
-            self._folder.write_part(self._count, part)
-        self._count += 1
-        self._steps, self._saves = [], []
+    def _parts(self) -> Iterator[Rows]:
+        """Yield all parts, and what was added since."""
+        if self._folder is not None:
+            yield from self._folder.parts(self._count)
+        yield part_of(self._steps)
+        for row in self._saves:
+            yield part_of([row])
 
     def _checkpoint(self, state: State) -> None:
         """Write what was added, and the state after it."""
+        if self._folder is None:
+            return
         with self._writing():
-            self._finish_part()
-            if self._folder is not None:
-                kept = self._case, state, self._spent(), self._count, self._saved, self._rows
-                self._folder.write_checkpoint(Checkpoint(*kept))
+            if part := part_of(self._steps) | part_of(self._saves):
+                self._folder.write_part(self._count, part)
+                self._count += 1
+                self._steps, self._saves = [], []
+            kept = self._case, state, self._spent(), self._count, self._saved, self._rows
+            self._folder.write_checkpoint(Checkpoint(*kept))
         self._last_checkpoint = time.monotonic()
 
     def _keep_last(self, snapshot: Snapshot) -> None:
@@ -204,7 +203,8 @@ class Recorder(Observer):
         state = snapshot.state
         if self._rows <= state.steps:
             self._append_step(snapshot)
-        whole = bool(snapshot.effects) or not self._effects
+        # An effect that failed has left none.
+        whole = snapshot.effects or not any(v.kind == EFFECT for v in self._table.values())
         if whole and self._saved < state.saves:
             self._append_save(snapshot)
         if self._saved == state.saves:

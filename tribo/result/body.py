@@ -61,8 +61,5 @@ class BodyResult:
 def checked_save(save: int, count: int, who: str) -> int:
     """Return `save`; CaseError if `who` has none of that number."""
     if not -count <= save < count:
-        numbered = f", 0 to {count - 1}" if count > 1 else ""
-        raise CaseError(
-            f"{who} has no save {save}: it has {count} save{'' if count == 1 else 's'}{numbered}"
-        )
+        raise CaseError(f"{who} has no save {save}; it has {count}, counted from 0")
     return save

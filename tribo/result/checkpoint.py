@@ -13,7 +13,7 @@ import os
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from hashlib import sha256
 from io import BytesIO
 from itertools import count
@@ -21,15 +21,13 @@ from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
+from pydantic import ConfigDict, ValidationError
+from pydantic.dataclasses import dataclass
 
 from tribo.core.arrays import Array
-from tribo.core.contact import ContactSolution, Residuals
 from tribo.core.errors import CaseError, TriboError, warn
-from tribo.core.fields import WearRate
-from tribo.core.findings import Finding
 from tribo.core.locks import BusyError, lock
-from tribo.core.measures import Invariants
-from tribo.core.state import BodyState, State
+from tribo.core.state import State
 from tribo.core.writing import make_folder, move, open_lock, remove, remove_empty, writing
 from tribo.result.layout import Rows
 from tribo.result.sealed import open_sealed, write_sealed
@@ -37,9 +35,11 @@ from tribo.result.sealed import open_sealed, write_sealed
 _ARRAY = "array number"
 _OWN = re.compile(r"lock|checkpoint(\.previous)?|\d{6,}\.part|tribo-[0-9a-f]{16}\.new")
 """Names of the files that a run makes."""
+_WHOLE = ConfigDict(arbitrary_types_allowed=True, extra="forbid", defer_build=True)
+"""A state is read as its classes have it, arrays as they are, and nothing else."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, config=_WHOLE)
 class Checkpoint:
     """Where a run can go on: its state, with the `fingerprint` of its case.
 
@@ -80,22 +80,10 @@ class RunFolder:
                 f"{self.path} was not made by tribo, which needs the name while it runs; rename "
                 "it, or choose another place for the result with -o"
             )
-        self._lock = open_lock(place)
-        busy = CaseError(f"{self.result} is in use: another process is writing it")
         try:
-            if not lock(self._lock.fileno()):
-                warn(
-                    f"{self.result}: its file system has no locks, so nothing stops another run "
-                    "from writing the same file; see that none does, or choose another place with "
-                    "-o",
-                )
+            self._lock = hold(place)
         except BusyError:
-            self.unlock()
-            raise busy from None
-        if not place.exists():
-            # The run that held it has just ended and taken the folder with it.
-            self.unlock()
-            raise busy
+            raise CaseError(f"{self.result} is in use: another process is writing it") from None
         # What a process was writing that was killed.
         remove(*(path for path in self.path.glob("*.new") if _OWN.fullmatch(path.name)))
 
@@ -113,10 +101,8 @@ class RunFolder:
         stopped = self.checkpoint.exists() and (self.path / "lock").exists()
         if not (stopped and self.result.is_file()) or self.busy():
             return None
-        for number in count(1):
-            aside = self.result.with_stem(f"{self.result.stem}.{number}")
-            if not (aside.exists() or RunFolder(aside).path.exists()):
-                break
+        names = (self.result.with_stem(f"{self.result.stem}.{number}") for number in count(1))
+        aside = next(each for each in names if not (each.exists() or RunFolder(each).path.exists()))
         move(self.path, RunFolder(aside).path)
         move(self.result, aside)
         return aside
@@ -206,15 +192,37 @@ class RunFolder:
     def _sound(self, path: Path, case: Mapping[str, object]) -> Checkpoint | None:
         """Return a checkpoint after reading all that belongs to it; None if there is no file."""
         try:
-            data = _load(path)
+            checkpoint = Checkpoint(**_load(path))
         except FileNotFoundError:
             return None
-        checkpoint = _checkpoint(data)
+        except ValidationError as error:
+            field = ".".join(map(str, error.errors()[0]["loc"]))
+            raise CaseError(f"its checkpoint is of another version of tribo: {field}") from error
         if checkpoint.case != fingerprint(case):
             raise CaseError("it belongs to another case")
         for number in range(checkpoint.parts):
             open_sealed(self.part(number)).close()
         return checkpoint
+
+
+def hold(path: Path) -> IO[bytes]:
+    """Lock a file, made if there is none, until it is closed or the process ends.
+
+    BusyError if another process or thread holds it, or has just removed it.
+    """
+    file = open_lock(path)
+    try:
+        if not lock(file.fileno()):
+            warn(
+                f"{path}: its file system has no locks, so nothing stops another process from "
+                "writing the same results; see that none does",
+            )
+        if not os.path.samestat(os.fstat(file.fileno()), path.stat()):
+            raise BusyError
+    except (BusyError, FileNotFoundError):
+        file.close()
+        raise BusyError from None
+    return file
 
 
 def fingerprint(case: Mapping[str, object]) -> str:
@@ -251,29 +259,3 @@ def _load(path: Path) -> dict[str, Any]:
 
         loaded: dict[str, Any] = json.loads(data["arr_0"].tobytes(), object_hook=whole)
         return loaded
-
-
-def _checkpoint(data: dict[str, Any]) -> Checkpoint:
-    try:
-        state = data.pop("state")
-        return Checkpoint(
-            state=State(
-                contacts=tuple(_contact(contact) for contact in state.pop("contacts")),
-                bodies={name: BodyState(**body) for name, body in state.pop("bodies").items()},
-                rates=tuple(
-                    {name: WearRate(**rate) for name, rate in of_bodies.items()}
-                    for of_bodies in state.pop("rates")
-                ),
-                previous=tuple(state.pop("previous")),
-                findings=tuple(Finding(**each) for each in state.pop("findings")),
-                invariants=Invariants(**state.pop("invariants")),
-                **state,
-            ),
-            **data,
-        )
-    except (LookupError, TypeError, AttributeError) as error:
-        raise CaseError(f"its checkpoint is of another version of tribo: {error}") from error
-
-
-def _contact(data: dict[str, Any]) -> ContactSolution:
-    return ContactSolution(residuals=Residuals(**data.pop("residuals")), **data)

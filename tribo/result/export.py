@@ -39,6 +39,8 @@ def write_tables(tables: Mapping[str, Any], folder: Path, form: str = "csv") -> 
         for path, frame in zip(paths, frames.values(), strict=True):
             write_file(path, frame.to_csv(index=False, na_rep="nan", lineterminator="\r\n"))
         return paths
+    if max(map(len, frames.values())) >= 2**20:
+        raise CaseError("a sheet of Excel has 2²⁰ rows at most; export CSV files", "--format")
     book = BytesIO()
     try:
         with pd.ExcelWriter(book, engine="openpyxl") as writer:

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from functools import lru_cache
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from tribo.core.arrays import Array
 from tribo.core.hdf5 import open_hdf5
-from tribo.core.state import RunInfo
-from tribo.result.layout import Rows, Variable, attributes, variables
+from tribo.result.header import Header
+from tribo.result.layout import BETWEEN, DIMS, FIXED, Rows, Variable
 
 if TYPE_CHECKING:
     import h5py
@@ -24,25 +24,25 @@ _MOST = 2**31 - 1
 four times as long to open it."""
 
 
-def empty_image(run: RunInfo, **changed: Any) -> bytes:
-    """Return the file of a run that has not yet made a step, with some attributes changed."""
-    table = variables(run)
-    sizes = {"body": len(run.bodies), "time": 0, "step": 0}
-    given = {name: each.values for name, each in table.items() if each.values is not None}
-    sizes |= {name: each.size for name, each in given.items() if table[name].dims == (name,)}
-    layout = tuple((name, replace(variable, values=None)) for name, variable in table.items())
-    image = BytesIO(_without_values(layout, tuple(sizes.items())))
+def empty_image(
+    header: Header, table: Mapping[str, Variable], constants: Mapping[str, Array]
+) -> bytes:
+    """Return the file of a run that has not yet made a step."""
+    bodies = list(header.case["bodies"])
+    sizes = {"body": len(bodies), "time": 0, "step": 0}
+    sizes |= {name: len(each) for name, each in constants.items() if table[name].dims == (name,)}
+    image = BytesIO(_without_values(tuple(table.items()), tuple(sizes.items())))
     with open_hdf5(image, "r+") as file:
-        file.attrs.update(attributes(run) | changed)
-        file["body"][...] = [body.name for body in run.bodies]
-        for name, values in given.items():
+        file.attrs.update(header.attributes())
+        file["body"][...] = bodies
+        for name, values in constants.items():
             file[name][...] = values
     return image.getvalue()
 
 
 @lru_cache(maxsize=8)
 def _without_values(
-    layout: tuple[tuple[str, Variable], ...], sizes_of: tuple[tuple[str, int], ...]
+    table: tuple[tuple[str, Variable], ...], sizes_of: tuple[tuple[str, int], ...]
 ) -> bytes:
     """Return a file with no values, kept: to make it takes as long as a short run."""
     image, sizes = BytesIO(), dict(sizes_of)
@@ -51,12 +51,12 @@ def _without_values(
         # Looked up once: that takes as long as writing.
         datasets = {"body": file["body"]} | {
             name: _create(file, name, variable, [sizes[dim] for dim in variable.dims])
-            for name, variable in layout
+            for name, variable in table
         }
         # netCDF takes the dimensions from these.
         for dim in sizes:
             datasets[dim].make_scale(dim)
-        for name, variable in layout:
+        for name, variable in table:
             if name not in sizes:
                 for axis, dim in enumerate(variable.dims):
                     datasets[name].dims[axis].attach_scale(datasets[dim])
@@ -92,6 +92,24 @@ def filled_image(
         for name, values in scalars.items():
             datasets[name][...] = values
     return image
+
+
+def read_variables(datasets: Mapping[str, h5py.Dataset]) -> dict[str, Variable]:
+    """Return the variables of a file, none of them read; ValueError if a name is none."""
+    table = {name: variable for name, variable in FIXED.items() if name in datasets}
+    for name, values in datasets.items():
+        if "kind" not in values.attrs:
+            continue
+        kind, field, unit, meaning = (
+            str(values.attrs[key]) for key in ("kind", "field", "units", "long_name")
+        )
+        # Files are called after them.
+        if not (name.isidentifier() and field.isidentifier()):
+            raise ValueError(f"{name!r} is no field of a model")
+        dims = ("time",) if kind == BETWEEN and values.ndim == 1 else DIMS[kind]
+        bodies = tuple(map(str, values.attrs["bodies"]))
+        table[name] = Variable(dims, unit, meaning, kind, field, bodies)
+    return table
 
 
 def renamed_image(image: BytesIO, names: Mapping[str, str]) -> BytesIO:

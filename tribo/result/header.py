@@ -1,4 +1,4 @@
-"""The attributes of a result file, which anyone may have edited: what they must be."""
+"""The attributes of a result file: one description to write and to read them."""
 
 from __future__ import annotations
 
@@ -7,97 +7,81 @@ from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import AfterValidator, BaseModel, Field, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
-from tribo.core.findings import Finding, worn_through
-from tribo.core.units import Quantity
+from tribo.core.contact import ContactSystem
+from tribo.core.findings import Finding, as_json
+from tribo.core.grid import Grid
+from tribo.core.state import RunInfo
 from tribo.core.words import checked_name
 
+FORMAT = 2
 _JSON = ("case", "provenance", "findings")
-_Positive = Annotated[float, Quantity("1", above=0)]
-_AtLeast0 = Annotated[float, Quantity("1", at_least=0)]
-_Name = Annotated[str, AfterValidator(checked_name)]
 
 
-class _Layer(BaseModel):
-    thickness: _Positive
+def _named(case: dict[str, Any]) -> dict[str, Any]:
+    """Return the tables of a case whose bodies may give files their names."""
+    if len({checked_name(name) for name in case["bodies"]}) != 2:
+        raise ValueError("a case has two bodies")
+    return case
 
 
-class _Body(BaseModel):
-    layers: list[_Layer] = []
+class Header(BaseModel):
+    """The attributes of a result file, in SI units."""
 
+    model_config = ConfigDict(frozen=True)
 
-class _Case(BaseModel):
-    grid: dict[str, Any] = {}
-    load: dict[str, Any] = {}
-    kinematics: dict[str, Any] = {}
-    bodies: Annotated[dict[_Name, _Body], Field(min_length=2, max_length=2)]
+    conventions: str = Field("CF-1.11", alias="Conventions")
+    title: str = "tribo wear simulation"
+    tribo_format: int = FORMAT
+    status: Literal["done", "running", "killed", "interrupted", "failed"] = "running"
+    load: float = Field(alias="load_N")
+    window: tuple[float, float] = Field(alias="window_m")
+    modulus: float = Field(alias="modulus_Pa")
+    cap: float | None = Field(None, alias="cap_Pa")
+    curvature: tuple[float, float] | None = Field(None, alias="curvature_1_m")
+    wall_time: float | None = Field(None, alias="wall_time_s")
+    case: Annotated[dict[str, Any], AfterValidator(_named)]
+    provenance: dict[str, Any]
+    findings: tuple[Finding, ...] = ()
 
+    @classmethod
+    def of_run(cls, run: RunInfo) -> Header:
+        """Return the header of a run that begins."""
+        system = run.system
+        known = {
+            "load_N": system.load,
+            "window_m": system.grid.size,
+            "modulus_Pa": system.modulus,
+            "cap_Pa": system.cap,
+            "curvature_1_m": system.curvature,
+            "case": run.case,
+            "provenance": run.provenance,
+        }
+        return cls.model_validate(known)
 
-class _Origin(BaseModel):
-    type: str
-    whose: str = Field(alias="class")
-    distribution: str
-    version: str
-    editable: bool
-    code: str
-    config: dict[str, Any]
-    facts: dict[str, str]
+    @classmethod
+    def read(cls, attributes: Mapping[str, Any]) -> Header:
+        """Return the header that the attributes of a file are; ValueError if one is wrong."""
+        plain = {
+            name: value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+            for name, value in attributes.items()
+        }
+        if "findings" not in plain:
+            # An older file has sentences alone.
+            words = json.loads(plain["notices"])
+            plain["findings"] = json.dumps([{"kind": "notice", "words": each} for each in words])
+        return cls.model_validate(plain | {name: json.loads(plain[name]) for name in _JSON})
 
+    def attributes(self) -> dict[str, Any]:
+        """Return the attributes: numbers, lists and text, some of it JSON."""
+        fields = type(self).model_fields.items()
+        values = {field.alias or name: getattr(self, name) for name, field in fields}
+        values |= {"case": json.dumps(self.case), "provenance": json.dumps(self.provenance)}
+        values["findings"] = as_json(self.findings)
+        return {name: value for name, value in values.items() if value is not None}
 
-class _Plugin(BaseModel):
-    distribution: str
-    version: str
-    status: str
-    reason: str
-
-
-class _Begun(BaseModel):
-    result: str
-    sha256: str
-
-
-class _Made(BaseModel):
-    python: str
-    packages: dict[str, str]
-    components: dict[str, _Origin]
-    plugins: list[_Plugin]
-    begun_with: _Begun | None = None
-
-
-class _Provenance(_Made):
-    resumed_with: list[_Made] = []
-
-
-class _Header(BaseModel):
-    status: Literal["done", "running", "killed", "interrupted", "failed"]
-    load: _Positive = Field(alias="load_N")
-    window: tuple[_Positive, _Positive] = Field(alias="window_m")
-    modulus: _Positive = Field(alias="modulus_Pa")
-    cap: _Positive | None = Field(None, alias="cap_Pa")
-    curvature: tuple[_AtLeast0, _AtLeast0] | None = Field(None, alias="curvature_1_m")
-    wall_time: _AtLeast0 | None = Field(None, alias="wall_time_s")
-    case: _Case
-    provenance: _Provenance
-    findings: list[Finding]
-
-
-def read_header(attributes: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the attributes of a file with their JSON read; ValueError if one is wrong."""
-    plain = {
-        name: value.tolist() if isinstance(value, np.ndarray | np.generic) else value
-        for name, value in attributes.items()
-    }
-    if "findings" not in plain:
-        # An older file has sentences alone.
-        words = json.loads(plain["notices"])
-        plain["findings"] = json.dumps([{"kind": "notice", "words": each} for each in words])
-    plain |= {name: json.loads(plain[name]) for name in _JSON}
-    try:
-        read = _Header.model_validate(plain)
-    except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(map(str, first["loc"]))
-        raise ValueError(f"{place!r} is {first['input']!r:.80}: {first['msg']}") from None
-    found = tuple(read.findings)
-    return plain | {"findings": found, "worn_through": worn_through(found)}
+    def system(self, cells: tuple[int, int]) -> ContactSystem:
+        """Return the constants of the contact, on so many cells."""
+        grid = Grid(self.window, cells)
+        return ContactSystem(grid, self.modulus, self.load, self.cap, self.curvature)

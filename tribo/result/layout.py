@@ -1,10 +1,9 @@
-"""What a result file has: attributes, variables, and the rows that steps and saves add."""
+"""The variables of a result file, and the rows that steps and saves add."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
@@ -12,11 +11,9 @@ import numpy as np
 
 from tribo.core.arrays import Array, middle_rows
 from tribo.core.fields import Field
-from tribo.core.findings import as_json
 from tribo.core.state import RunInfo, Snapshot, State
 from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
 
-FORMAT = 2
 STATE, EFFECT, TRACK_STATE, BETWEEN = "state", "effect", "track_state", "between"
 SAVED, STEPPED = ("saved", "saved_of_body"), ("stepped", "stepped_of_body")
 HISTORY = "history_"
@@ -28,7 +25,7 @@ Rows = dict[str, Any]
 
 @dataclass(frozen=True)
 class Variable:
-    """A variable of the dataset; it has no values yet where it grows with the run.
+    """A variable of the dataset.
 
     A field of a model has a `kind`, the name that it has in the model, and the bodies that have it
     (NaN for the others): ``"state"`` is kept on a body, ``"track_state"`` along its whole track,
@@ -39,7 +36,6 @@ class Variable:
     dims: tuple[str, ...]
     unit: str
     meaning: str
-    values: Array | None = None
     kind: str = ""
     field: str = ""
     bodies: tuple[str, ...] = ()
@@ -57,26 +53,6 @@ DIMS: Mapping[str, tuple[str, ...]] = {
     **dict(zip(STEPPED, (("step",), ("step", "body")), strict=True)),
 }
 """Dimensions of a field of a model by its kind; one that is uniform has the time alone."""
-
-
-def attributes(run: RunInfo) -> dict[str, Any]:
-    """Return the attributes of a run that begins: numbers, lists and text, some of it JSON."""
-    system = run.system
-    values = {
-        "Conventions": "CF-1.11",
-        "title": "tribo wear simulation",
-        "tribo_format": FORMAT,
-        "status": "running",
-        "load_N": system.load,
-        "window_m": list(system.grid.size),
-        "modulus_Pa": system.modulus,
-        "cap_Pa": system.cap,
-        "curvature_1_m": None if system.curvature is None else list(system.curvature),
-        "case": json.dumps(run.case),
-        "provenance": json.dumps(run.provenance),
-        "findings": as_json(()),
-    }
-    return {name: value for name, value in values.items() if value is not None}
 
 
 FIXED = {
@@ -113,8 +89,31 @@ def variables(run: RunInfo) -> dict[str, Variable]:
     A field whose name is taken has ``effect_`` or ``state_`` before it; one along the whole track
     has ``track_state_``.
     """
-    grid, bodies = run.system.grid, run.bodies
-    rows = max(body.rows for body in bodies)
+    bodies, rows = run.bodies, _rows(run)
+    left_out = set() if any(body.rough for body in bodies) else {*ROUGHNESS}
+    if rows <= run.system.grid.cells[0]:
+        left_out |= {"track_x", TRACK, TRACK_PLASTIC}
+    elif run.system.cap is None:
+        left_out.add(TRACK_PLASTIC)
+    table = {name: variable for name, variable in FIXED.items() if name not in left_out}
+    for (kind, field), owners in _owners(run).items():
+        name = f"{kind}_{field.name}" if kind == TRACK_STATE else field.name
+        while name in FIXED or name in table or name == "body":
+            name = f"{kind}_{name}"
+        dims = ("time",) if kind == BETWEEN and field.uniform else DIMS[kind]
+        table[name] = Variable(dims, field.unit, field.description, kind, field.name, owners)
+    for column in run.columns:
+        name, whose = column.name, tuple(body.name for body in bodies if column.of_bodies)
+        name = f"column_{name}" if name in table or name == "body" else name
+        for kinds, key in ((SAVED, name), (STEPPED, HISTORY + name)):
+            kind, about = kinds[column.of_bodies], (column.unit, column.description)
+            table[key] = Variable(DIMS[kind], *about, kind, column.name, whose)
+    return table
+
+
+def constants(run: RunInfo) -> dict[str, Array]:
+    """Return the values of the variables that do not grow with the run."""
+    grid, bodies, rows = run.system.grid, run.bodies, _rows(run)
     values = {
         "x": grid.x,
         "y": grid.y,
@@ -122,31 +121,15 @@ def variables(run: RunInfo) -> dict[str, Variable]:
         # NaN where there is none.
         "density": np.array([body.density for body in bodies], dtype=float),
         "height": np.stack([body.height for body in bodies]),
-        "track_x": np.asarray((np.arange(rows) - 0.5 * (rows - 1)) * grid.spacing[0]),
     }
-    left_out = set() if any(body.rough for body in bodies) else {*ROUGHNESS}
-    if rows <= grid.cells[0]:
-        left_out |= {"track_x", TRACK, TRACK_PLASTIC}
-    elif run.system.cap is None:
-        left_out.add(TRACK_PLASTIC)
-    table = {
-        name: replace(variable, values=values.get(name))
-        for name, variable in FIXED.items()
-        if name not in left_out
-    }
-    for (kind, field), owners in _owners(run).items():
-        name = f"{kind}_{field.name}" if kind == TRACK_STATE else field.name
-        while name in FIXED or name in table or name == "body":
-            name = f"{kind}_{name}"
-        dims = ("time",) if kind == BETWEEN and field.uniform else DIMS[kind]
-        table[name] = Variable(dims, field.unit, field.description, None, kind, field.name, owners)
-    for column in run.columns:
-        name, whose = column.name, tuple(body.name for body in bodies if column.of_bodies)
-        name = f"column_{name}" if name in table or name == "body" else name
-        for kinds, key in ((SAVED, name), (STEPPED, HISTORY + name)):
-            kind, about = kinds[column.of_bodies], (column.unit, column.description)
-            table[key] = Variable(DIMS[kind], *about, None, kind, column.name, whose)
-    return table
+    if rows > grid.cells[0]:
+        values["track_x"] = np.asarray((np.arange(rows) - 0.5 * (rows - 1)) * grid.spacing[0])
+    return values
+
+
+def _rows(run: RunInfo) -> int:
+    """Return how many cells along x the longest surface has."""
+    return max(body.rows for body in run.bodies)
 
 
 def _owners(run: RunInfo) -> dict[tuple[str, Field], tuple[str, ...]]:

@@ -39,6 +39,8 @@ def quantity(
     else:
         values = result.field(name, save, body)
     assert known
+    if places and "y" not in dims:
+        raise CaseError(f"{name} is one number at each time; leave out the places")
     if places:
         axes = zip(zip(*places, strict=True), result.grid.spacing, values.shape, strict=True)
         at = [np.array(axis) / cell + 0.5 * (count - 1) for axis, cell, count in axes]

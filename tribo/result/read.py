@@ -15,18 +15,18 @@ from tribo.core.column import labelled
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
-from tribo.core.findings import Finding
+from tribo.core.findings import Finding, worn_through
 from tribo.core.grid import Grid
 from tribo.core.hdf5 import open_hdf5
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.shorthand import call
 from tribo.core.words import did_you_mean, suggestion
-from tribo.result import checks
 from tribo.result.body import BodyResult, checked_save
 from tribo.result.columns import INVARIANTS
-from tribo.result.header import read_header
+from tribo.result.hdf5 import read_variables
+from tribo.result.header import Header
 from tribo.result.layout import BETWEEN, EFFECT, HISTORY, STATE
-from tribo.result.opening import source_of
+from tribo.result.opening import interpreting, source_of
 from tribo.result.sealed import write_sealed
 
 if TYPE_CHECKING:
@@ -57,12 +57,12 @@ class Result:
     def __init__(self, source: Path | BytesIO, name: str) -> None:
         self.name = name
         self._source = source
-        with checks.interpreting(name), ExitStack() as unsound:
+        with interpreting(name), ExitStack() as unsound:
             self._file = unsound.enter_context(open_hdf5(source))
-            self._header = read_header(self._file.attrs)
+            self._header = Header.read(self._file.attrs)
             # Each is looked up in the file once, as that takes long.
             self._kept = dict(self._file.items())
-            self._variables = checks.read_variables(self._kept, self.body_names)
+            self._variables = read_variables(self._kept)
             small = [name for name, values in self._variables.items() if len(values.dims) <= 2]
             self._scalars = {name: self._read(name, ...) for name in small}
             if not (len(self.times) or self.status == "running"):
@@ -141,13 +141,12 @@ class Result:
     @property
     def status(self) -> str:
         """``"done"``, ``"running"``, ``"killed"``, ``"interrupted"`` or ``"failed"``."""
-        return str(self._header["status"])
+        return self._header.status
 
     @property
     def wall_time(self) -> float | None:
         """Time the run took, in s; None of one that is still running, or was killed."""
-        spent = self._header.get("wall_time_s")
-        return None if spent is None else float(spent)
+        return self._header.wall_time
 
     @property
     def case(self) -> Case:
@@ -158,18 +157,17 @@ class Result:
     @property
     def case_tables(self) -> dict[str, Any]:
         """The full configuration, as plain data in SI units."""
-        return dict(self._header["case"])
+        return dict(self._header.case)
 
     @property
     def provenance(self) -> dict[str, Any]:
         """Versions and classes that made the result."""
-        return dict(self._header["provenance"])
+        return dict(self._header.provenance)
 
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What is to be known of the run: warnings, what it began with and why it ended."""
-        found: tuple[Finding, ...] = self._header["findings"]
-        return found
+        return self._header.findings
 
     @property
     def notices(self) -> tuple[str, ...]:
@@ -179,21 +177,12 @@ class Result:
     @property
     def worn_through(self) -> list[dict[str, Any]]:
         """Layers that the deepest point of a body passed: body, layer, distance and time."""
-        return [dict(each) for each in self._header["worn_through"]]
+        return worn_through(self.findings)
 
     @property
     def system(self) -> ContactSystem:
         """Window, load, contact modulus, pressure cap and initial curvature."""
-        header, cells = self._header, (len(self._scalars["x"]), len(self._scalars["y"]))
-        lx, ly = map(float, header["window_m"])
-        cap, curved = header.get("cap_Pa"), header.get("curvature_1_m")
-        return ContactSystem(
-            Grid((lx, ly), cells),
-            float(header["modulus_Pa"]),
-            float(header["load_N"]),
-            None if cap is None else float(cap),
-            None if curved is None else (float(curved[0]), float(curved[1])),
-        )
+        return self._header.system((len(self._scalars["x"]), len(self._scalars["y"])))
 
     @property
     def grid(self) -> Grid:
@@ -234,11 +223,13 @@ class Result:
         Raises
         ------
         CaseError
-            If there is no such variable, body or save.
+            If there is no such variable, body or save, or it is not saved each time.
         """
         if name not in self._variables:
             meant = suggestion(did_you_mean(name, self._variables))
             raise CaseError(f"a result has no variable {name!r}{meant}")
+        if self._variables[name].dims[0] != "time":
+            raise CaseError(f"{name} has no value of its own at each save; see result.{name}")
         bodies = () if body is None else (self._index(body),)
         save = checked_save(save, len(self.times), self.name)
         return self._read(name, save, *bodies)
@@ -386,8 +377,8 @@ class Result:
         }
 
     def _read(self, name: str, *index: Any) -> Array:
-        with checks.interpreting(self.name):
-            return checks.checked(name, np.asarray(self._kept[name][index]))
+        with interpreting(self.name):
+            return np.asarray(self._kept[name][index])
 
     def _index(self, body: str) -> int:
         if body not in self.body_names:

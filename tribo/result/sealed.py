@@ -31,25 +31,14 @@ def open_sealed(path: Path) -> BinaryIO:
     """
     file = path.open("rb")
     try:
-        _check(file, path)
+        left, digest = os.fstat(file.fileno()).st_size - _LENGTH, sha256()
+        while left > 0 and (block := file.read(min(left, _BLOCK))):
+            digest.update(block)
+            left -= len(block)
+        if file.read() != _MARK + digest.digest():
+            raise CaseError(f"{path} is damaged, or no file of tribo: its checksum does not match")
         file.seek(0)
     except BaseException:
         file.close()
         raise
     return file
-
-
-def _check(file: BinaryIO, path: Path) -> None:
-    left = os.fstat(file.fileno()).st_size - _LENGTH
-    digest = sha256()
-    while left > 0 and (block := file.read(min(left, _BLOCK))):
-        digest.update(block)
-        left -= len(block)
-    end = file.read()
-    if left < 0 or not end.startswith(_MARK):
-        raise CaseError(
-            f"{path} is not a whole tribo file: it was cut short, or another program has written "
-            "to it"
-        )
-    if end != _MARK + digest.digest():
-        raise CaseError(f"{path} is damaged: its checksum does not match")

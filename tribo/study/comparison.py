@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass, field
@@ -324,8 +323,6 @@ def _of_list(
 ) -> Comparison:
     _check_count(len(given), "result")
     files = [Path(each) for each in given if isinstance(each, str | Path)]
-    if twice := [path for path, count in Counter(files).items() if count > 1]:
-        raise CaseError(f"{twice[0]} is given twice")
     stems = len({path.stem for path in files}) == len(files)
     names = list(labels or ())
     if not names:
@@ -338,21 +335,14 @@ def _of_list(
     with ExitStack() as unless_kept:
         results = {}
         for name, each in zip(names, given, strict=True):
-            if isinstance(each, Case):
-                each = Simulation(each, registry).run()
+            if isinstance(each, str | Path) and Path(each).suffix != ".toml":
+                each = Result.open(each)
             elif not isinstance(each, Result):
-                each = _opened(Path(each), registry)
+                each = Simulation(each, registry).run()
             results[name] = unless_kept.enter_context(each)
         comparison = _matched(results, match)
         unless_kept.pop_all()
     return comparison
-
-
-def _opened(path: Path, registry: Registry | None) -> Result:
-    """Return the result of a file, or of the run of a case in TOML."""
-    if path.suffix == ".toml":
-        return Simulation(path, registry).run()
-    return Result.open(path)
 
 
 def _matched(

@@ -79,12 +79,6 @@ def variants(
 
 def valid_case(data: Mapping[str, Any], point: Point, registry: Registry | None = None) -> Case:
     """Return the validated case that follows from `data` with one point; CaseError if not valid."""
-    bodies = data.get("bodies")
-    for path in point:
-        key, *below = path_keys(path)
-        # A misspelt name would add a third body.
-        if key == "bodies" and below and isinstance(bodies, Mapping) and below[0] not in bodies:
-            raise unknown_body(below[0], bodies, path)
     case = validate_case(apply_settings(data, point), registry=registry)
     Simulation(case, registry)
     return case

@@ -192,7 +192,7 @@ def test_a_level_is_a_probability():
     ("test", "words"),
     [
         ({"set": {"load.normal": "-5 N"}}, "test.0.set: load.normal: "),
-        ({"set": {"bodies": {"bal": {"wear": {"k": 1}}}}}, "test.0.set: bodies.bal.wear.k: "),
+        ({"set": {"bodies": {"bal": {"wear": {"k": 1}}}}}, "test.0.set: bodies: "),
         ({"set": {K: 1e-15}}, f"test.0.set: {K} is given, and {K} is fitted"),
         ({"set": {"bodies.ball.wear": {"type": "archard", "k": 1}}}, "test.0.set: bodies.ball."),
         ({"measured": []}, "nothing is measured"),

@@ -53,31 +53,14 @@ def processes(count: int | None = None) -> Iterator[Executor]:
 
 
 @contextmanager
-def on_local_cluster(workers: int | None = None) -> Iterator[Executor]:
-    """Start a dask scheduler and single-threaded workers on this machine."""
-    distributed = _distributed()
-    with (
-        _environment(),
-        distributed.LocalCluster(
-            n_workers=workers or _cores(), threads_per_worker=1, dashboard_address=None
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
-        client.register_worker_callbacks(_be_quiet)
-        yield client.get_executor(pure=False)
-
-
-@contextmanager
 def on_scheduler(address: str, patience: float = PATIENCE) -> Iterator[Executor]:
     """Connect to the dask scheduler at an address, as ``"tcp://host:8786"``.
 
     CaseError if none answers within `patience`, in s.
     """
-    with _connected(_distributed(), address, patience) as client:
+    with _connected(address, patience) as client:
         if not client.scheduler_info(n_workers=-1)["workers"]:
-            warn(
-                f"the scheduler at {address} has no workers yet; the runs wait for some",
-            )
+            warn(f"the scheduler at {address} has no workers yet; the runs wait for some")
         yield client.get_executor(pure=False)
 
 
@@ -142,18 +125,15 @@ def _begin(lifeline: Any, files: Sequence[str]) -> None:
         wait([lifeline])
         os._exit(1)
 
-    _be_quiet()
+    # The results hold the warnings of the runs.
+    warnings.simplefilter("ignore", TriboWarning)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=end, daemon=True).start()
     add_files(files)
 
 
-def _be_quiet() -> None:
-    """Print no warnings of runs; their results hold them."""
-    warnings.simplefilter("ignore", TriboWarning)
-
-
-def _distributed() -> Any:
+def _connected(address: str, patience: float) -> Any:
+    """Return a client of dask, or give up in time whatever answers at the address."""
     try:
         import distributed
     except ImportError:
@@ -164,16 +144,11 @@ def _distributed() -> Any:
     for name in (*logging.root.manager.loggerDict, "asyncio"):
         if name.split(".")[0] in ("distributed", "tornado", "asyncio"):
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
-    return distributed
-
-
-def _connected(distributed: Any, address: str, patience: float) -> Any:
-    """Return a client, or give up in time whatever answers at the address."""
     answer: Future[Any] = Future()
 
     def connect() -> None:
         try:
-            answer.set_result(distributed.Client(address, timeout=patience))
+            answer.set_result(distributed.Client(address, timeout=patience))  # type: ignore[no-untyped-call]
         except Exception as error:
             # If another program answers, dask may raise anything.
             answer.set_exception(error)
@@ -182,10 +157,8 @@ def _connected(distributed: Any, address: str, patience: float) -> Any:
     threading.Thread(target=connect, daemon=True).start()
     try:
         return answer.result(patience + 1.0)
-    except Exception as error:
-        told = str(error) if isinstance(error, OSError | ValueError) else ""
-        reason = told.splitlines()[0] if told else "something else may be listening there"
+    except Exception:
         raise CaseError(
-            f"no scheduler answers at {address} within {patience:g} s ({reason}); start one with "
+            f"no scheduler answers at {address} within {patience:g} s; start one with "
             "'dask scheduler', and give the address that it prints"
         ) from None

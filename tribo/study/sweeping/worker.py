@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import socket
 import time
 from collections.abc import Iterator, Sequence
@@ -12,12 +11,13 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
-from tribo.core.errors import CaseError, Interrupted, TriboError, warn
-from tribo.core.locks import BusyError, lock
+from tribo.core.errors import CaseError, Interrupted, TriboError, about
+from tribo.core.locks import BusyError
 from tribo.core.state import Snapshot
-from tribo.core.writing import open_lock, remove
+from tribo.core.writing import remove
 from tribo.observers.observer import Observer
 from tribo.registry.registry import default_registry
+from tribo.result.checkpoint import hold
 from tribo.simulation.run import Simulation
 from tribo.study.runs import complete, is_done
 
@@ -37,7 +37,8 @@ def carry_out(
     try:
         with _alone(result, Path(stop)):
             _know(own)
-            simulation = _composed(case)
+            with about(f"the worker on {socket.gethostname()} cannot compose this case"):
+                simulation = Simulation(case)
             if not is_done(result, simulation):
                 complete(simulation, result, [_StopFile(path=Path(stop))]).close()
     except Interrupted:
@@ -55,19 +56,7 @@ def locked(path: Path) -> Iterator[None]:
 
     BusyError if another process or thread holds it, or has just released it.
     """
-    with open_lock(path) as file:
-        if not lock(file.fileno()):
-            warn(
-                f"{path}: its file system has no locks, so nothing stops another sweep from "
-                "doing the same runs; see that none does",
-            )
-        try:
-            removed = not os.path.samestat(os.fstat(file.fileno()), path.stat())
-        except FileNotFoundError:
-            removed = True
-        if removed:
-            # Its last holder removed it after it was opened here.
-            raise BusyError
+    with hold(path):
         try:
             yield
         finally:
@@ -85,16 +74,6 @@ def _know(own: Sequence[tuple[str, str]]) -> None:
                 f"a worker cannot import the class {name} from {module} ({error}); define it in a "
                 "file that can be imported, outside of any function, and import it from there"
             ) from error
-
-
-def _composed(case: dict[str, Any]) -> Simulation:
-    try:
-        return Simulation(case)
-    except CaseError as error:
-        raise CaseError(
-            f"the worker on {socket.gethostname()} cannot compose this case: {error}; install the "
-            "same packages there, then use --retry"
-        ) from error
 
 
 @contextmanager
