@@ -229,17 +229,6 @@ KINDS["ends at a depth, within a stroke"] = Kind(
     ["load.normal", "kinematics.frequency"],
     1e-5,
 )
-KINDS["ends at a depth, explicit"] = Kind(
-    run(
-        grid=MIDDLE,
-        stop=Stop(depth="0.2 um"),
-        bodies=pair(FRESH, power(1.5)),
-        stepping=Explicit(time_step=0.5, allow_unstable=True),
-    ),
-    Pressure(2e-5, 0),
-    ["load.normal", *SHAPE, *OF_FRESH],
-    1e-5,
-)
 
 
 MUTANTS = [
@@ -251,7 +240,6 @@ MUTANTS = [
     ("average", parameters.Chain, "by_wear", lambda _: lambda *given: ()),
     ("average", parameters.Chain, "by_rest", without("gap")),
     ("average", parameters.Chain, "by_rest", without("stiffness")),
-    ("average", carriers.Carrier, "gathered", zero),
     ("average", carriers.Carrier, "seen", zero),
     ("average", linear.StepSystem, "solve", without("given")),
     ("pressure", backwards.Backwards, "look", nothing),
@@ -262,7 +250,6 @@ MUTANTS = [
     ("yields", backwards.Backwards, "_gave", zero),
     ("elastic layer", parameters.Chain, "by_spread", zero),
     ("positions", carriers.Carrier, "gathered", zero),
-    ("explicit", backwards.Backwards, "_wear", nothing),
     ("explicit", backwards.Backwards, "_wear", unpressed),
     ("load over time", slopes.Sloping, "_by_pressure", unfelt("load")),
 ]
