@@ -3,12 +3,10 @@
 import numpy as np
 import pytest
 from tribo.core.errors import CaseError
-from tribo.core.words import digits_of
 
-from tribo_inverse.calibration.exactness import check_sizes
+from tribo_inverse.calibration.experiment import check_sizes
 from tribo_inverse.calibration.measured import read_measurements
 from tribo_inverse.calibration.parameters import Parameter
-from tribo_inverse.calibration.quantities import percent
 
 
 def off(value, uncertainty, own):
@@ -31,25 +29,3 @@ def test_what_is_far_off_may_be_meant(factor):
     off(factor * 1e-6, 1e-9, 1e-6)
     with pytest.raises(CaseError, match=r"^measured\.0 was read as "):
         off(factor**1.01 * 1e-6, 1e-9, 1e-6)
-
-
-@pytest.mark.parametrize(
-    ("part", "text"),
-    [(2e-14, "0.0"), (4.2e-5, "0.0042"), (0.0526, "5.3"), (0.0996, "10"), (1, "100"), (2.5, "250")],
-)
-def test_percent_are_written_out(part, text):
-    assert percent(part) == text
-
-
-@pytest.mark.parametrize(
-    ("ends", "digits"),
-    [
-        ((1.1e-16, 1.4e-14), 3),
-        ((2.4995e-15, 2.5005e-15), 6),
-        ((0.1404, 0.1404), 3),
-        ((0.1404, 0.1404 * (1 + 1e-8)), 11),
-        ((0, np.inf), 3),
-    ],
-)
-def test_ends_of_a_narrow_interval_differ(ends, digits):
-    assert digits_of(*ends) == digits
