@@ -227,6 +227,11 @@ def run(**changes):
     return case(**{**parts, "kinematics": motion(duration=20), **changes})
 
 
+def kind(objective, paths, part=1e-5, seed=0, **changes):
+    """A kind of run with these changes."""
+    return Kind(run(**changes), objective, paths, part, seed)
+
+
 def resolved(**changes):
     return motion(
         **{"stroke": "0.125 mm", "positions": 5, "frequency": 100, "duration": 20} | changes

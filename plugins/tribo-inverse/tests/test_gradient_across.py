@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from gradient_effects import Heat, Softens
-from gradients import CLOSE, LONG, SHAPE, TIGHT, Kind, difference, few, resolved, run
+from gradients import CLOSE, LONG, SHAPE, TIGHT, Kind, difference, few, kind, resolved, run
 from paper_models import K, archard, motion, pair
 from tribo.case import Case
 from tribo.core.errors import CaseError
@@ -67,21 +67,19 @@ class Flows(Heat):
 FLOWS = [*SHAPE, *(f"effects.{name}" for name in ("0.most", "0.falls", "1.strength", "1.capacity"))]
 HOT = {"bodies": pair(Softens(k=K), archard()), "stepping": LONG}
 KINDS = {
-    "heat that flows": Kind(
-        run(effects=[Rubs(), Flows()], kinematics=motion(duration=4), **HOT),
+    "heat that flows": kind(
         Depth("ball"),
         ["load.normal", *(f"kinematics.{of}" for of in ("frequency", "stroke")), *FLOWS],
-        1e-5,
+        effects=[Rubs(), Flows()],
+        kinematics=motion(duration=4),
+        **HOT,
     ),
-    "at several speeds": Kind(
-        run(
-            effects=[Rubs(), Flows()],
-            kinematics=motion(duration=1, waveform="sinusoidal"),
-            **HOT,
-        ),
+    "at several speeds": kind(
         Volume("ball"),
         ["load.normal", *FLOWS],
-        1e-5,
+        effects=[Rubs(), Flows()],
+        kinematics=motion(duration=1, waveform="sinusoidal"),
+        **HOT,
     ),
 }
 

@@ -15,6 +15,7 @@ from gradients import (
     SMOOTH,
     STAGES,
     Kind,
+    kind,
     layered,
     resolved,
     run,
@@ -35,123 +36,102 @@ OF_LAYER = ["bodies.disk.layers.0.thickness", "bodies.disk.layers.0.wear.over"]
 
 
 KINDS = {
-    "comes to rest": Kind(
-        run(bodies=pair(SMOOTH.model_copy(update={"depth": 1e-8}), None), stepping=LONG),
+    "comes to rest": kind(
         Depth("ball"),
         ["bodies.ball.wear.settled"],
-        1e-5,
+        bodies=pair(SMOOTH.model_copy(update={"depth": 1e-8}), None),
+        stepping=LONG,
     ),
-    "remembers": Kind(
-        run(bodies=pair(FRESH, SMOOTH), stepping=LONG),
+    "remembers": kind(
         Depth("disk"),
         ["load.normal", *SHAPE, *OF_FRESH, *OF_SMOOTH, "kinematics.frequency", "kinematics.stroke"],
-        1e-5,
+        bodies=pair(FRESH, SMOOTH),
+        stepping=LONG,
     ),
-    "remembers, follows the speed": Kind(
-        run(load=RAMP[:2], kinematics=motion(duration=5), bodies=pair(OF_SPEED), stepping=LONG),
+    "remembers, follows the speed": kind(
         Depth("ball"),
         [*STAGES[:2], *SHAPE, *OF_FRESH[:2], "kinematics.frequency", "kinematics.stroke"],
-        1e-5,
+        load=RAMP[:2],
+        kinematics=motion(duration=5),
+        bodies=pair(OF_SPEED),
+        stepping=LONG,
     ),
-    "layers": Kind(
-        run(bodies=layered(("0.3 um", archard(K / 2)), ("0.05 um", archard(2 * K))), stepping=LONG),
+    "layers": kind(
         Depth("disk"),
         [
             *("load.normal", *SHAPE, "bodies.ball.wear.k", "bodies.ball.layers.0.wear.k"),
             *("bodies.ball.layers.0.thickness", "bodies.disk.layers.0.thickness"),
         ],
         1e-6,
+        bodies=layered(("0.3 um", archard(K / 2)), ("0.05 um", archard(2 * K))),
+        stepping=LONG,
     ),
-    "layers, remembers": Kind(
-        run(
-            bodies=layered(None, ("0.05 um", FAST), archard(), FRESH),
-            kinematics=motion(duration=5),
-            stepping=LONG,
-        ),
+    "layers, remembers": kind(
         Depth("disk"),
         ["load.normal", *SHAPE, *OF_LAYER, "bodies.disk.wear.over"],
         1e-6,
+        bodies=layered(None, ("0.05 um", FAST), archard(), FRESH),
+        kinematics=motion(duration=5),
+        stepping=LONG,
     ),
-    "positions, remembers, stroke": Kind(
-        run(
-            bodies=pair(FRESH, SMOOTH),
-            kinematics=resolved(stroke="0.13 mm", waveform="sinusoidal", duration=0.5),
-            stepping=LONG,
-        ),
+    "positions, remembers, stroke": kind(
         Depth("disk", 5e-5),
         ["load.normal", "kinematics.stroke"],
         1e-6,
+        bodies=pair(FRESH, SMOOTH),
+        kinematics=resolved(stroke="0.13 mm", waveform="sinusoidal", duration=0.5),
+        stepping=LONG,
     ),
-    "load on a plateau, remembers": Kind(
-        run(
-            load=[
-                {"at": 0, "normal": 10.0},
-                {"at": 10, "normal": 20.0},
-                {"at": 20, "normal": 20.0},
-            ],
-            bodies=pair(FRESH, archard()),
-            stepping=LONG,
-        ),
+    "load on a plateau, remembers": kind(
         Depth("disk"),
         ["load.normal.1.normal", "load.normal.2.normal"],
-        1e-5,
+        load=[{"at": 0, "normal": 10.0}, {"at": 10, "normal": 20.0}, {"at": 20, "normal": 20.0}],
+        bodies=pair(FRESH, archard()),
+        stepping=LONG,
     ),
-    "layers, remembers for a small part of a step": Kind(
-        run(
-            grid=SMALL,
-            bodies=layered(None, ("0.01 um", SLOW), None, FLEETING),
-            kinematics=motion(duration=4),
-            stepping=LONG,
-        ),
+    "layers, remembers for a small part of a step": kind(
         Depth("disk"),
         ["load.normal", "bodies.disk.layers.0.thickness"],
         1e-6,
+        grid=SMALL,
+        bodies=layered(None, ("0.01 um", SLOW), None, FLEETING),
+        kinematics=motion(duration=4),
+        stepping=LONG,
     ),
-    "layers, passed late in a step, remembers": Kind(
-        run(
-            grid=FINE,
-            bodies=layered(("0.05 um", archard()), of_ball=FRESH),
-            kinematics=motion(duration=1.75537),
-            stepping=LONG,
-            save_times=(0.63749,),
-        ),
+    "layers, passed late in a step, remembers": kind(
         Depth("ball"),
         ["load.normal", "bodies.ball.layers.0.thickness", "bodies.ball.wear.over"],
-        1e-5,
+        grid=FINE,
+        bodies=layered(("0.05 um", archard()), of_ball=FRESH),
+        kinematics=motion(duration=1.75537),
+        stepping=LONG,
+        save_times=(0.63749,),
     ),
-    "layers, parts cut off": Kind(
-        run(
-            contact=Winkler(plasticity=False),
-            bodies=layered(None, ("0.05 um", archard(2 * K)), SMOOTH, SMOOTH),
-            kinematics=motion(duration=5),
-            stepping=LONG,
-        ),
+    "layers, parts cut off": kind(
         Depth("ball"),
         ["load.normal", "bodies.disk.layers.0.thickness", "bodies.disk.wear.depth"],
-        1e-5,
+        contact=Winkler(plasticity=False),
+        bodies=layered(None, ("0.05 um", archard(2 * K)), SMOOTH, SMOOTH),
+        kinematics=motion(duration=5),
+        stepping=LONG,
     ),
-    "positions, layers, remembers": Kind(
-        run(
-            grid=FINE,
-            bodies=layered(("0.02 um", FAST), ("0.004 um", archard(2 * K)), FRESH, archard()),
-            kinematics=resolved(duration=0.25),
-            stepping=LONG,
-        ),
+    "positions, layers, remembers": kind(
         Depth("disk", 5e-5),
         ["load.normal", *SHAPE, "bodies.ball.layers.0.thickness", "bodies.ball.wear.over"],
         1e-6,
+        grid=FINE,
+        bodies=layered(("0.02 um", FAST), ("0.004 um", archard(2 * K)), FRESH, archard()),
+        kinematics=resolved(duration=0.25),
+        stepping=LONG,
     ),
-    "positions, remembers": Kind(
-        run(
-            kinematics=motion(
-                stroke="0.125 mm", positions=5, frequency=100, duration=0.4, waveform="sinusoidal"
-            ),
-            bodies=pair(FRESH, SMOOTH),
-            stepping=LONG,
-        ),
+    "positions, remembers": kind(
         Depth("disk", 5e-5),
         ["load.normal", *SHAPE, *OF_FRESH, *OF_SMOOTH],
-        1e-5,
+        kinematics=motion(
+            stroke="0.125 mm", positions=5, frequency=100, duration=0.4, waveform="sinusoidal"
+        ),
+        bodies=pair(FRESH, SMOOTH),
+        stepping=LONG,
     ),
 }
 
