@@ -2,13 +2,16 @@
 
 import tomllib
 
+import numpy as np
 import pytest
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError, NumericalError
 from tribo.templates import template
 
 from tribo_inverse.calibration.calibrate import calibrate
+from tribo_inverse.calibration.experiment import check_sizes
 from tribo_inverse.calibration.measured import read_measurements
+from tribo_inverse.calibration.parameters import Parameter
 
 CASE = apply_settings(
     tomllib.loads(template("ball_on_disk")), {"grid.cells": 16, "grid.size": "2 mm"}
@@ -209,3 +212,23 @@ def test_a_start_at_which_the_scar_outgrows_the_window_is_told():
     words = rf"^give a start of {K} in fit that is nearer; run 1, .* reached the edge"
     with pytest.raises(NumericalError, match=words):
         calibrate(CASE, far)
+
+
+@pytest.mark.parametrize(
+    ("value", "sigma", "computed"),
+    [
+        # One is 300 times the other at most.
+        (299e-6, 1e-9, 1e-6),
+        (1e-6, 1e-9, 299e-6),
+        # Of a loss below its uncertainty that counts.
+        (1e-12, 1e-9, 299e-9),
+    ],
+)
+def test_what_is_far_off_may_be_meant(value, sigma, computed):
+    entry = {"body": "disk", "quantity": "mass", "value": value, "uncertainty": sigma}
+    data = read_measurements({"measured": [entry]}).table()
+    fitted = [Parameter("bodies.disk.wear.k", "1/Pa", 1.5e-16, 0.0, np.inf)]
+    check_sizes(data, np.array([computed]), fitted)
+    further = computed * 1.01 if computed > value else computed / 1.01
+    with pytest.raises(CaseError, match=r"^measured\.0 was read as "):
+        check_sizes(data, np.array([further]), fitted)
