@@ -107,7 +107,7 @@ def carriers_of(model: Model) -> dict[str, Carrier]:
         weights = None
         if exposure.averaged:
             # An average is linear: those of each row of the window are its weights.
-            rows = np.eye(cells[0])[:, :, None] * np.ones(cells[1])
+            rows = (np.outer(row, np.ones(cells[1])) for row in np.eye(cells[0]))
             weights = np.concatenate([exposure.average(row) for row in rows])
         starts = exposure.starts if exposure.starts is not None else [0] * len(model.cycle)
         found[name] = Carrier(exposure.rows, starts, weights)
