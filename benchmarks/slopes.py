@@ -19,8 +19,8 @@ from gradient_cost import cases
 from tribo_inverse import Depth, Volume
 from tribo_inverse.adjoint.backwards import swept_back
 from tribo_inverse.adjoint.numbers import changed, find
-from tribo_inverse.adjoint.objective import View
 from tribo_inverse.adjoint.parameters import chain
+from tribo_inverse.adjoint.view import View
 from tribo_inverse.calibration.fit import STEP
 from tribo_inverse.recording.tape import Tape, recorded
 

@@ -56,14 +56,11 @@ from tribo.core.writing import check_new as check_new
 from tribo.core.writing import check_output as check_output
 from tribo.core.writing import make_folder as make_folder
 from tribo.core.writing import write_file as write_file
-from tribo.evolution.course import Course as Course
-from tribo.evolution.course import course as course
 from tribo.evolution.course import kept_in as kept_in
 from tribo.evolution.course import with_loads as with_loads
 from tribo.evolution.interval import Interval as Interval
 from tribo.evolution.interval import Moment as Moment
 from tribo.evolution.local_fields import local_fields as local_fields
-from tribo.evolution.rates import CycleRates as CycleRates
 from tribo.evolution.rates import by_reach as by_reach
 from tribo.evolution.rates import rates_at_each as rates_at_each
 from tribo.evolution.states import Memory as Memory
@@ -152,7 +149,6 @@ from tribo.simulation.positions import chosen as chosen
 from tribo.simulation.predict import MARGINS as MARGINS
 from tribo.simulation.predict import coarsened as coarsened
 from tribo.simulation.validity import findings_of as findings_of
-from tribo.stepping.step import worn_depths as worn_depths
 from tribo.study.runs import file_names as file_names
 from tribo.study.side_by_side import comparison_table as comparison_table
 from tribo.study.sweeping.study_file import by_path as by_path

@@ -61,8 +61,7 @@ def _show(command: str, printed: str, ended: object, code: int, lines: int | Non
         raise RuntimeError(f"{command} exited with {ended}:\n{printed}")
     # Progress, which depends on how fast the machine is.
     progress = r"(?m)^(?:[\d.e+]+ s of [\d.e+]+ s, step|run and pass back) \d+.*\n?"
-    output = re.sub(progress, "", printed.replace(" left at least", ""))
-    output = re.sub(r"(?m)^(run \d+: .*), \d+ s$", r"\1", output).splitlines()
+    output = re.sub(progress, "", printed).splitlines()
     if lines is not None and len(output) > lines:
         output = [*output[:lines], "…"]
     print(f"$ {command}")

@@ -18,11 +18,10 @@ from tribo.stepping.implicit import Implicit
 from tribo.stepping.step import distance_until, rested, start_sliding
 from tribo.wear.running_in import RunningIn, Smoothing
 
-from tribo_inverse.adjoint.gradient import gradient
-from tribo_inverse.adjoint.limits import covered
+from tribo_inverse.adjoint.gradient import covered, gradient
 from tribo_inverse.adjoint.numbers import changed, find
-from tribo_inverse.adjoint.objective import View
 from tribo_inverse.adjoint.parameters import Stops
+from tribo_inverse.adjoint.view import View
 from tribo_inverse.increment.breaks import unreached
 from tribo_inverse.recording.local import localised
 from tribo_inverse.recording.tape import recorded
@@ -228,6 +227,11 @@ def run(**changes):
     return case(**{**parts, "kinematics": motion(duration=20), **changes})
 
 
+def kind(objective, paths, part=1e-5, seed=0, **changes):
+    """A kind of run with these changes."""
+    return Kind(run(**changes), objective, paths, part, seed)
+
+
 def resolved(**changes):
     return motion(
         **{"stroke": "0.125 mm", "positions": 5, "frequency": 100, "duration": 20} | changes
@@ -280,20 +284,3 @@ def unfelt(which):
             replace(each, **{which: 0 * getattr(each, which)}) for each in method(*given)
         ]
     )
-
-
-def forgotten(method):
-    def mutant(*given):
-        found = method(*given)
-        return replace(found, states=[0 * state for state in found.states])
-
-    return mutant
-
-
-def unbroken(method):
-    """What follows of where a step ends at a break, left out."""
-
-    def mutant(kept, slopes, piece, *given, **how):
-        return method(kept, slopes, replace(piece, ended={}), *given, **how)
-
-    return mutant

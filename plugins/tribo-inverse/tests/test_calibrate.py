@@ -1,7 +1,6 @@
 """`tribo calibrate`, as a user meets it."""
 
 import json
-import re
 import tomllib
 from pathlib import Path
 from types import SimpleNamespace
@@ -16,9 +15,6 @@ from tribo.cli.main import tribo as main
 from tribo.config.load import load_case
 from tribo.core.errors import CaseError
 
-from tribo_inverse.calibration.measured import read_measurements
-from tribo_inverse.calibration.quantities import p_words
-from tribo_inverse.command import _Progress
 from tribo_inverse.tables import estimates_table
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -56,30 +52,6 @@ def test_it_prints_estimates_with_intervals_and_what_to_run(done):
     assert lines[-1].endswith(
         "--set bodies.ball.wear.k=7.077e-15 --set bodies.disk.wear.k=7.077e-16"
     )
-
-
-def test_it_tells_of_each_run_on_stderr_and_of_a_misfit_that_falls(done):
-    lines = done.stderr.splitlines()
-    assert [line.split(":")[0] for line in lines[:2]] == ["run 1", "run 2"]
-    misfits = [float(line.split("χ² ")[1].split(",")[0]) for line in lines if "χ²" in line]
-    assert misfits == sorted(misfits, reverse=True)
-    assert len(misfits) < len(lines)
-
-
-def test_narrow_intervals_stay_on_a_line_at_80_columns(capsys):
-    estimate = {"path": "bodies.ball.wear.k", "unit": "1/Pa", "value": 1.8171e-16}
-    estimate |= {"lower": 1.8092e-16, "upper": 1.8251e-16, "held": False, "limited": False}
-    found = SimpleNamespace(level=0.95, runs=5, parameters=pd.DataFrame([estimate]))
-    Console(width=80).table(estimates_table(found))
-    *_, row = (line for line in capsys.readouterr().out.splitlines() if line.strip())
-    assert row.split(maxsplit=3)[3].split() == ["1.8092e-16", "to", "1.8251e-16", "±0.4", "%"]
-
-
-@pytest.mark.parametrize(
-    ("p_value", "words"), [(0.0, "p < 1e-6"), (0.0123, "p = 0.012"), (1.0, "p > 0.999")]
-)
-def test_an_extreme_p_value_is_a_bound(p_value, words):
-    assert p_words(p_value) == words
 
 
 def test_wide_tables_break_no_value_at_80_columns(capsys):
@@ -149,19 +121,3 @@ def test_local_coefficients_are_one_case_and_no_plan(tmp_path, monkeypatch, more
     assert str(ended.exception) == (
         "local coefficients, [[map]], are fitted in one case, without --plan"
     )
-
-
-def left(told):
-    """Return the seconds that a line says are left, 0 where it says nothing."""
-    found = re.search(r", (\d+) s left at least", told)
-    return int(found[1]) if found else 0
-
-
-def test_the_time_left_is_that_of_runs_after_the_first(capsys):
-    """The first takes 60 s, as imports do; four are needed at least."""
-    asked, now = read_measurements(EXAMPLES / "weighed.toml"), [0.0]
-    tell = _Progress(asked, lambda: now[0])
-    for run, now[0] in [(1, 60.0), (2, 65.0), (3, 70.0), (4, 75.0), (5, 80.0)]:
-        tell(run, 1.0)
-    lines = capsys.readouterr().err.splitlines()
-    assert [left(line) for line in lines] == [0, 10, 5, 0, 0]

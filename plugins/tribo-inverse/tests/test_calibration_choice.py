@@ -1,14 +1,11 @@
 """Data of one law speak for it where they can, and are said not to where they cannot."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
 from calibrations import cheap, kept_runs
-from click.testing import CliRunner
 from scipy.stats import multivariate_normal
-from tribo.cli.main import tribo
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
 
@@ -99,11 +96,3 @@ def test_what_cannot_be_compared_is_told(cases, fit, words):
     measured = {"test": [weighed(50, 0.1)], "fit": [{"path": path} for path in fit]}
     with pytest.raises(CaseError, match=words):
         choose_case({name: CASES[name] for name in cases}, measured)
-
-
-def test_a_plan_is_of_one_case():
-    example = str(Path(__file__).parents[3] / "examples" / "weighed_split.toml")
-    data = str(Path(__file__).parents[3] / "examples" / "weighed.toml")
-    ended = CliRunner().invoke(tribo, ["calibrate", example, example, "--measured", data])
-    assert isinstance(ended.exception, CaseError)
-    assert "give files of different names" in str(ended.exception)

@@ -20,7 +20,7 @@ from tribo.lab.heights import Heights
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 
-from tribo_inverse.adjoint.objective import View
+from tribo_inverse.adjoint.view import View
 from tribo_inverse.calibration.cells import on_cells
 from tribo_inverse.calibration.mapped import calibrate_maps
 from tribo_inverse.calibration.maps import _Posterior, fit_maps
@@ -205,20 +205,6 @@ def test_depths_that_no_smooth_map_explains_are_noticed(depth):
     assert [each.value for each in of_kind(found, "misfit")] == [found.chi_square]
 
 
-def test_an_even_coefficient_is_found_even_from_a_map_that_no_coarse_run_gives():
-    """Made on three times as many cells, whose means and whose edge are others."""
-    ball = apply_settings(cheap(60), {"grid.cells": 24})
-    with Simulation(apply_settings(ball, {"grid.cells": 72})).run() as result:
-        fine = result.body("ball").wear_depth[-1]
-    depth = fine.reshape(24, 3, 24, 3).mean(axis=(1, 3))
-    depth += NOISE * np.random.default_rng(6).standard_normal(depth.shape)
-    found = fit_maps(ball, {"ball": (depth, NOISE)}, {"ball": Prior(0.3, 0.2e-3)})
-    assert found.p_value > 0.01
-    logs, deviation = found.maps["ball"].logs, found.maps["ball"].deviation
-    assert np.all(np.abs(logs) < 3 * deviation)
-    assert np.mean(np.abs(logs) < 1.96 * deviation) > 0.95
-
-
 def test_pixels_are_averaged_over_cells_and_missing_ones_left_out():
     pixels = 1e-9 * np.arange(32.0 * 32).reshape(32, 32)
     pixels[:2, :2] = np.nan
@@ -230,7 +216,7 @@ def test_pixels_are_averaged_over_cells_and_missing_ones_left_out():
     assert wider[4, 6] == pytest.approx(found[3, 5], rel=1e-12, abs=0)
 
 
-@pytest.mark.parametrize("count", [17, 20, 24, 40, 81])
+@pytest.mark.parametrize("count", [17, 81])
 def test_cells_have_their_part_of_the_pixels_that_they_cut(count):
     """Of a scar on 16 cells, 0.6 of the window wide: all of its volume, each depth to 1 %."""
 
@@ -244,10 +230,9 @@ def test_cells_have_their_part_of_the_pixels_that_they_cut(count):
     assert np.sqrt(np.mean((found - means(16)) ** 2)) < 0.005
 
 
-@pytest.mark.parametrize("count", [2, 4])
-def test_missing_pixels_leave_the_mean_of_a_cell_as_it_is(count):
+def test_missing_pixels_leave_the_mean_of_a_cell_as_it_is():
     """On a slope of 1 per cell, with one pixel in five and a band missing."""
-    n = 16 * count
+    count, n = 4, 64
     i, j = np.indices((n, n)) / count
     pixels = 0.3 * i + j
     whole = pixels.reshape(16, count, 16, count).mean(axis=(1, 3))
@@ -285,13 +270,6 @@ def test_wrong_maps_are_told(data, words):
     with pytest.raises(CaseError) as caught:
         read_measurements(data)
     assert str(caught.value).startswith(words)
-
-
-def test_maps_coarser_than_the_grid_are_refused():
-    with pytest.raises(
-        CaseError, match=r"larger than cells, 1 × 1 µm; check pitch, or lower grid\.cells"
-    ):
-        on_cells(Heights(np.zeros((16, 16)), (3e-6, 3e-6)), (16, 16), (1e-6, 1e-6))
 
 
 def test_the_hidden_spot_is_found_and_intervals_cover():

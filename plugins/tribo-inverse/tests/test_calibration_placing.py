@@ -4,9 +4,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from calibrations import cheap, kept_runs, of_kind, on_springs
+from calibrations import cheap, kept_runs, of_kind
 from scipy.ndimage import shift as moved
-from scipy.stats import binom
 from tribo.cli.console import Console
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
@@ -46,19 +45,12 @@ def worn():
 def fitted(worn, tmp_path):
     """What is found from the ball's map with noise: shifted, lifted."""
 
-    def found(
-        shift=(0.0, 0.0),
-        level=0.0,
-        noise=NOISE,
-        seed=0,
-        missing=False,
-    ):
+    def found(shift=(0.0, 0.0), level=0.0):
         depth = moved(worn, np.array(shift) / PITCH, order=1) + level
-        depth += 4 * noise * np.random.default_rng(seed).standard_normal(depth.shape)
-        depth[np.broadcast_to(missing, depth.shape)] = np.nan
+        depth += 4 * NOISE * np.random.default_rng(0).standard_normal(depth.shape)
         np.save(tmp_path / "map.npy", depth)
         entry = {"body": "ball", "quantity": "depth_map", "depth": str(tmp_path / "map.npy")}
-        entry |= {"pitch": PITCH, "uncertainty": noise}
+        entry |= {"pitch": PITCH, "uncertainty": NOISE}
         return calibrate(CASE, {"measured": [entry], "fit": [{"path": K}]})
 
     return found
@@ -90,25 +82,6 @@ def test_a_map_in_its_middle_is_left_there(fitted):
     assert not found.data[["shift_x_m", "shift_y_m"]].any(axis=None)
 
 
-@pytest.mark.slow
-def test_intervals_cover_the_coefficient_wherever_the_map_has_its_scar(fitted):
-    """The noise puts the coefficient off by as much as the grid does."""
-    random, draws = np.random.default_rng(1), 4
-    covered = sum(
-        covers(fitted(random.uniform(-60e-6, 60e-6, 2), noise=200e-9, seed=i)) for i in range(draws)
-    )
-    assert covered >= binom.ppf(0.002, draws, 0.95)
-
-
-def test_missing_pixels_change_neither_the_coefficient_nor_the_misfit(fitted):
-    whole, band = fitted(noise=3e-9), np.zeros((PIXELS, PIXELS), dtype=bool)
-    band[:, 50:57] = True
-    spots = np.random.default_rng(1).random(band.shape) < 0.2
-    found = fitted(noise=3e-9, missing=band | spots)
-    assert covers(found)
-    assert found.chi_square < 1.5 * whole.chi_square
-
-
 def test_a_map_that_is_not_levelled_is_reported(fitted):
     level = -1e-7
     (off,) = of_kind(fitted(level=level), "level")
@@ -129,38 +102,18 @@ def test_uncertainties_that_are_too_large_are_told(worn, tmp_path, factor):
     assert bool(of_kind(found, "overstated")) == (factor > 1)
 
 
-@pytest.mark.parametrize("cells", [16, 20])
-def test_a_profile_is_met_on_a_coarse_grid(worn, cells):
+def test_a_profile_is_met_on_a_coarse_grid(worn):
     """To the noise, though its points and the cells lie apart."""
     at = np.arange(-0.36e-3, 0.37e-3, 30e-6)
     middle = 0.5 * (worn[PIXELS // 2 - 1] + worn[PIXELS // 2])
     depths = np.interp(at, PITCH * (np.arange(PIXELS) - 0.5 * (PIXELS - 1)), middle)
     entry = {"body": "ball", "quantity": "profile_across", "uncertainty": NOISE}
     entry |= {"position": at.tolist(), "value": depths.tolist()}
-    coarse = apply_settings(CASE, {"grid.cells": cells, "stepping.depth_tolerance": 1e-2})
+    coarse = apply_settings(CASE, {"grid.cells": 16, "stepping.depth_tolerance": 1e-2})
     found = calibrate(coarse, {"measured": [entry], "fit": [{"path": K}]})
     assert covers(found)
     assert found.p_value > 0.01
     assert found.settings[K] == pytest.approx(TRUE, rel=0.005, abs=0)
-
-
-def test_an_exact_map_is_met_on_a_coarse_grid(tmp_path):
-    """Of another test, on a half-space, made on 80 cells across the window."""
-    case = on_springs("pin_on_disk", {"grid": {"size": "1.4 mm", "cells": 16}})
-    case = apply_settings(case, {"contact.type": "dcfft", "load.normal": 15, PIN_K: 1e-15})
-    case = apply_settings(case, {"kinematics.distance": 700, "bodies.disk.wear.k": 1e-14})
-    with Simulation(validate_case(apply_settings(case, {"grid.cells": 80}))).run() as result:
-        depths = {name: result.body(name).wear_depth[-1].copy() for name in ("pin", "disk")}
-    entries = []
-    for body, depth in depths.items():
-        np.save(tmp_path / f"{body}.npy", depth)
-        entry = {"body": body, "quantity": "depth_map", "depth": str(tmp_path / f"{body}.npy")}
-        entries.append(entry | {"pitch": 1.4e-3 / 80, "uncertainty": 2e-9})
-    found = calibrate(case, {"measured": entries})
-    for each, true in zip(found.parameters.itertuples(), (1e-15, 1e-14), strict=True):
-        assert each.lower < true < each.upper
-        assert each.value == pytest.approx(true, rel=0.003, abs=0)
-    assert found.p_value > 0.01
 
 
 def test_uniform_wear_tells_no_place():

@@ -196,20 +196,6 @@ def test_a_profile_beside_the_scar_has_no_shape():
     assert [each.place for each in of_kind(found, "pattern")] == ["measured.1"]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("at", "depth"), [([0.0], [3e-7]), ([0.45e-3, 0.46e-3], [0.0, 0.0])], ids=["one", "none worn"]
-)
-def test_a_profile_that_leaves_no_residual_has_no_pattern(at, depth):
-    profile = {"body": "disk", "quantity": "profile_across", "position": at, "value": depth}
-    data = [measured("ball", "mass", mass(BALL)), profile | {"uncertainty": "1 nm"}]
-    paths = [*fitting(BALL_K), *(fitting(DISK_K) if any(depth) else ())]
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", RuntimeWarning)
-        found = calibrate(CASE, {"measured": data, "fit": paths})
-    assert not of_kind(found, "pattern")
-
-
 def test_a_resolution_leaves_open_its_part_of_the_loss():
     """Without fit the k of what was measured is fitted; that, at the end, is not predicted."""
     step = 1e-9

@@ -7,8 +7,7 @@ from paper_models import small
 from tribo.core.units import Quantity
 from tribo.effects.effect import Effect
 
-from tribo_inverse.adjoint.sensitivity import Sensitivity
-from tribo_inverse.case_findings import of_case
+from tribo_inverse.adjoint.sensitivity import Sensitivity, of_case
 
 
 class Bath(Effect):
@@ -24,7 +23,7 @@ class Bath(Effect):
 def test_the_sensitivity_to_a_temperature_is_that_to_one_kelvin(monkeypatch):
     percent = {"effects.0.ambient": 3.0, "load.normal": 1.0}
     found = Sensitivity("ball", "depth", percent, dict.fromkeys(percent, 0.3), ((24, 24),) * 2)
-    monkeypatch.setattr("tribo_inverse.case_findings.sensitivity", lambda *given: found)
+    monkeypatch.setattr("tribo_inverse.adjoint.sensitivity.sensitivity", lambda *given: found)
     bath, load = of_case(small(effects=[Bath()]), 1e-4)
     # A per cent of 300 K is 3 K.
     assert (bath.value, bath.uncertainty) == pytest.approx((1.0, 0.1))

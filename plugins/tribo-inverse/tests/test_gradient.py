@@ -19,6 +19,7 @@ from gradients import (
     STAGES,
     Kind,
     few,
+    kind,
     nothing,
     off_or_refused,
     resolved,
@@ -96,78 +97,65 @@ class Brisk(Archard):
 
 
 KINDS = {
-    "average": Kind(run(), Deepest("disk"), [*BASE, *SHAPE, "kinematics.stroke"], 1e-4),
-    "pressure": Kind(run(), Pressure(2e-5, 0), [*BASE, *SHAPE], 1e-4),
-    "springs": Kind(
-        run(
-            contact=Winkler(plasticity=False),
-            bodies=pair(archard(), Brisk(k=K), ("2 GPa", "1 GPa")),
-        ),
+    "average": kind(Deepest("disk"), [*BASE, *SHAPE, "kinematics.stroke"], 1e-4),
+    "pressure": kind(Pressure(2e-5, 0), [*BASE, *SHAPE], 1e-4),
+    "springs": kind(
         Depth("ball"),
         [*BASE, *SHAPE, HARD],
-        1e-5,
+        contact=Winkler(plasticity=False),
+        bodies=pair(archard(), Brisk(k=K), ("2 GPa", "1 GPa")),
     ),
-    "nonlinear": Kind(
-        run(bodies=pair(power(1.5), power(2.0)), stepping=few(nonlinear_tolerance=1e-13)),
+    "nonlinear": kind(
         Depth("disk"),
         [*BASE, *SHAPE, "bodies.ball.wear.p_exponent"],
         1e-6,
+        bodies=pair(power(1.5), power(2.0)),
+        stepping=few(nonlinear_tolerance=1e-13),
     ),
-    "yields": Kind(run(grid=ODD, bodies=YIELDING), Depth("disk"), [*BASE, *SHAPE, HARD], 1e-6),
-    "elastic layer": Kind(run(bodies=coated()), Depth("disk"), ["load.normal", *OF_COATING], 1e-5),
-    "positions, yields, elastic layer": Kind(
-        run(
-            grid=ODD,
-            kinematics=resolved(duration=10),
-            bodies=coated(("1.1 GPa", "1 GPa")),
-            stepping=few(cycle_tolerance=1e-12),
-        ),
+    "yields": kind(Depth("disk"), [*BASE, *SHAPE, HARD], 1e-6, grid=ODD, bodies=YIELDING),
+    "elastic layer": kind(Depth("disk"), ["load.normal", *OF_COATING], bodies=coated()),
+    "positions, yields, elastic layer": kind(
         Depth("disk", 5e-5),
         ["load.normal", *OF_COATING],
         3e-5,
+        grid=ODD,
+        kinematics=resolved(duration=10),
+        bodies=coated(("1.1 GPa", "1 GPa")),
+        stepping=few(cycle_tolerance=1e-12),
     ),
-    "load over time": Kind(
-        run(
-            grid=SMALL,
-            load=RAMP,
-            bodies=pair(FRESH, power(1.5)),
-            kinematics=motion(duration=10),
-            stepping=LONG,
-        ),
+    "load over time": kind(
         {10.0: Depth("disk")},
         [*STAGES, *OF_FRESH, BASE[2], "load.normal.1.at", "load.normal.2.until"],
-        1e-5,
+        grid=SMALL,
+        load=RAMP,
+        bodies=pair(FRESH, power(1.5)),
+        kinematics=motion(duration=10),
+        stepping=LONG,
     ),
-    "positions": Kind(
-        run(kinematics=resolved(), stepping=few(cycle_tolerance=1e-12)),
+    "positions": kind(
         Depth("disk", 5e-5),
         [*BASE, *SHAPE],
-        1e-5,
+        kinematics=resolved(),
+        stepping=few(cycle_tolerance=1e-12),
     ),
-    "explicit": Kind(
-        run(bodies=pair(FRESH, power(1.5)), stepping=Explicit(time_step=3, allow_unstable=True)),
+    "explicit": kind(
         Depth("disk"),
         [*BASE[:1], *BASE[2:], *SHAPE, *OF_FRESH],
-        1e-5,
+        bodies=pair(FRESH, power(1.5)),
+        stepping=Explicit(time_step=3, allow_unstable=True),
     ),
     "repeating": Kind(
         flats(), Depth("ball"), ["load.normal", "bodies.ball.surface.amplitude"], 1e-5
     ),
-    "rows of their own speed": Kind(
-        run(
-            kinematics=Rotating(track_radius="1.5 mm", speed=0.1, duration=20.0),
-            bodies=pair(power(1.5), archard()),
-            stepping=few(nonlinear_tolerance=1e-13),
-        ),
+    "rows of their own speed": kind(
         Depth("disk"),
         ["load.normal", "kinematics.speed", "kinematics.track_radius"],
-        1e-5,
+        kinematics=Rotating(track_radius="1.5 mm", speed=0.1, duration=20.0),
+        bodies=pair(power(1.5), archard()),
+        stepping=few(nonlinear_tolerance=1e-13),
     ),
-    "line": Kind(
-        run(bodies=LINE, ends_at_window=True, load=10.0),
-        Volume("ball"),
-        ["bodies.ball.wear.k"],
-        1e-5,
+    "line": kind(
+        Volume("ball"), ["bodies.ball.wear.k"], bodies=LINE, ends_at_window=True, load=10.0
     ),
 }
 
@@ -177,68 +165,46 @@ def test_it_is_that_of_the_same_steps(kind):
     assert KINDS[kind].off() < CLOSE
 
 
-KINDS["ends at a depth"] = Kind(
-    run(grid=MIDDLE, stop=Stop(depth="0.2 um")), Volume("ball"), [*BASE, *SHAPE], 1e-5
+KINDS["ends at a depth"] = kind(
+    Volume("ball"), [*BASE, *SHAPE], grid=MIDDLE, stop=Stop(depth="0.2 um")
 )
-KINDS["ends at a depth, load over time"] = Kind(
-    run(
-        grid=MIDDLE,
-        stop=Stop(depth="0.15 um"),
-        load=RAMP,
-        bodies=pair(FRESH, power(1.5)),
-        kinematics=motion(duration=10),
-        stepping=LONG,
-    ),
+KINDS["ends at a depth, load over time"] = kind(
     EndTime(),
     [*STAGES[:2], *OF_FRESH, "load.normal.1.at", "kinematics.frequency", "stop.depth"],
-    1e-5,
+    grid=MIDDLE,
+    stop=Stop(depth="0.15 um"),
+    load=RAMP,
+    bodies=pair(FRESH, power(1.5)),
+    kinematics=motion(duration=10),
+    stepping=LONG,
 )
-KINDS["ends at a depth of one body"] = Kind(
-    run(
-        grid=MIDDLE,
-        stop=Stop(depth="0.03 um", body="disk"),
-        bodies=pair(FRESH, SMOOTH),
-        stepping=LONG,
-        save_times=(2.0,),
-    ),
+KINDS["ends at a depth of one body"] = kind(
     {2.0: Deepest("disk"), 20.0: EndTime()},
     ["load.normal", *OF_SMOOTH, "kinematics.stroke"],
-    1e-5,
+    grid=MIDDLE,
+    stop=Stop(depth="0.03 um", body="disk"),
+    bodies=pair(FRESH, SMOOTH),
+    stepping=LONG,
+    save_times=(2.0,),
 )
-KINDS["ends at a depth, positions, yields"] = Kind(
-    run(
-        grid=MIDDLE,
-        stop=Stop(depth="0.05 um"),
-        kinematics=resolved(),
-        bodies=SOFT,
-        stepping=few(cycle_tolerance=1e-12),
-    ),
+KINDS["ends at a depth, positions, yields"] = kind(
     EndDistance(),
     [*BASE, HARD],
     1e-6,
+    grid=MIDDLE,
+    stop=Stop(depth="0.05 um"),
+    kinematics=resolved(),
+    bodies=SOFT,
+    stepping=few(cycle_tolerance=1e-12),
 )
-KINDS["ends at a depth, within a stroke"] = Kind(
-    run(
-        grid=MIDDLE,
-        stop=Stop(depth="0.2 um"),
-        kinematics=resolved(frequency=1, waveform="sinusoidal"),
-        bodies=pair(archard(300 * K), archard()),
-        stepping=few(cycle_tolerance=1e-12),
-    ),
+KINDS["ends at a depth, within a stroke"] = kind(
     EndDistance(),
     ["load.normal", "kinematics.frequency"],
-    1e-5,
-)
-KINDS["ends at a depth, explicit"] = Kind(
-    run(
-        grid=MIDDLE,
-        stop=Stop(depth="0.2 um"),
-        bodies=pair(FRESH, power(1.5)),
-        stepping=Explicit(time_step=0.5, allow_unstable=True),
-    ),
-    Pressure(2e-5, 0),
-    ["load.normal", *SHAPE, *OF_FRESH],
-    1e-5,
+    grid=MIDDLE,
+    stop=Stop(depth="0.2 um"),
+    kinematics=resolved(frequency=1, waveform="sinusoidal"),
+    bodies=pair(archard(300 * K), archard()),
+    stepping=few(cycle_tolerance=1e-12),
 )
 
 
@@ -251,7 +217,6 @@ MUTANTS = [
     ("average", parameters.Chain, "by_wear", lambda _: lambda *given: ()),
     ("average", parameters.Chain, "by_rest", without("gap")),
     ("average", parameters.Chain, "by_rest", without("stiffness")),
-    ("average", carriers.Carrier, "gathered", zero),
     ("average", carriers.Carrier, "seen", zero),
     ("average", linear.StepSystem, "solve", without("given")),
     ("pressure", backwards.Backwards, "look", nothing),
@@ -262,7 +227,6 @@ MUTANTS = [
     ("yields", backwards.Backwards, "_gave", zero),
     ("elastic layer", parameters.Chain, "by_spread", zero),
     ("positions", carriers.Carrier, "gathered", zero),
-    ("explicit", backwards.Backwards, "_wear", nothing),
     ("explicit", backwards.Backwards, "_wear", unpressed),
     ("load over time", slopes.Sloping, "_by_pressure", unfelt("load")),
 ]

@@ -17,10 +17,10 @@ from tribo_inverse.adjoint.objective import (
     EndTime,
     Misfit,
     Pressure,
-    Seeds,
     Volume,
     Width,
 )
+from tribo_inverse.adjoint.view import Seeds
 
 NAN, INF = np.nan, np.inf
 
@@ -40,19 +40,12 @@ def test_a_time_to_look_at_that_is_none_is_refused(time):
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Depth("ball", NAN), "the place x = nan, y = 0.0 is none"),
-        (lambda: Pressure(0.0, INF), "the place x = 0.0, y = inf is none"),
         (lambda: Deepest("ball", 1), "an order of 1 of Deepest is not allowed"),
-        (lambda: Deepest("ball", NAN), "an order of nan of Deepest is not allowed"),
         (lambda: Depth("ball", "1 mm"), r"the place x = '1 mm', y = 0\.0 is none; give both in m"),
         (lambda: Pressure(0.0, None), r"the place x = 0\.0, y = None is none"),
-        (lambda: Deepest("ball", "most"), "an order of 'most' of Deepest is not allowed; give a"),
-        (lambda: Misfit("ball", np.zeros((3, 3)), "1 um"), "an uncertainty of '1 um' is none"),
         (lambda: Misfit("ball", [[1.0], [1.0, 2.0]]), "depth of ball is no array of numbers"),
         (lambda: Width("ball", 5), "an axis of 5 of Width is none; give 0, along, or 1"),
         (lambda: Misfit("ball", np.zeros((3, 3)), 0.0), "an uncertainty of 0.0 is none"),
-        (lambda: Misfit("ball", np.zeros((3, 3)), INF), "an uncertainty of inf is none"),
-        (lambda: Misfit("ball", np.full((3, 3), NAN)), "or NaN everywhere"),
         (lambda: Misfit("ball", np.diag([INF, 1, 1])), "is infinite somewhere"),
     ],
 )
@@ -67,16 +60,11 @@ def test_an_objective_that_means_nothing_is_refused(make, message):
         (3.0, "mine gave 3.0; an objective gives its value and Seeds"),
         ((1.0, Seeds(np.ones((3, 3)))), "its value and Seeds, whose wear is by body"),
         ((NAN, Seeds()), "the value of mine is NaN, infinite or no number"),
-        (("much", Seeds()), "the value of mine is NaN, infinite or no number"),
         ((np.ones(2), Seeds()), r"the value of mine has the shape \(2,\), not \(\)"),
         ((1.0, Seeds(time=INF)), "the seed by time of mine is NaN, infinite"),
-        ((1.0, Seeds(distance=NAN)), "the seed by distance of mine is NaN, infinite"),
         ((1.0, Seeds(pressure=np.ones((3, 3)))), r"pressure of mine has the shape \(3, 3\), not"),
         ((1.0, Seeds({"ring": np.ones((3, 3))})), "there is no body 'ring'"),
-        ((1.0, Seeds({7: np.ones((3, 3))})), "there is no body 7"),
         ((1.0, Seeds({"ball": [[1.0], [1.0, 2.0]]})), "wear of ball of mine is NaN, infinite or"),
-        ((1.0, Seeds(pressure=[[1.0], [1.0, 2.0]])), "seed by pressure of mine is NaN, infinite"),
-        ((1.0, Seeds(time="1 s")), "the seed by time of mine is NaN, infinite or no number"),
         ((1.0, Seeds({"ball": np.ones((3, 3))})), r"wear of ball of mine has the shape \(3, 3\)"),
     ],
 )

@@ -7,10 +7,10 @@ from tribo_inverse.adjoint.objective import EndDistance as EndDistance
 from tribo_inverse.adjoint.objective import EndTime as EndTime
 from tribo_inverse.adjoint.objective import Misfit as Misfit
 from tribo_inverse.adjoint.objective import Pressure as Pressure
-from tribo_inverse.adjoint.objective import Seeds as Seeds
-from tribo_inverse.adjoint.objective import View as View
 from tribo_inverse.adjoint.objective import Volume as Volume
 from tribo_inverse.adjoint.objective import Width as Width
+from tribo_inverse.adjoint.view import Seeds as Seeds
+from tribo_inverse.adjoint.view import View as View
 from tribo_inverse.calibration.calibrate import Calibration as Calibration
 from tribo_inverse.calibration.calibrate import calibrate as calibrate
 from tribo_inverse.calibration.choice import Choice as Choice

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 import shlex
-import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
@@ -109,13 +107,24 @@ def calibrate(
     elif measurements.map:
         _fit_local(tables, measurements, level, output, force, as_json)
     else:
-        files = None if output is None else _Files.beside(output, measurements, force)
+        files = None if output is None else _files(output, measurements, force)
+        progress = partial(_print_run, "run")
+        found = fit_numbers(tables, measurements, level=level, on_run=progress)
+        if files is not None:
+            _write(found, *files)
+        _show(found, print_fit, as_json)
+        if as_json:
+            return
+        if files is not None:
+            click.echo(f"Wrote {files[1]}")
+            for name in found.fitted:
+                click.echo(f"Run it: tribo run {shlex.quote(str(files[0][name]))}")
+            return
         settings = [word for each in overrides for word in ("--set", each)]
         settings += [word for file in added_files() for word in ("--plugin", file)]
-        again = shlex.join(["tribo", "run", str(cases[0]), *settings])
-        progress = _Progress(measurements)
-        found = fit_numbers(tables, measurements, level=level, on_run=progress)
-        _output(files, as_json, again, found)
+        for path, value in found.settings.items():
+            settings += ["--set", f"{path}={value:.4g}"]
+        click.echo(f"Run it: {shlex.join(['tribo', 'run', str(cases[0]), *settings])}")
 
 
 def _fit_local(
@@ -141,53 +150,27 @@ def _fit_local(
         write_maps(found, level, output)
 
 
-@dataclass(frozen=True)
-class _Files:
-    """Output files: the fitted case of each test, by its name, and the picture of the fit."""
-
-    cases: Mapping[str, Path]
-    picture: Path
-
-    @classmethod
-    def beside(cls, output: Path, measurements: Measurements, force: bool) -> _Files:
-        """Return files named after `output`; CaseError if one exists."""
-        names = list(dict.fromkeys(test.name for test in measurements.tests.values()))
-        cases = {
-            name: output.with_name(f"{output.stem}-{Path(file).stem}.toml") if name else output
-            for name, file in zip(names, file_names(names), strict=True)
-        }
-        found = cls(cases, output.with_name(f"{output.stem}-fit.png"))
-        for path in (*cases.values(), found.picture):
-            check_new(path, force)
-        return found
-
-    def write(self, found: Calibration) -> None:
-        """Write the fitted cases and the picture."""
-        from tribo.kernel_api import write_figures
-
-        from tribo_inverse.fitted import fit_picture
-
-        for name, tables in found.fitted.items():
-            write_file(self.cases[name], to_toml(tables))
-        write_figures(
-            {self.picture.stem: lambda: fit_picture(found.brief, found.data)}, self.picture.parent
-        )
+def _files(output: Path, measurements: Measurements, force: bool) -> tuple[dict[str, Path], Path]:
+    """Return new files for the fitted cases, by test, and for the picture of the fit."""
+    names = list(dict.fromkeys(test.name for test in measurements.tests.values()))
+    cases = {
+        name: output.with_name(f"{output.stem}-{Path(file).stem}.toml") if name else output
+        for name, file in zip(names, file_names(names), strict=True)
+    }
+    picture = output.with_name(f"{output.stem}-fit.png")
+    for path in (*cases.values(), picture):
+        check_new(path, force)
+    return cases, picture
 
 
-def _output(files: _Files | None, as_json: bool, again: str, found: Calibration) -> None:
-    """Write a fit to its files, if any, and print it; `again` is the command that runs the case."""
-    if files is not None:
-        files.write(found)
-    _show(found, print_fit, as_json)
-    if as_json:
-        return
-    if files is None:
-        settings = (f"{path}={value:.4g}" for path, value in found.settings.items())
-        click.echo(f"Run it: {again} {' '.join(f'--set {shlex.quote(each)}' for each in settings)}")
-        return
-    click.echo(f"Wrote {files.picture}")
-    for name in found.fitted:
-        click.echo(f"Run it: tribo run {shlex.quote(str(files.cases[name]))}")
+def _write(found: Calibration, cases: Mapping[str, Path], picture: Path) -> None:
+    from tribo.kernel_api import write_figures
+
+    from tribo_inverse.fitted import fit_picture
+
+    for name, tables in found.fitted.items():
+        write_file(cases[name], to_toml(tables))
+    write_figures({picture.stem: lambda: fit_picture(found.brief, found.data)}, picture.parent)
 
 
 def _show(found: Shown, in_words: Callable[[Shown], None], as_json: bool) -> None:
@@ -202,10 +185,9 @@ def _print_run_of_case(name: str, run: int, misfit: float) -> None:
     _print_run(f"{name}, run", run, misfit)
 
 
-def _print_run(what: str, run: int, misfit: float = math.nan, left: float = 0.0) -> None:
+def _print_run(what: str, run: int, misfit: float = math.nan) -> None:
     chi_square = "" if math.isnan(misfit) else f": misfit χ² {misfit:.3g}"
-    more = f", {left:.0f} s left at least" if left >= 1 else ""
-    click.echo(f"{what} {run}{chi_square}{more}", err=True)
+    click.echo(f"{what} {run}{chi_square}", err=True)
 
 
 def _print_pass(count: int, misfit: float) -> None:
@@ -214,26 +196,3 @@ def _print_pass(count: int, misfit: float) -> None:
         click.echo(f"run and pass back {count}: for standard deviations", err=True)
     else:
         _print_run("run and pass back", count, misfit)
-
-
-class _Progress:
-    """Print the number of runs, and the least time that is left.
-
-    The time is estimated from the second round of runs on, as the first includes imports and
-    kernels.
-    """
-
-    def __init__(
-        self, measurements: Measurements, clock: Callable[[], float] = time.monotonic
-    ) -> None:
-        tests = measurements.tests.values()
-        measured = {entry.body for test in tests for entry in test.measured}
-        cases = len({repr(test.set) for test in tests})
-        self._fewest = cases * (2 + (len(measurements.fit) or len(measured)))
-        self._clock, self._first = clock, (0, 0.0)
-
-    def __call__(self, run: int, misfit: float) -> None:
-        now = self._clock()
-        made, began = self._first = self._first if self._first[0] else (run, now)
-        each = (now - began) / (run - made) if run > made else 0.0
-        _print_run("run", run, misfit, (self._fewest - run) * each)

@@ -21,7 +21,7 @@ def tribo_commands() -> list[Command]:
 @hookimpl
 def tribo_findings(model: Model, half_width_x: float) -> list[Finding]:
     """Say which numbers of a case rule its answer."""
-    from tribo_inverse.case_findings import of_case
+    from tribo_inverse.adjoint.sensitivity import of_case
 
     return of_case(model, half_width_x)
 

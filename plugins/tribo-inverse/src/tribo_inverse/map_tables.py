@@ -111,12 +111,8 @@ def map_pictures(found: FittedMaps, level: float) -> dict[str, Callable[[], Figu
 
     pictures: dict[str, Callable[[], Figure]] = {}
     for name, each in found.maps.items():
-        part = each.deviation / each.prior
-        drawn = each.factor, each.interval(level), part, each.told, each.spacing, name
-        pictures[name] = partial(coefficient_map, *drawn)
-        pictures[f"{name}-fit"] = partial(
-            depth_fit, each.measured, each.computed, each.uncertainty, each.spacing, name
-        )
+        pictures[name] = partial(coefficient_map, each, level, name)
+        pictures[f"{name}-fit"] = partial(depth_fit, each, name)
     return pictures
 
 

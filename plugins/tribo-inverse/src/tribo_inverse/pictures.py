@@ -6,8 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.figure import Figure
-from tribo import Array, Mask
+from tribo import Array
 from tribo.kernel_api import DIFFERENCES, SIGNIFICANT, Look, house_style, new_figure
+
+from tribo_inverse.calibration.maps import LocalMap
 
 DOUBLE = 140.0
 """Width of a picture with two panels, in mm."""
@@ -16,75 +18,44 @@ SURE = 0.5
 Range = tuple[float | None, float | None]
 
 
-def coefficient_map(
-    factor: Array,
-    interval: tuple[Array, Array],
-    part: Array,
-    told: Mask,
-    spacing: tuple[float, float],
-    title: str = "",
-) -> Figure:
+def coefficient_map(found: LocalMap, level: float, title: str = "") -> Figure:
     """Draw the factor on a wear coefficient, and its standard deviation relative to the prior's.
 
-    Parameters
-    ----------
-    factor : ndarray, shape (rows, ny)
-        The factor at each cell; with one row, along y only.
-    interval : tuple of ndarray, shape (rows, ny)
-        The ends of its interval, drawn as a band along y.
-    part : ndarray, shape (rows, ny)
-        Standard deviation over the prior's: at 1 the data say nothing.
-    told : ndarray of bool, shape (rows, ny)
-        Where the data narrow the prior; the factor is left blank elsewhere.
-    spacing : tuple of float
-        Edge lengths of a cell, in m.
-    title : str, optional
-        Of the picture.
+    The factor is left blank where the data do not narrow the prior. Of one row it is drawn along y,
+    with its interval at a level as a band.
     """
+    part, spacing = found.deviation / found.prior, found.spacing
+
+    def known(values: Array) -> Array:
+        return np.where(found.told, values, np.nan)
+
     panels: dict[str, tuple[Array, Range]] = {
-        "factor on k, where told": (np.where(told, factor, np.nan), (None, None)),
+        "factor on k, where told": (known(found.factor), (None, None)),
         "standard deviation / prior's": (part, (0.0, 1.0)),
     }
     figure = _drawn(panels, spacing, title, "viridis")
-    if len(factor) == 1:
-        low, high = (np.where(told, each, np.nan)[0] for each in interval)
-        figure.axes[0].fill_between(_places(factor, spacing), low, high, color="#d0d0d0", lw=0)
+    if len(part) == 1:
+        low, high = (known(each)[0] for each in found.interval(level))
+        figure.axes[0].fill_between(_places(part, spacing), low, high, color="#d0d0d0", lw=0)
         # Ends where hardly anything is told would leave the rest flat.
         if np.any(sure := part[0] < SURE):
             figure.axes[0].set_ylim(0.95 * np.min(low[sure]), 1.05 * np.max(high[sure]))
     return figure
 
 
-def depth_fit(
-    measured: Array,
-    computed: Array,
-    uncertainty: Array,
-    spacing: tuple[float, float],
-    title: str = "",
-) -> Figure:
+def depth_fit(found: LocalMap, title: str = "") -> Figure:
     """Draw a measured depth, and the residual of the fit.
 
     On a map a solid line surrounds residuals above three standard deviations, a dashed one those
     below minus three.
-
-    Parameters
-    ----------
-    measured, computed : ndarray, shape (rows, ny)
-        Depth worn off, in m; NaN where it was not measured.
-    uncertainty : ndarray, shape (rows, ny)
-        Standard deviation of their difference, in m.
-    spacing : tuple of float
-        Edge lengths of a cell, in m.
-    title : str, optional
-        Of the picture.
     """
-    off = (computed - measured) / uncertainty
+    off = (found.computed - found.measured) / found.uncertainty
     largest = float(np.max(np.abs(off), initial=SIGNIFICANT, where=np.isfinite(off)))
     panels: dict[str, tuple[Array, Range]] = {
-        "measured depth (µm)": (1e6 * measured, (None, None)),
+        "measured depth (µm)": (1e6 * found.measured, (None, None)),
         "fit − measured (deviations)": (off, (-largest, largest)),
     }
-    figure = _drawn(panels, spacing, title, "Blues", DIFFERENCES)
+    figure = _drawn(panels, found.spacing, title, "Blues", DIFFERENCES)
     lines = [at for at in (-SIGNIFICANT, SIGNIFICANT) if np.nanmin(off) < at < np.nanmax(off)]
     if len(off) > 1 and lines:
         (image,) = figure.axes[1].images

@@ -7,34 +7,27 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from tribo import Array, Box, ContactSolution, Residuals
+from tribo import Array, Box
 from tribo.kernel_api import (
     CELLS,
     Memory,
     Model,
-    course,
     first_memory,
     over,
-    readonly,
     whole,
 )
 
 from tribo_inverse.adjoint.linear import StepSystem
-from tribo_inverse.adjoint.objective import Seeds
 from tribo_inverse.adjoint.parameters import Chain
+from tribo_inverse.adjoint.view import Seeds
 from tribo_inverse.increment.across import held
 from tribo_inverse.increment.carriers import carriers_between, carriers_of
-from tribo_inverse.increment.course import Before, Plain, plain
-from tribo_inverse.increment.remembering import Alone, Together
-from tribo_inverse.increment.slopes import Sloping
+from tribo_inverse.increment.increment import Before, Increment, increments
 from tribo_inverse.recording.local import WatchedLaw
 from tribo_inverse.recording.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
 
 JUST = 1e-9
 """Part of the largest pressure, or of the hardness, within which a cell just touches or yields."""
-
-
-Increment = Plain | Alone | Together
 
 
 @dataclass(frozen=True)
@@ -113,8 +106,6 @@ class Backwards:
         self.height = {name: np.zeros(shape) for name, shape in own.items()}
         self.wear_rate = {name: np.zeros(own[name]) for name in model.laws.wear}
         self.between = carriers_between(model, self.carriers)
-        # An increment of each body alone, unless they share what lies between them.
-        self.together = bool(model.laws.effects or model.laws.filling)
         self.states = Memory(
             {
                 name: {key: np.zeros(own[name]) for key in law.own_state}
@@ -158,33 +149,32 @@ class Backwards:
         slid = record.slid
         if slid is None and pressed is None and not yielded:
             return
-        window = np.zeros_like(self.gap)
-        window[(slice(None), *record.region)] = record.pressure
-        looked = np.zeros_like(window) if pressed is None else pressed
+        looked = np.zeros_like(self.gap) if pressed is None else pressed
         for law in self.laws.values():
             law.seen.clear()
-        increments = self._increments(record, window, slid) if slid else []
+        parts: Sequence[Increment] = ()
+        if slid is not None:
+            parts = increments(self.model, self.carriers, self.touched, record)
         if slid is not None and slid.ahead:
-            behind = self._behind(increments)
+            behind = self._behind(parts)
             self.pressure = looked + over(self.shares) * sum(each.pressure for each in behind)
         else:
-            behind = self._solve(record, window, looked, yielded, increments)
+            behind = self._solve(record, looked, yielded, parts)
         if slid is not None:
             self._wear(slid, behind)
 
     def _solve(
         self,
         record: Pressed,
-        window: Array,
         looked: Array,
         yielded: Sequence[int],
-        increments: Sequence[Increment],
+        parts: Sequence[Increment],
     ) -> list[Before]:
         """Go back through a contact that was solved with what it wore; return what is before that.
 
-        `window` are its pressures, and `looked` the derivatives of the objective in them.
+        `looked` are the derivatives of the objective in its pressures.
         """
-        model = self.model
+        model, window = self.model, record.in_window(record.pressure, self.model.grid.cells)
         touching = np.any(window > 0, axis=0)
         found = model.case.contact.operator(model.contact.system, touching)
         assert found is not None
@@ -199,15 +189,13 @@ class Backwards:
         if yielded and record.overlap is not None:
             fixed = self._gave(record, yielded)[here] * full / weights
         free = (pressure > JUST * np.max(pressure)) & ~full
-        bodies = [(own, steep[here]) for each in increments for own, steep in each.bodies]
-        shared = [
-            each for each in increments if isinstance(each, Together) and not each.is_pointwise
-        ]
+        bodies = [(own, steep[here]) for each in parts for own, steep in each.bodies]
+        shared = [each for each in parts if not each.is_pointwise]
         wear = partial(self._of_wear, shared[0], box) if shared else None
         system = StepSystem(operator, box, self.shares, bodies, free, wear)
 
         def given() -> tuple[list[Before], Array]:
-            behind = self._behind(increments)
+            behind = self._behind(parts)
             return behind, (looked / weights + sum(each.pressure for each in behind))[here]
 
         z = system.solve(given()[1], fixed, self.start[here])
@@ -227,14 +215,9 @@ class Backwards:
             self.sums[at] -= chain.by_spread(touching, y, pressure)
         return behind
 
-    def _behind(self, increments: Sequence[Increment]) -> list[Before]:
+    def _behind(self, parts: Sequence[Increment]) -> list[Before]:
         """Return derivatives before increments from what has been gathered after them."""
-        return [
-            each.back(self.worn_before, self.states)
-            if isinstance(each, Together)
-            else each.back(self.worn_before)
-            for each in increments
-        ]
+        return [each.back(self.worn_before, self.states) for each in parts]
 
     def _wear(self, slid: Slid, behind: Sequence[Before]) -> None:
         """Go back through what a step wore under given contacts."""
@@ -247,46 +230,9 @@ class Backwards:
                 self.wear_rate[name] += factor
                 self.worn_before[name] = each.wear[name]
             laws = {**self.states.laws, **each.states.laws}
-            self.states = replace(self.states, laws=laws)
-            if self.together:
-                self.states = each.states
+            self.states = Memory(laws, {**self.states.between, **each.states.between})
 
-    def _increments(self, record: Pressed, window: Array, slid: Slid) -> list[Increment]:
-        """Return an increment in parts that do not touch each other."""
-        model, remembers = self.model, bool(slid.before.values)
-        if not (remembers or self.together):
-            contacts = [_contact(each) for each in window]
-            known = course(model, slid.before, contacts, slid.interval, slid.plan)
-            return [
-                plain(_of(model, name), self.carriers[name], contacts, slid, known)
-                for name in model.laws.wear
-            ]
-
-        def stages(box: Box, *names: str) -> Sloping:
-            own = {name: slid.before.laws[name] for name in names}
-            return Sloping(
-                _of(model, *names),
-                self.carriers,
-                box,
-                [_contact(each[box.slices]) for each in window],
-                replace(slid, before=replace(slid.before, laws=own)),
-                remembers,
-            )
-
-        window_box = whole(model.grid.cells)
-        if self.together:
-            together = Together(stages(self.touched, *model.laws.wear))
-            if not (self.touched.is_window or together.is_pointwise):
-                # What is remembered elsewhere may come back into the contact.
-                self.touched = window_box
-                together = Together(stages(window_box, *model.laws.wear))
-            return [together]
-        laws, pressed = self.states.laws, Box.of(record.region, model.grid.cells)
-        return [
-            Alone(stages(pressed, name), Memory({name: laws[name]}, {})) for name in model.laws.wear
-        ]
-
-    def _of_wear(self, increment: Together, box: Box, z: Array) -> Array:
+    def _of_wear(self, increment: Increment, box: Box, z: Array) -> Array:
         """Return what the wear and the filling that pressures make add to the adjoint of K."""
         y = over(self.shares) * z
         wear = {name: self.carriers[name].gathered(y, box) for name in self.model.laws.wear}
@@ -323,9 +269,9 @@ class Backwards:
 
     def _gave(self, record: Pressed, places: Sequence[int]) -> Array:
         """Return the derivative in the overlap at each position, shape (positions, nx, ny)."""
-        model, overlap = self.model, np.zeros_like(self.gap)
+        model = self.model
         assert record.overlap is not None
-        overlap[(slice(None), *record.region)] = record.overlap
+        overlap = record.in_window(record.overlap, model.grid.cells)
         found = np.zeros_like(overlap)
         for name, share in model.contact.plastic_share.items():
             if share == 0:
@@ -344,14 +290,3 @@ class Backwards:
             chain.by_rest(self.gap, self.stiffness, self.cap, self.states) for chain in self.chains
         ]
         return self.sums + rest
-
-
-def _of(model: Model, *names: str) -> Model:
-    """Return a model of which only some bodies wear."""
-    return model.with_laws({name: model.laws.wear[name] for name in names})
-
-
-def _contact(pressure: Array) -> ContactSolution:
-    """Return a contact as laws are asked in it."""
-    shown = readonly(pressure)
-    return ContactSolution(shown, 0.0, np.zeros_like(shown), 0, Residuals(0.0, 0.0, 0.0))

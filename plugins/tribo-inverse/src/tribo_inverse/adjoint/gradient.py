@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from pydantic import ValidationError
-from tribo import Array, Case, CaseError, Simulation
-from tribo.kernel_api import Model
+from tribo import Array, Case, CaseError, Explicit, Simulation, State
+from tribo.kernel_api import DEPTH_ACCURACY, Model, assemble, varied
 
-from tribo_inverse.adjoint.backwards import swept_back
-from tribo_inverse.adjoint.ending import at_depth
-from tribo_inverse.adjoint.limits import covered
+from tribo_inverse.adjoint.backwards import JUST, Derivatives, swept_back
 from tribo_inverse.adjoint.numbers import changed, find, listed
-from tribo_inverse.adjoint.objective import Objective, View, is_finite, looked
-from tribo_inverse.adjoint.parameters import Chain, chain
+from tribo_inverse.adjoint.parameters import Chain, chain, of_length
+from tribo_inverse.adjoint.view import Objective, Seeds, View, is_finite, looked
 from tribo_inverse.increment.breaks import unreached
 from tribo_inverse.recording.local import factor_shape, localised
 from tribo_inverse.recording.tape import Tape, recorded
@@ -129,7 +127,7 @@ def gradient(
         end = states.get(model.end_time)
         if end is not None and end.time < model.end_time:
             chains = [each.until(end.time) for each in chains]
-            found, by_depth = at_depth(model, tape, seeds, chains, end)
+            found, by_depth = _at_depth(model, tape, seeds, chains, end)
         else:
             found, by_depth = swept_back(model, tape, seeds, chains), 0.0
     parameters = {}
@@ -147,6 +145,93 @@ def gradient(
     return Gradient(
         total, parameters, relative, found.wear_rate, found.height, found.worn_before, refused
     )
+
+
+def covered(model: Model) -> Model:
+    """Return a model without the effects that no law follows, and no load.
+
+    Raises
+    ------
+    CaseError
+        If there is no gradient through a part of it.
+    """
+    given = {
+        field.name
+        for effect in model.laws.effects
+        for field in (*effect.provides, *effect.state_fields)
+    }
+    laws = model.laws.wear.values()
+    followed = model.laws.shares_load or model.laws.slips_locally
+    followed = followed or any(set(law.requires) & given for law in laws)
+    followed = followed or any(field.fills for f in model.laws.effects for field in f.state_fields)
+    if loading := [each for each in model.laws.effects if each.changes_load]:
+        raise CaseError(
+            f"{loading[0]} makes the load follow the state, and no gradient goes through that; "
+            "leave it out",
+            "effects",
+        )
+    if model.contact.hardness:
+        raise CaseError(
+            "the largest pressure of a cell jumps in the step in which it is worn into a layer of "
+            "another hardness, and so does all that follows; a gradient needs one hardness, leave "
+            "that of layers out",
+            "bodies",
+        )
+    if (
+        model.case.contact.operator(
+            model.contact.system, model.contact.gap <= np.min(model.contact.gap)
+        )
+        is None
+    ):
+        raise CaseError(f"{model.case.contact.type!r} does not state its operator", "contact.type")
+    # Explicit steps follow a load along themselves only where something is remembered.
+    if followed or not model.laws.effects or isinstance(model.case.stepping, Explicit):
+        return model
+    bare = assemble(varied(model.case, effects=()))
+    return replace(bare, laws=replace(bare.laws, effects=()))
+
+
+def _at_depth(
+    model: Model, tape: Tape, seeds: Mapping[float, Seeds], chains: Sequence[Chain], end: State
+) -> tuple[Derivatives, float]:
+    """Return the derivatives of a run that ends at a depth, and that in this depth, in 1/m.
+
+    With J the objective, and D the depth at the time t, a number p that the depth follows changes t
+    by −(∂D/∂p)/(∂D/∂t), and so J by ∂J/∂p − (∂J/∂t)/(∂D/∂t) ∂D/∂p, both at a fixed time.
+
+    Raises
+    ------
+    CaseError
+        If the depth went past its limit in a jump.
+    """
+    length, last = of_length(model, end.time), model.end_time
+    at_end = {**dict.fromkeys(seeds, Seeds()), last: _deepest(model, end)}
+    objective, depth = (
+        swept_back(model, tape, each, [length, *chains]) for each in (seeds, at_end)
+    )
+    by_time = objective.parameters[0] + length.by_save(end.time, seeds[last])
+    by_depth = by_time / depth.parameters[0]
+    found = objective.plus(-by_depth, depth)
+    return replace(found, parameters=found.parameters[1:]), by_depth
+
+
+def _deepest(model: Model, end: State) -> Seeds:
+    """Return 1 at the cell whose depth ended the run, the first of those that are as deep."""
+    stop = model.case.stop
+    assert stop.depth is not None
+    worn = {name: end.bodies[name].wear for name in stop.whose(end.bodies)}
+    name = max(worn, key=lambda each: float(np.max(worn[each])))
+    depth, most = worn[name], float(np.max(worn[name]))
+    if most > stop.depth * (1 + DEPTH_ACCURACY):
+        raise CaseError(
+            f"the depth jumps from below {1e6 * stop.depth:g} µm to {1e6 * most:g} µm however "
+            "short the last step, so that the end of the run has no derivative; take shorter "
+            "steps, or another depth",
+            "stop.depth",
+        )
+    seed = np.zeros_like(depth)
+    seed.flat[np.argmax(depth >= most * (1 - JUST))] = 1.0
+    return Seeds({name: seed})
 
 
 def _chains(

@@ -16,8 +16,8 @@ Map = Callable[[Array], Array]
 
 TOLERANCE = 1e-8
 """Residual of a system, relative to its right side: as that of a run's contacts."""
-MIRRORED = 1e-9
-"""Relative difference below which positions mirror each other."""
+ALIKE = 1e-9
+"""Relative difference below which slopes are alike, which are differences of rates."""
 MOST, RESTART = 400, 60
 """Iterations of which the method gives up, and after which GMRES starts anew."""
 
@@ -138,8 +138,8 @@ class StepSystem:
         # Laws are asked in a region around the contact that need not mirror itself.
         pressed = [given * self.free, *(slope * self.free for _, slope in self.bodies)]
         fields = [self.free.astype(float), fixed, *pressed]
-        return np.allclose(self.shares, self.shares[::-1], rtol=MIRRORED) and all(
-            np.max(np.abs(field - field[::-1, ::-1])) <= MIRRORED * np.max(np.abs(field))
+        return np.allclose(self.shares, self.shares[::-1], rtol=ALIKE) and all(
+            np.max(np.abs(field - field[::-1, ::-1])) <= ALIKE * np.max(np.abs(field))
             for field in fields
         )
 
@@ -151,7 +151,7 @@ class StepSystem:
         for carrier, slope in self.bodies:
             local = carrier.weights is None and len(self.shares) == 1
             inside = slope[self.free]
-            if not local and inside.size and np.ptp(inside) > 1e-9 * np.max(np.abs(inside)):
+            if not local and inside.size and np.ptp(inside) > ALIKE * np.max(np.abs(inside)):
                 return False
         return True
 

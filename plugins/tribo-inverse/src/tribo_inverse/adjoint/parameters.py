@@ -12,10 +12,10 @@ from tribo import Array, CaseError, Mask, Operator, TriboError
 from tribo.kernel_api import Interval, Memory, Model, OverTime, assemble
 
 from tribo_inverse.adjoint.numbers import ANY, changed
-from tribo_inverse.adjoint.objective import Seeds
+from tribo_inverse.adjoint.view import Seeds
 from tribo_inverse.increment.breaks import unreached
 from tribo_inverse.increment.carriers import Carrier, carriers_of
-from tribo_inverse.increment.course import Other
+from tribo_inverse.increment.increment import Other
 from tribo_inverse.increment.response import ASIDE, NUDGE
 from tribo_inverse.recording.local import SPEED, localised
 from tribo_inverse.recording.tape import Pressed, Slid
@@ -304,33 +304,30 @@ def _varied(
 
 def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
     """Return the bodies that wear otherwise under given contacts, and through what."""
-    one, other = base.case, model.case
-    everything = dict.fromkeys(model.laws.wear, frozenset({LAW}))
-    keeps = model.laws.between or any(law.initial_state for law in model.laws.wear.values())
-    if one.load != other.load and keeps and not isinstance(one.load.normal, float):
-        # What is remembered follows a load that changes along a step.
-        return everything
-    if one.friction != other.friction or one.effects != other.effects:
-        return everything
-    if model.laws.effects and base.contact.system != model.contact.system:
-        # An effect may look at all of it.
-        return everything
-    if one.kinematics != other.kinematics or not np.array_equal(
-        Stops.of(base).times, Stops.of(model).times
-    ):
-        # Points that slide further wear more, whatever their law looks at.
-        if model.laws.effects or any(position.reach is not None for position in model.cycle):
-            return everything
-        return dict.fromkeys(model.laws.wear, frozenset({SPEED}))
-    if model.laws.effects and any(
+    one, other, laws = base.case, model.case, model.laws
+    same = np.array_equal(Stops.of(base).times, Stops.of(model).times)
+    moves = one.kinematics != other.kinematics or not same
+    bodies = {name: (was, other.bodies[name]) for name, was in one.bodies.items()}
+    # An effect may look at all of this; what is remembered follows a load that changes in a step.
+    looks = moves or base.contact.system != model.contact.system
+    looks = looks or any(
         (was.wear, was.layers, was.material) != (now.wear, now.layers, now.material)
-        for was, now in zip(one.bodies.values(), other.bodies.values(), strict=True)
+        for was, now in bodies.values()
+    )
+    keeps = laws.between or any(law.initial_state for law in laws.wear.values())
+    if (
+        (one.friction, one.effects) != (other.friction, other.effects)
+        or (keeps and one.load != other.load and not isinstance(one.load.normal, float))
+        or (laws.effects and looks)
+        or (moves and any(position.reach is not None for position in model.cycle))
     ):
-        # An effect that a law follows may look at either body.
-        return everything
+        return dict.fromkeys(laws.wear, frozenset({LAW}))
+    if moves:
+        # Points that slide further wear more, whatever their law looks at.
+        return dict.fromkeys(laws.wear, frozenset({SPEED}))
     found = {}
-    for name in model.laws.wear:
-        was, now = one.bodies[name], other.bodies[name]
+    for name in laws.wear:
+        was, now = bodies[name]
         if (was.wear, was.layers) != (now.wear, now.layers):
             found[name] = frozenset({LAW})
         elif was.material != now.material:

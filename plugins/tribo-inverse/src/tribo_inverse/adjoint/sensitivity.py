@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from tribo import CaseError, NumericalError
-from tribo.kernel_api import MARGINS, Model, OverTime, coarsened, limited
+from tribo import CaseError, Finding, NumericalError
+from tribo.kernel_api import MARGINS, Model, OverTime, coarsened, leaves, limited
 
 from tribo_inverse.adjoint.gradient import gradient
-from tribo_inverse.adjoint.objective import Deepest, EndTime, Seeds, View
+from tribo_inverse.adjoint.objective import Deepest, EndTime
+from tribo_inverse.adjoint.view import Seeds, View
 
 CELLS = 24
 """Along the longer edge of the coarser window; the finer has twice as many.
@@ -19,6 +20,9 @@ An error of first order in the size of a cell is as large on the finer grid as t
 """
 LEAST = 0.005
 """Per cent for one per cent, below which a number is left out."""
+
+MOST = 8
+"""Numbers of a case that are reported."""
 
 Answer = Literal["depth", "end_time"]
 
@@ -125,3 +129,37 @@ def _asked(view: View) -> tuple[str, Answer]:
     if state.time < model.end_time:
         return model.case.stop.body or deepest, "end_time"
     return deepest, "depth"
+
+
+def of_case(model: Model, half_width_x: float) -> list[Finding]:
+    """Return the `MOST` numbers that rule a case, with half its first contact's length, in m."""
+    try:
+        found = sensitivity(model, half_width_x)
+    except (CaseError, NumericalError) as error:
+        return [Finding("sensitivity", f"not known, since {error}")]
+    depth, time = f"depth of {found.body}", f"time until {found.body} reaches stop.depth"
+    what = depth if found.of == "depth" else time
+    kelvin = {
+        ".".join(map(str, place)): value
+        for place, value, mark in leaves(model.case)
+        if mark and mark.unit == "K"
+    }
+    return [
+        _sensitivity(what, path, change, found.uncertainty[path], kelvin.get(path))
+        for path, change in [*found.percent.items()][:MOST]
+    ]
+
+
+def _sensitivity(
+    what: str, path: str, change: float, uncertainty: float, kelvin: float | None
+) -> Finding:
+    """Word by how many per cent an answer changes for 1 % more of a number, or 1 K more."""
+    # A per cent of a temperature is one of its distance from absolute zero.
+    more, per = ("1 %", 1.0) if kelvin is None else ("1 K", 100 / kelvin)
+    return Finding(
+        "sensitivity",
+        f"{what} {per * change:+.2f} ± {per * uncertainty:.2f} % for {more} more",
+        value=per * change,
+        uncertainty=per * uncertainty,
+        place=path,
+    )

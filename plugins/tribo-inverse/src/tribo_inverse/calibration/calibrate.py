@@ -14,8 +14,7 @@ from scipy.special import chdtrc
 from tribo import Array, Case, CaseError, Finding, NumericalError
 from tribo.kernel_api import OutOfWindow, apply_settings, to_toml
 
-from tribo_inverse.calibration.exactness import check_sizes
-from tribo_inverse.calibration.experiment import Experiment
+from tribo_inverse.calibration.experiment import Experiment, check_sizes
 from tribo_inverse.calibration.fit import (
     NO_EFFECT,
     Unsettled,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -22,9 +22,8 @@ from tribo_inverse.calibration.cells import (
     read_map,
     surface_shape,
 )
-from tribo_inverse.calibration.exactness import data_error
 from tribo_inverse.calibration.linearised import Problem
-from tribo_inverse.calibration.measured import Measurements, read_measurements
+from tribo_inverse.calibration.measured import Measurements, data_error, read_measurements
 from tribo_inverse.calibration.parameters import Parameter, check_set, find_parameters
 from tribo_inverse.calibration.quantities import (
     AXES,
@@ -36,6 +35,7 @@ from tribo_inverse.calibration.quantities import (
     PROFILES,
     Reading,
     edge_sigma,
+    in_si,
 )
 from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes
 from tribo_inverse.calibration.setups import (
@@ -48,6 +48,9 @@ from tribo_inverse.calibration.setups import (
 )
 from tribo_inverse.findings import named, of_run
 
+REFUSED = 300.0
+"""Factor between measured and computed values from which on they are refused: a wrong prefix of a
+unit makes 1000."""
 LINEAR_BELOW = 0.1
 """Part of the largest depth of a profile or map below which depths are taken as linear."""
 
@@ -271,3 +274,22 @@ class Experiment:
             for source in sources:
                 add(rows, means_over(source, self.data["cells"].iloc[rows]))
         return np.array(columns).reshape(-1, len(self.data)).T
+
+
+def check_sizes(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> None:
+    """Refuse entries that differ from the first run by a factor above 300, with a line for each."""
+    given = ", ".join(f"{p.path} = {in_si(p.start, p.unit)}" for p in parameters)
+    sizes = data[["unit", "sigma", "below"]].assign(
+        value=data["measured"].abs(), own=np.abs(computed[: len(data)])
+    )
+    refused = [
+        f"{place} was read as {in_si(value, unit)}, and the case gives {in_si(own, unit)} with "
+        f"{given}: check the value and its unit, or give a start in fit that is nearer to it"
+        for place, unit, sigma, below, value, own in (
+            sizes.groupby(data["place"], sort=False).max().itertuples()
+        )
+        # A value below its uncertainty is only an upper limit.
+        if own > REFUSED * max(value, sigma) or (value > REFUSED * own > 0 and not below)
+    ]
+    if refused:
+        raise CaseError("\n".join(refused))

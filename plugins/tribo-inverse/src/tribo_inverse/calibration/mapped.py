@@ -12,11 +12,10 @@ import numpy as np
 from tribo import Array, Case, CaseError, Finding, NumericalError, Simulation
 from tribo.kernel_api import begin, case_tables, located, march, unknown_body, validate_case
 
-from tribo_inverse.adjoint.objective import View
+from tribo_inverse.adjoint.view import View
 from tribo_inverse.calibration.cells import on_cells, read_map
-from tribo_inverse.calibration.exactness import data_error
 from tribo_inverse.calibration.maps import FittedMaps, fit_maps
-from tribo_inverse.calibration.measured import MapEntry
+from tribo_inverse.calibration.measured import MapEntry, data_error
 from tribo_inverse.calibration.prior import Prior
 from tribo_inverse.calibration.quantities import DEPTH_MAP
 from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes

@@ -17,14 +17,35 @@ from pydantic import (
     model_validator,
 )
 from tribo import Array, CaseError, Mask, Quantity, Table
-from tribo.kernel_api import by_path, case_error, read_toml
+from tribo.kernel_api import by_path, case_error, number, read_toml
 
-from tribo_inverse.calibration.exactness import Share, data_error, part_of
-from tribo_inverse.calibration.quantities import DEPTH_MAP, PROFILES, quantity
+from tribo_inverse.calibration.quantities import DEPTH_MAP, FIELDS, PROFILES, in_words, quantity
+
+LEAST_UNCERTAINTY = 1e-6
+"""Smallest relative uncertainty."""
+NOISE = 3.0
+"""Standard deviations by which a mean depth below 0 is not noise."""
 
 
 class Below(float):
     """A limit that a value is below, as ``"< 0.1 mg"``."""
+
+
+class Share(float):
+    """An uncertainty as a part of each value, as ``"5 %"``."""
+
+
+def _part_of(text: str, quantity: str) -> Share:
+    """Return the part of a value that a text in per cent says; CaseError if it cannot be one."""
+    if quantity in FIELDS:
+        raise CaseError(f"{text!r}: of depths at many places give it with a unit, as '10 nm'")
+    try:
+        part = number(text[:-1]) / 100
+    except ValueError:
+        raise CaseError(f"{text!r} is no number of per cent; write '5 %'") from None
+    if not 0 < part < 1:
+        raise CaseError(f"{text!r}: an uncertainty is above 0 % and below 100 %")
+    return Share(part)
 
 
 def _beside(name: str, info: ValidationInfo) -> str:
@@ -35,7 +56,11 @@ def _beside(name: str, info: ValidationInfo) -> str:
 BesideFile = Annotated[str, AfterValidator(_beside)]
 """Name of a file; a relative one starts at the folder of the file of measured values."""
 
-ENTRIES = "entries [[measured]]"
+NUMBERS = dict.fromkeys(PROFILES, ("value", "position")) | {
+    "mass": ("value", "before", "after"),
+    DEPTH_MAP: ("depth", "pitch"),
+}
+"""Keys of the numbers of a quantity; of those that are left out it is the value alone."""
 LOCAL = "local coefficients are fitted to maps of one test: give [[map]] in a file of its own"
 UNSEEN = "what was too little to be seen is given as a limit, '< 0.1 mg' say"
 
@@ -84,80 +109,53 @@ class MeasuredEntry(Table):
         if value is None or (name := info.data.get("quantity")) is None:
             return None
         is_value, is_profile = info.field_name == "value", name in PROFILES
-        if is_value and name == DEPTH_MAP:
-            raise ValueError("depth_map has its numbers in the file depth; give no value")
         # The depths of a profile may be 0, or below it by noise.
         above = None if is_value and is_profile else 0
         mark = Quantity(quantity(name).unit, above=above, remedy=UNSEEN if is_value else None)
 
         def read(part: object) -> float:
-            if is_value and isinstance(part, str) and part.lstrip().startswith(">"):
-                raise CaseError(f"{part!r}: only '<' marks a limit of detection, as '< 0.1 mg'")
             if info.field_name == "uncertainty" and str(part).rstrip().endswith("%"):
-                return part_of(str(part).strip(), name)
+                return _part_of(str(part).strip(), name)
             is_limit = isinstance(part, str) and part.lstrip().startswith("<")
             if is_limit and is_value and not is_profile:
                 return Below(mark.read(str(part).lstrip()[1:].strip()))
             return part if isinstance(part, Below) else mark.read(part)
 
-        is_list = is_value and isinstance(value, list | tuple)
-        if is_list:
-            _check_gaps(value, "point" if is_profile else "test")
         try:
-            return tuple(map(read, value)) if is_list else read(value)
+            if is_value and isinstance(value, list | tuple):
+                return tuple(map(read, value))
+            return read(value)
         except CaseError as error:
             raise ValueError(str(error)) from None
 
-    @field_validator("position", mode="before")
-    @classmethod
-    def _without_gaps(cls, value: Any) -> Any:
-        _check_gaps(value, "point")
-        return value
-
     @model_validator(mode="after")
-    def _has_its_body(self) -> Self:
-        found = quantity(self.quantity)
+    def _has_its_keys(self) -> Self:
+        name, found = self.quantity, quantity(self.quantity)
+        own = NUMBERS.get(name, ("value",))
+        for key in ("value", "before", "after", "position", "depth", "pitch"):
+            if key not in own and getattr(self, key) is not None:
+                raise ValueError(f"{name} has no {key}; its numbers are {' and '.join(own)}")
         if found.label and self.time is not None:
-            raise ValueError(f"{self.quantity} is that of a whole run; leave time out")
+            raise ValueError(f"{name} is that of a whole run; leave time out")
         if (found.of == "run") == bool(self.body):
-            raise ValueError(
-                f"{self.quantity} is of the run; leave body out" if self.body else "give body"
-            )
+            raise ValueError(f"{name} is of the run; leave body out" if self.body else "give body")
         return self
 
     @model_validator(mode="after")
-    def _has_its_file(self) -> Self:
-        if self.quantity != DEPTH_MAP:
-            if self.depth is not None or self.pitch is not None:
-                raise ValueError(f"{self.quantity} has no depth or pitch; those are of a depth_map")
-        elif {"before", "after", "position"} & self.model_fields_set:
-            raise ValueError("depth_map has its numbers in the file depth; give no others")
-        return self
-
-    @model_validator(mode="after")
-    def _has_its_lists(self) -> Self:
-        if self.quantity in PROFILES:
-            at = self.position or ()
-            depths = self.value if isinstance(self.value, tuple) else ()
-            if not at or len(depths) not in (len(at), 0 if self.value is None else len(at)):
-                raise ValueError(
-                    f"{self.quantity} needs value and position, two lists of the same length, not "
-                    f"{len(depths)} and {len(at)} long"
-                )
-        elif self.position is not None:
+    def _has_its_numbers(self) -> Self:
+        at = self.position or ()
+        depths = self.value if isinstance(self.value, tuple) else ()
+        if self.quantity in PROFILES and not (
+            at and (self.value is None or len(depths) == len(at))
+        ):
             raise ValueError(
-                f"{self.quantity} has no position; {' and '.join(PROFILES)} are measured at some"
+                f"{self.quantity} needs value and position, two lists of the same length, not "
+                f"{len(depths)} and {len(at)} long"
             )
-        elif self.value == ():
+        if self.value == ():
             raise ValueError("the list of values is empty; give one for each test")
-        return self
-
-    @model_validator(mode="after")
-    def _is_read_once(self) -> Self:
         if self.before is None and self.after is None:
             return self
-        if self.quantity != "mass":
-            raise ValueError("give value")
         if self.before is None or self.after is None or self.value is not None:
             raise ValueError("give value, or before and after")
         if self.before <= self.after:
@@ -232,20 +230,30 @@ class MeasuredEntry(Table):
         return np.hypot(own, self.from_resolution[0])
 
 
-def _check_gaps(values: Any, what: str) -> None:
-    """Raise ValueError if an entry of a list is NaN; `what` is to be left out instead."""
-    for number, each in enumerate(values if isinstance(values, list | tuple) else (), 1):
-        if str(each).strip().lower().startswith("nan"):
-            raise ValueError(
-                f"entry {number} of {len(values)} is {each}; leave that {what} out of each list"
-            )
-
-
 def _list(value: Any, info: ValidationInfo) -> Any:
     """Refuse a table where a list of tables is needed."""
     if isinstance(value, Mapping):
         raise ValueError(f"write [[{info.field_name}]] at the beginning of each, also of one")
     return value
+
+
+def data_error(quantity: str, sigma: Array | float, values: Array) -> str:
+    """Return why values cannot be right: in another unit, or depths negative; else empty."""
+    each = np.broadcast_to(sigma, values.shape)
+    if np.any(exact := each < LEAST_UNCERTAINTY * np.abs(values)):
+        worst = int(np.argmax(exact * np.abs(values)))
+        return (
+            f"known to {in_words(quantity, float(each[worst]))}, less than a millionth of "
+            f"{in_words(quantity, float(values[worst]))}: no run is that exact; check the "
+            "uncertainty, and the units of both"
+        )
+    mean = float(np.mean(values))
+    if not mean < -NOISE * np.max(each) / np.sqrt(len(values)):
+        return ""
+    return (
+        f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards from "
+        "the unworn surface, positive where it is worn: turn the sign round, or level them"
+    )
 
 
 class FitEntry(Table):
@@ -270,13 +278,6 @@ class TestEntry(Table):
     """Settings in which it differs from the case, by path, as ``load.normal = "50 N"``."""
     measured: tuple[MeasuredEntry, ...]
     """Values measured in it. The nth values of all lists are of the nth test."""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _has_numbers(cls, data: Any) -> Any:
-        if isinstance(data, Mapping) and "map" in data:
-            raise ValueError(LOCAL)
-        return data
 
     _are_many = field_validator("measured", mode="before")(_list)
 
@@ -377,11 +378,9 @@ def read_measurements(source: Measurements | Mapping[str, Any] | str | Path) -> 
     if isinstance(source, Mapping):
         data, folder = source, None
     else:
-        data = read_toml(source, "measured values", f"a file of measured values has {ENTRIES}")
+        hint = "a file of measured values has entries [[measured]]"
+        data = read_toml(source, "measured values", hint)
         folder = Path(source).parent
-    if "bodies" in data and not {"measured", "test"} & data.keys():
-        name = "this" if isinstance(source, Mapping) else f"{source}"
-        raise CaseError(f"{name} is a case, not measured values, which are {ENTRIES}")
     try:
         return Measurements.model_validate(data, context=folder)
     except ValidationError as error:

@@ -14,6 +14,8 @@ NUDGE = 3e-5
 """Part of a value by which it is varied up and down to find a derivative, or once for a second."""
 ASIDE = 1e-7
 """The same where it is varied to one side only, or a derivative may soon change."""
+EVENLY = 1e-6
+"""Part of a pressure by which it is varied up and down where a rate follows it alone."""
 LEAST = 0.1
 """Part of a cell's pressure that must be varied to find what follows it."""
 MOST = 25
@@ -73,8 +75,16 @@ def back(seeds: Sequence[Field], responses: Sequence[Response]) -> Field:
 
 
 def local(rates: Rates, found: Arrays, pressure: Array, reach: Offset = ALONE) -> list[Response]:
-    """Return the responses of rates that follow the pressures of their own cell, and near it."""
-    return near(rates, found, pressure, ASIDE * pressure, reach)
+    """Return the responses of rates that follow the pressures of their own cell, and near it.
+
+    Of their own cell alone it is a central difference, whose errors do not make it uneven.
+    """
+    if reach != ALONE:
+        return near(rates, found, pressure, ASIDE * pressure, reach)
+    higher, lower = (1 + EVENLY) * pressure, (1 - EVENLY) * pressure
+    by = np.where(higher == lower, np.inf, higher - lower)
+    pairs = zip(rates(higher), rates(lower), strict=True)
+    return [Response((above - below) / by) for above, below in pairs]
 
 
 def near(

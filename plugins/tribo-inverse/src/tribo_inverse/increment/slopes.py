@@ -15,7 +15,6 @@ from tribo.kernel_api import CELLS, over
 
 from tribo_inverse.increment.across import EffectFields, held, held_effects
 from tribo_inverse.increment.carriers import Carrier
-from tribo_inverse.increment.rate_stage import RateStage
 from tribo_inverse.increment.response import (
     ALONE,
     ASIDE,
@@ -29,7 +28,7 @@ from tribo_inverse.increment.response import (
     near,
     shared,
 )
-from tribo_inverse.increment.stages import Stages, together
+from tribo_inverse.increment.stages import RateStage, Stages, together
 from tribo_inverse.recording.local import localised
 
 

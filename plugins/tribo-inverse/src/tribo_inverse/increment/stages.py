@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Self
 
 import numpy as np
-from tribo import Array, Box, ContactSolution, LocalConditions
+from tribo import Array, Box, ContactSolution, LocalConditions, Residuals
 from tribo.kernel_api import (
     CELLS,
     Kept,
@@ -20,19 +20,35 @@ from tribo.kernel_api import (
     local_fields,
     over,
     place,
+    rates_at_each,
     readonly,
     with_loads,
 )
 
-from tribo_inverse.increment.across import held, held_effects
+from tribo_inverse.increment.across import EffectFields, held, held_effects
 from tribo_inverse.increment.carriers import Carrier, carriers_between
-from tribo_inverse.increment.course import pressed, stacked
-from tribo_inverse.increment.rate_stage import RateStage
 from tribo_inverse.increment.response import ASIDE, Arrays
 from tribo_inverse.recording.tape import Slid
 
 AT_ONCE = 1 << 18
 """Cells of which laws are asked at once, so that what they compute does not grow with a step."""
+
+
+@dataclass(frozen=True)
+class RateStage:
+    """Rates where a part of an increment has `passed`, at states that are held to their limits.
+
+    The rates are those at each cell of each position, and `means` those over each point of what
+    they change. `inside` has by state where it was within its limits already. Behind the rates
+    is what effects were told for their `answers`.
+    """
+
+    passed: float
+    states: Arrays
+    inside: Sequence[Array]
+    rates: Arrays
+    means: Arrays
+    answers: Sequence[Sequence[EffectFields]]
 
 
 @dataclass(frozen=True)
@@ -47,8 +63,8 @@ class Stages:
         The part of the window that is looked at: all of it where effects reach beyond a point;
         else what touches, in this increment or any, beyond which nothing that presses follows what
         there is.
-    contacts : sequence of ContactSolution
-        The contacts, on the box.
+    pressure : ndarray, shape (positions, nx, ny)
+        The pressures, on the box.
     slid : Slid
         The increment.
     along : bool
@@ -58,7 +74,7 @@ class Stages:
     model: Model
     carriers: Mapping[str, Carrier]
     box: Box
-    contacts: Sequence[ContactSolution]
+    pressure: Array
     slid: Slid
     along: bool
 
@@ -73,11 +89,6 @@ class Stages:
         of_laws = [self.carriers[name] for name, of in self.slid.before.laws.items() for _ in of]
         between = carriers_between(self.model, self.carriers).values()
         return [*of_laws, *between]
-
-    @cached_property
-    def pressure(self) -> Array:
-        """The pressures of the increment, shape (positions, nx, ny)."""
-        return np.stack([contact.pressure for contact in self.contacts])
 
     @property
     def begin(self) -> Arrays:
@@ -168,12 +179,11 @@ class Stages:
             pressure = np.broadcast_to(self.pressure, (len(passed), *self.pressure.shape))
         if not self.loads_change:
             return pressure
-        return np.stack(
-            [
-                [contact.pressure for contact in self._loaded(pressed(self.contacts, own), share)]
-                for own, share in zip(pressure, passed, strict=True)
-            ]
+        each = (
+            with_loads(self.model, _contacts(own), self.slid.interval, share)
+            for own, share in zip(pressure, passed, strict=True)
         )
+        return np.stack([[contact.pressure for contact in contacts] for contacts in each])
 
     def rates(
         self,
@@ -227,11 +237,6 @@ class Stages:
         ]
         return [np.concatenate(of_stages) for of_stages in zip(*each, strict=True)]
 
-    def _loaded(
-        self, contacts: Sequence[ContactSolution], passed: float
-    ) -> Sequence[ContactSolution]:
-        return with_loads(self.model, contacts, self.slid.interval, passed)
-
     def _in_window(
         self, model: Model, states: Arrays, passed: Sequence[float], told: Array
     ) -> Arrays:
@@ -241,7 +246,18 @@ class Stages:
         shown = told[0] if self.box.is_window else self.embedded(told[0])
         for effect in held_effects(model):
             effect.noted.clear()
-        rates = stacked(model, pressed(self.contacts, shown), memory, moment)
+        found = rates_at_each(model, _contacts(shown), memory, moment)
+        depths = [[rates.wear[name].depth_rate for rates in found] for name in model.laws.wear]
+        of_laws = [
+            [rates.wear[name].state_rates[key] for rates in found]
+            for name, of in memory.laws.items()
+            for key in of
+        ]
+        between = [
+            [np.broadcast_to(rates.between[key], self.box.window) for rates in found]
+            for key in memory.between
+        ]
+        rates = [np.stack(each) for each in (*depths, *of_laws, *between)]
         answers = (answer for effect in held_effects(model) for answer in effect.noted)
         rates += [value[None] for answer in answers for value in answer.told.values()]
         return [each[(None, slice(None), *self.box.slices)] for each in rates]
@@ -320,3 +336,9 @@ class Stages:
 def together(states: Sequence[Sequence[Array]]) -> Arrays:
     """Return the states of several stages one below the other, shape (stages, rows, ny)."""
     return [np.stack(each) for each in zip(*states, strict=True)]
+
+
+def _contacts(pressures: Array) -> list[ContactSolution]:
+    """Return contacts of given pressures, as laws are asked in them."""
+    nothing = np.zeros(pressures.shape[1:]), 0, Residuals(0.0, 0.0, 0.0)
+    return [ContactSolution(readonly(each), 0.0, *nothing) for each in pressures]

@@ -60,6 +60,12 @@ class Pressed:
     times: tuple[float, ...]
     slid: Slid | None
 
+    def in_window(self, values: Array, cells: tuple[int, int]) -> Array:
+        """Return values in its region in a window of so many cells, 0 around it."""
+        found = np.zeros((len(values), *cells))
+        found[(slice(None), *self.region)] = values
+        return found
+
 
 @dataclass(frozen=True)
 class Gave:

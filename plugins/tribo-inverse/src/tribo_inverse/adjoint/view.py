@@ -1,0 +1,144 @@
+"""What an objective sees of a saved state, and what it answers: a number and its seeds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from numbers import Real
+from typing import Any
+
+import numpy as np
+from tribo import Array, CaseError, Grid, State
+from tribo.kernel_api import Model, did_you_mean, suggestion
+
+
+@dataclass(frozen=True)
+class View:
+    """A saved state, as an objective sees it.
+
+    Parameters
+    ----------
+    model : Model
+        The composed case.
+    state : State
+        The state.
+    """
+
+    model: Model
+    state: State
+
+    @property
+    def grid(self) -> Grid:
+        """The window."""
+        return self.model.grid
+
+    @property
+    def pressure(self) -> Array:
+        """Pressure in the middle of the cycle, shape (nx, ny), in Pa."""
+        return self.state.contact.pressure
+
+    def wear(self, body: str) -> Array:
+        """Return the depth worn off a body's own surface, in m.
+
+        Its shape is that of the window; (1, ny) of a body that is averaged along its track, and
+        (rows, ny) of one that passes through a resolved cycle.
+        """
+        if not isinstance(body, str) or body not in self.state.bodies:
+            meant = suggestion(did_you_mean(str(body), self.state.bodies))
+            raise CaseError(
+                f"there is no body {body!r}{meant} The bodies are {', '.join(self.state.bodies)}"
+            )
+        return self.state.bodies[body].wear
+
+    def volume(self, body: str) -> float:
+        """Return the volume worn off a body, in m³."""
+        return self.model.cycle.maps[body].volume(self.wear(body))
+
+    def cell(self, field: Array, x: float, y: float) -> tuple[int, int]:
+        """Return the cell of a field, around the middle, that is nearest to a place, in m."""
+        found = []
+        for place, spacing, count in zip((x, y), self.grid.spacing, field.shape, strict=True):
+            index = 0 if count == 1 else int(np.floor(place / spacing + 0.5 * count))
+            if not 0 <= index < count:
+                raise CaseError(
+                    f"{1e3 * place:g} mm lies beyond {0.5e3 * count * spacing:g} mm from the middle"
+                )
+            found.append(index)
+        return found[0], found[1]
+
+
+@dataclass(frozen=True)
+class Seeds:
+    """The derivatives of an objective with respect to a state.
+
+    Parameters
+    ----------
+    wear : Mapping[str, ndarray], optional
+        By the depth worn off a body, by name, of its shape, in 1/m.
+    pressure : ndarray, shape (nx, ny), optional
+        By the pressure in the middle of the cycle, in 1/Pa.
+    time : float, optional
+        By the time of the state, in 1/s.
+    distance : float, optional
+        By the distance slid until then, in 1/m.
+    """
+
+    wear: Mapping[str, Array] = field(default_factory=dict)
+    pressure: Array | None = None
+    time: float = 0.0
+    distance: float = 0.0
+
+
+Objective = Callable[[View], tuple[float, Seeds]]
+"""A function of a `View` that returns a number and its `Seeds`."""
+
+
+def looked(objective: Objective, view: View) -> tuple[float, Seeds]:
+    """Return what an objective says of a state.
+
+    Raises
+    ------
+    CaseError
+        If that is not a finite number and its finite `Seeds`, of the shapes of what they are by.
+    """
+    name = getattr(objective, "__name__", type(objective).__name__)
+    answer: Any = objective(view)
+    match answer:
+        case (value, Seeds(wear=Mapping()) as seeds):
+            pass
+        case _:
+            raise CaseError(
+                f"{name} gave {answer!r}; an objective gives its value and Seeds, whose wear is by "
+                "body"
+            )
+    parts: list[tuple[str, Any, tuple[int, ...]]] = [
+        ("value", value, ()),
+        ("seed by time", seeds.time, ()),
+        ("seed by distance", seeds.distance, ()),
+    ]
+    if seeds.pressure is not None:
+        parts.append(("seed by pressure", seeds.pressure, view.pressure.shape))
+    for body, seed in seeds.wear.items():
+        parts.append((f"seed by the wear of {body}", seed, view.wear(body).shape))
+    for what, given, shape in parts:
+        array = as_numbers(given)
+        if array is not None and array.shape != shape:
+            raise CaseError(f"the {what} of {name} has the shape {array.shape}, not {shape}")
+        if array is None or not np.all(np.isfinite(array)):
+            raise CaseError(f"the {what} of {name} is NaN, infinite or no number")
+    return float(value), seeds
+
+
+def is_finite(value: object) -> bool:
+    """Whether something is a finite number."""
+    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def as_numbers(values: object) -> Array | None:
+    """Return an array of numbers; None of text, or of rows that are not alike."""
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):
+        return None
+    return array if array.dtype.kind in "fiu" else None
