@@ -2,6 +2,7 @@
 
 from importlib import metadata
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from packaging.version import Version
@@ -30,3 +31,8 @@ def test_a_deprecated_name_is_the_new_one_with_a_warning_at_its_use(monkeypatch)
         from tribo import LinearLaw
     assert LinearLaw is tribo.Archard
     assert caught[0].filename == __file__
+
+
+def test_the_notices_of_a_result_are_its_warnings():
+    with pytest.warns(DeprecationWarning, match="Result.warnings"):
+        assert tribo.Result.notices.fget(SimpleNamespace(warnings=("one",))) == ("one",)

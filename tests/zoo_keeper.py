@@ -110,7 +110,7 @@ def expect_one_message(done, bad):
             assert all(
                 np.isfinite(result.field("pressure", i)).all() for i in range(len(result.times))
             )
-            assert line.removeprefix("error: ") in result.notices[-1]
+            assert line.removeprefix("error: ") in result.warnings[-1]
 
 
 def expect_harmless(done):

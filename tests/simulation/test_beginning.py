@@ -228,7 +228,7 @@ def test_a_stopped_run_goes_on_to_the_same_bits_without_the_result_it_began_with
         with simulation.resume(tmp_path / "second.h5") as resumed:
             assert bits(resumed) == bits(whole)
             assert resumed.provenance["begun_with"] == whole.provenance["begun_with"]
-            assert resumed.notices[0].startswith(f"begin: the bodies begin as worn as in {first}")
+            assert resumed.warnings[0].startswith(f"begin: the bodies begin as worn as in {first}")
             assert len(resumed.provenance["begun_with"]["sha256"]) == 64
 
 
@@ -250,7 +250,7 @@ def test_a_run_that_began_with_what_is_another_file_by_now_is_neither_taken_nor_
 def test_a_depth_that_is_reached_already_ends_the_run_at_once(run_in):
     with Simulation(worn_case(begin=run_in, stop=Stop(depth=1e-9))).run() as result:
         assert (len(result.times), result.status) == (1, "done")
-        assert "ended at 0 s, where the wear depth reached 0.001 µm" in "".join(result.notices)
+        assert "ended at 0 s, where the wear depth reached 0.001 µm" in "".join(result.warnings)
 
 
 def test_worn_bodies_are_not_held_against_hertz(run_in):

@@ -61,7 +61,7 @@ def test_an_observer_ends_the_run_with_its_reason():
 
 def test_an_observer_of_the_run_alone_and_the_trial_of_a_check_end_it_too():
     result = case(archard(K)).run(observers=[Until()])
-    assert (result.status, result.notices[-1].split()[-1]) == ("done", "test.until")
+    assert (result.status, result.warnings[-1].split()[-1]) == ("done", "test.until")
     said = [each.words for each in predict(assemble(case(archard(K), (Until(),)))).problems]
     (foreseen,) = [each for each in said if each.endswith("ended by test.until")]
     assert foreseen.startswith("at ")

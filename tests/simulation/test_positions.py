@@ -112,7 +112,7 @@ def test_the_choice_is_told_once_and_kept():
         result = Simulation(given).run()
     with result:
         assert result.case_tables["kinematics"]["positions"] == 11
-        (words,) = [notice for notice in result.notices if notice.startswith("positions:")]
+        (words,) = [notice for notice in result.warnings if notice.startswith("positions:")]
         assert "from 20 on" in words
         # What is composed from the result has nothing left to choose.
         again = Simulation(result.case_tables).model

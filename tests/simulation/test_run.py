@@ -112,14 +112,14 @@ def test_a_run_may_end_at_a_depth(stepping, body):
     depth = result.saves()[-1]["bodies"][body]["max_wear_depth_m"]
     assert depth == pytest.approx(0.4e-6, rel=2e-6, abs=0)
     assert result.status == "done"
-    assert result.notices[-1].startswith("stop: ended at ")
+    assert result.warnings[-1].startswith("stop: ended at ")
 
 
 def test_a_run_says_that_it_has_not_worn_to_the_depth_at_which_it_is_to_end():
     result = Simulation(case(stop=Stop(depth="300 um"), kinematics=motion(duration=20))).run()
     depth = 1e6 * result.saves()[-1]["bodies"]["ball"]["max_wear_depth_m"]
     said = f"with a wear depth of {depth:.4g} µm; stop.depth, 300 µm, is not reached"
-    assert result.notices[-1] == f"stop: ended at 20 s {said}"
+    assert result.warnings[-1] == f"stop: ended at 20 s {said}"
 
 
 def test_a_contact_that_reaches_the_edge_stops_the_run_with_what_was_saved(tmp_path):
@@ -133,7 +133,7 @@ def test_a_contact_that_reaches_the_edge_stops_the_run_with_what_was_saved(tmp_p
         assert result.status == "failed"
         assert list(result.times[:2]) == [0, 5]
         assert np.all(np.isfinite(result.field("pressure", -1)))
-        assert result.notices[-1].startswith("failed: at ")
+        assert result.warnings[-1].startswith("failed: at ")
 
 
 @pytest.mark.parametrize(
@@ -168,7 +168,7 @@ def test_few_cells_are_warned_of_once_and_a_short_stroke_again_at_the_end():
     assert begins.startswith("averaging: at ")
     assert ends.startswith("averaging: at 200 s")
     # The end says what the beginning said, and more.
-    assert result.notices == (coarse, ends)
+    assert result.warnings == (coarse, ends)
 
 
 def test_the_cells_of_a_line_contact_are_counted_by_hertz_as_check_counts_them():

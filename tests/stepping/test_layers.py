@@ -26,7 +26,7 @@ FACTOR = {"factor": 2, "law": SLOW}
 
 def ended(case, **options):
     with Simulation(case).run(**options) as result:
-        return result.saves()[-1], result.notices, result.totals()
+        return result.saves()[-1], result.warnings, result.totals()
 
 
 def passed(case):

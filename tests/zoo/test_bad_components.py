@@ -119,4 +119,4 @@ def test_of_a_run_that_failed_already_the_first_cause_is_the_error(run):
     assert first.startswith("error: contact solver 'zoo.fails' gave a NoneType")
     with Result.open("case.h5") as result:
         assert result.status == "failed"
-        assert "zoo.fails'" in result.notices[-1]
+        assert "zoo.fails'" in result.warnings[-1]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from contextlib import ExitStack
 from io import BytesIO
@@ -170,9 +171,16 @@ class Result:
         return self._header.findings
 
     @property
-    def notices(self) -> tuple[str, ...]:
+    def warnings(self) -> tuple[str, ...]:
         """The findings, a sentence each."""
         return tuple(map(str, self.findings))
+
+    @property
+    def notices(self) -> tuple[str, ...]:
+        """The former name of `warnings`; tribo 0.3 has only that."""
+        words = "Result.notices is now Result.warnings; tribo 0.3 has only that"
+        warnings.warn(words, DeprecationWarning, stacklevel=2)
+        return self.warnings
 
     @property
     def worn_through(self) -> list[dict[str, Any]]:

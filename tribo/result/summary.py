@@ -26,7 +26,7 @@ def summary(result: Result) -> dict[str, Any]:
         "case": result.case_tables,
         "status": result.status,
         "provenance": result.provenance,
-        "notices": list(result.notices),
+        "notices": list(result.warnings),
         "totals": dict(result.totals()),
         "invariants": dict(result.worst()),
         "saves": rows,

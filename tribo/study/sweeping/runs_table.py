@@ -46,7 +46,7 @@ def tables(
         elif run.path.exists():
             try:
                 with Result.open(run.path) as result:
-                    message = "; ".join(result.notices)
+                    message = "; ".join(result.warnings)
                     kinds = "; ".join(each.kind for each in result.findings)
                     row["status"] = "done" if result.status == "done" else "interrupted"
                     if result.status == "done":
