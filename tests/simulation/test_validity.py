@@ -9,6 +9,7 @@ from paper_models import archard, flat, named, pair, pin, small, steel
 
 from tribo import Grid, Result, Simulation, TriboWarning
 from tribo.contact.periodic import Periodic
+from tribo.contact.winkler import FoundationLayer, Winkler
 from tribo.core.errors import OutOfWindow, TooWorn
 from tribo.motion.closed_track import Unidirectional
 from tribo.simulation.predict import predict
@@ -142,3 +143,10 @@ def test_impossible_wear_stops_a_run_and_a_check(tmp_path, metres, k, limit):
 def test_a_window_that_repeats_bounds_no_depth():
     repeats = {"contact": Periodic(), "grid": Grid((2e-3, 2e-3), (8, 8))}
     assert Simulation(sliding(10, 3e-11, **repeats, ends_at_window=False)).run().findings == ()
+
+
+def test_a_thin_layer_on_a_stiff_base_bounds_the_depth():
+    layer = FoundationLayer(thickness=0.1e-3, young=1e9, poisson=0.3)
+    with pytest.warns(TriboWarning, match="depth: at "):
+        (warned,) = Simulation(sliding(1, 2e-12, contact=Winkler(layer=layer))).run().findings
+    assert warned.limit == 0.1 * layer.thickness

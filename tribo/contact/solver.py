@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from collections.abc import Sequence
 from typing import Any, ClassVar
@@ -54,6 +55,11 @@ class ContactSolver(Component):
     plasticity: bool = True
     """Whether the pressure is limited to the hardness of the softer body; `system.cap` is None
     where it is not."""
+
+    @property
+    def thickness(self) -> float:
+        """Thickness of the elastic layer that wears, in m; infinite for half-spaces."""
+        return math.inf
 
     def check(self, system: ContactSystem) -> None:
         """Raise `CaseError` if this configuration cannot serve `system`."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi, sqrt
+from math import inf, pi, sqrt
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
@@ -204,6 +204,11 @@ class Winkler(ContactSolver):
                 "Keep one of modulus, layer and match"
             )
         return self
+
+    @property
+    def thickness(self) -> float:
+        """Thickness of the `layer`, in m; infinite without one."""
+        return inf if self.layer is None else self.layer.thickness
 
     accepts_wear_compliance: ClassVar[bool] = True
     honours_cap: ClassVar[bool] = True

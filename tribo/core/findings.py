@@ -114,10 +114,11 @@ def too_wide(body: str, ratio: float, radius: float, time: float) -> Finding:
 
 
 def too_deep(body: str, depth: float, size: float) -> Finding:
-    """Word a wear depth that is no small part of a radius or of the window's edge, both in m."""
+    """Word a wear depth that is no small part of a length of the contact, both in m."""
     words = (
         f"{body} is worn {1e6 * depth:.4g} µm deep, more than {DEEP:g} of {1e6 * size:.4g} µm, the "
-        "smallest of its radii and the window's edges; at the whole of it a run stops"
+        "smallest of its radii, the window's edges and an elastic layer; at the whole of it a run "
+        "stops"
     )
     return Finding("depth", words, value=depth, limit=DEEP * size, place=f"bodies.{body}")
 

@@ -239,7 +239,8 @@ def implausible(model: Model, state: State) -> Iterator[tuple[Finding, bool]]:
     for name in model.laws.wear:
         wear, exposure = state.bodies[name].wear, model.cycle.maps[name]
         radii = (1 / abs(each) for each in model.surfaces[name].curvature or () if each)
-        size, depth = min((*edges, *radii), default=np.inf), float(np.max(wear))
+        size = min((*edges, *radii, model.case.contact.thickness))
+        depth = float(np.max(wear))
         if depth > findings.DEEP * size:
             yield findings.too_deep(name, depth, size), depth >= size
         if (volume := exposure.volume(wear)) > findings.FAST * state.load_distance:
