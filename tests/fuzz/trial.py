@@ -38,7 +38,7 @@ KINDS = (
     *("mutated", "mutated", "plausible", "plausible", "plausible"),
     *("text", "override", "surface", "stop"),
 )
-FORMATS = ("opd", "sur", "x3p", "asc", "npy")
+FORMATS = ("opd", "x3p", "asc", "npy")
 
 
 @cache

@@ -96,7 +96,7 @@ LAW = '''
 def test_the_tests_pass_of_a_law_with_other_keys(fresh: Fresh, tmp_path: Path) -> None:
     copied = Path(shutil.copytree(fresh.folders["wear-law"], tmp_path / "other"))
     model = copied / "src" / "acme_fretting" / "fretting.py"
-    before, _ = model.read_text().split("\n    model_config")
+    before, _ = model.read_text().split("\n    examples")
     model.write_text(before + LAW)
     said = run(
         *(fresh.python, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-W", "error"),
