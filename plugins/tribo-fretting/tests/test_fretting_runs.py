@@ -100,7 +100,7 @@ REFUSED = {
     ),
     "long": ({"amplitude": "100 um"}, "reciprocating"),
     "long stage": ({"amplitude": LONG}, r"amplitude\.1\.amplitude: .*reciprocating"),
-    "narrow": ({"amplitude": "1 um"}, "1.8 cells wide"),
+    "narrow": ({"amplitude": "1 um"}, "2 cells wide"),
     "sticks": ({"amplitude": "1 nm"}, "0 cells wide"),
     "two ends": ({"motion": {"duration": "1 s"}}, "exactly one"),
     "short stages": ({"amplitude": STAGES, "motion": {"cycles": 2e5}}, "5000 s"),
