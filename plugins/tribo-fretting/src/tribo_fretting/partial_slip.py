@@ -96,6 +96,8 @@ class PartialSlip(Effect, Drive):
         """Return the limit μp, the first loading and the amplitude."""
         friction = next(iter(contact.fields["friction_coefficient"].values()))
         cap, pressure, materials = contact.system.cap, contact.pressure, contact.materials
+        if np.any(friction[pressure > 0] == 0):
+            raise CaseError("friction is 0 at a point of the contact; give more than 0", "friction")
         if cap is not None and np.max(pressure) >= cap * (1 - 1e-9):
             raise CaseError(
                 f"the pressure reaches the hardness of {cap / 1e9:.3g} GPa, where friction does "
@@ -105,9 +107,8 @@ class PartialSlip(Effect, Drive):
         coupled = abs(dundurs_beta(materials.values())) * float(np.max(friction))
         if coupled > UNLIKE:
             raise CaseError(
-                f"the materials are too unlike: without the coupling of traction and pressure the "
-                f"pressure would be off by about {100 * coupled:.2g} % (Dundurs' |β| times μ; "
-                f"{100 * UNLIKE:g} % is allowed)",
+                "the materials are too unlike: traction changes the pressure by about "
+                f"{100 * coupled:.2g} % (Dundurs' |β| times μ); {100 * UNLIKE:g} % is allowed",
                 "bodies",
             )
         limit, amplitude = friction * pressure, self.amplitude_at(contact.time)
