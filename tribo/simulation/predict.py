@@ -174,7 +174,7 @@ def _stopping(
         check_filling(model, state)
         warned = model.case.stepping.check(model, state)
         effect_fields(model, state)
-    except CaseError as error:
+    except (CaseError, NumericalError) as error:
         stopping.append((error.exit_code, would_stop(f"at once: {error}", 0.0, end)))
     try:
         start_sliding(model, state)
