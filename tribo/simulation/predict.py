@@ -17,6 +17,7 @@ from tribo.core.findings import Finding, outgrown, trial_failed, worn_through, w
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.core.state import State
+from tribo.evolution.local_fields import effect_fields
 from tribo.guards.guard import Guard
 from tribo.guards.trial_time import limited
 from tribo.lab.against_hertz import HertzContact, hertz_contact
@@ -172,7 +173,8 @@ def _stopping(
     try:
         check_filling(model, state)
         warned = model.case.stepping.check(model, state)
-    except CaseError as error:
+        effect_fields(model, state)
+    except (CaseError, NumericalError) as error:
         stopping.append((error.exit_code, would_stop(f"at once: {error}", 0.0, end)))
     try:
         start_sliding(model, state)

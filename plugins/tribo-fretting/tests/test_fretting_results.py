@@ -46,7 +46,7 @@ def test_pictures_show_loops_and_slip(result):
     lines = pictures["fretting_loops"].axes[0].lines
     assert [line.get_label() for line in lines] == ["0 cycles", "100 cycles"]
     cycle = SavedCycle(result, motion_of(result), -1)
-    shown = pictures["slip_map"].axes[0].collections[0].get_array()
+    shown = pictures["slip_map"].axes[0].images[0].get_array()
     assert np.nanmax(shown) == pytest.approx(1e6 * cycle.slip.max(), rel=1e-9, abs=0)
     assert np.count_nonzero(shown == 0) == np.count_nonzero(cycle.stuck)
 

@@ -6,7 +6,7 @@ from fretting_problems import LOAD, MU, STEEL, K, ball, case
 from tribo import Case, CaseError, Simulation
 from tribo.study.check import check_case
 
-from tribo_fretting.closed_forms import shift, worn_load_share
+from tribo_fretting.closed_forms import shift
 from tribo_fretting.motion import Fretting
 
 
@@ -56,6 +56,19 @@ def test_the_energy_law_wears_by_the_slip():
     assert dissipating == pytest.approx(plain, rel=1e-6, abs=0)
 
 
+def test_running_in_goes_with_the_slip_of_each_point():
+    # k is so small that the pressure stays: D is the depth over k.
+    k, over, factor = 1e-20, 1e8, 4.0
+    law = {"type": "archard", "k": k}
+    laws = law, {"type": "running_in", "law": law, "factor": factor, "over": over}
+    plain, fresh = (
+        Simulation(case(32, law=law)).run().field("wear_depth", -1, "ball") for law in laws
+    )
+    more = (factor - 1) * k * over * (1 - np.exp(-plain / (k * over)))
+    assert 0.5 < np.max(plain) / (k * over) < 10
+    assert fresh == pytest.approx(plain + more, abs=1e-4 * fresh.max())
+
+
 @pytest.mark.parametrize("held", [{"stiffness": "50 N/um"}, {"force_amplitude": 0.8 * MU * LOAD}])
 def test_a_rig_and_a_force_amplitude_set_the_force(held):
     steel = ball(8)
@@ -84,6 +97,7 @@ ALUMINIUM = {"young": "70 GPa", "poisson": 0.33}
 LAYER = {"thickness": "1 um", "young": "400 GPa"}
 REFUSED = {
     "no friction": ({"friction": None}, "coefficient of friction"),
+    "friction of 0": ({"friction": {"coefficient": 0}}, "friction is 0"),
     "springs": ({"contact": {"type": "winkler", "modulus": 1e15}}, "winkler"),
     "repeating": ({"contact": {"type": "periodic"}}, "periodic"),
     "layer": (
@@ -100,7 +114,7 @@ REFUSED = {
     ),
     "long": ({"amplitude": "100 um"}, "reciprocating"),
     "long stage": ({"amplitude": LONG}, r"amplitude\.1\.amplitude: .*reciprocating"),
-    "narrow": ({"amplitude": "1 um"}, "1.8 cells wide"),
+    "narrow": ({"amplitude": "1 um"}, "2 cells wide"),
     "sticks": ({"amplitude": "1 nm"}, "0 cells wide"),
     "two ends": ({"motion": {"duration": "1 s"}}, "exactly one"),
     "short stages": ({"amplitude": STAGES, "motion": {"cycles": 2e5}}, "5000 s"),
@@ -131,29 +145,7 @@ def test_what_partial_slip_is_not_for_is_refused_in_one_line(name):
 
 def test_a_check_finds_a_narrow_ring_and_its_trial_on_coarse_cells_goes_on():
     found = check_case(Case.model_validate(case(amplitude="1 um")))
-    (problem,) = (each for each in found.problems if each.kind == "partial slip")
-    assert problem.place == "kinematics.amplitude"
+    (problem,) = (each for each in found.problems if each.kind == "stop")
+    assert "kinematics.amplitude: " in problem.words
+    assert found.exit_code == CaseError.exit_code
     assert found.data["last"]["bodies"]["ball"]["wear_volume"] > 0
-
-
-def test_in_the_end_the_ball_stands_on_what_sticks():
-    # ν = 0: the ring of slip has worn until it bears nothing (MDR); E* is E/2.
-    cork = {**STEEL, "poisson": 0.0}
-    first = ball(8, poisson=0.0)
-    moved = shift(0.875, MU * LOAD, first.contact_radius, first.compliance)
-    coarse = {"type": "implicit", "depth_tolerance": 0.02, "pressure_tolerance": 0.3}
-    wears = case(32, moved, k=3e-13, size=3.4 * first.contact_radius, stepping=coarse)
-    for body in wears["bodies"].values():
-        body["material"] = cork
-    result = Simulation(wears).run()
-    approach, pressure = result.saves()[-1]["approach_m"], result.field("pressure", -1)
-    stuck = (pressure > 0) & (result.field("local_slip", -1, "ball") == 0)
-    assert np.sum(pressure[stuck]) >= 0.999 * np.sum(pressure)
-    radius = np.sqrt(stuck.sum() * result.grid.cell_area / np.pi)
-    whole = np.sqrt(10e-3 * approach)
-    unworn = 4 / 3 * 103.5e9 * np.sqrt(10e-3) * approach**1.5
-    low, high = (
-        unworn * worn_load_share((radius + way * 0.5 * result.grid.spacing[0]) / whole)
-        for way in (-1, 1)
-    )
-    assert low <= LOAD <= high

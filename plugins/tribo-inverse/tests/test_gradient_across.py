@@ -103,7 +103,7 @@ STEEL = {"young": "207 GPa", "poisson": 0.3}
 def fretting(**motion):
     """A ball of 10 mm on a flat under 100 N, in a few steps."""
     pytest.importorskip("tribo_fretting")
-    moves = {"type": "fretting.motion", "frequency": "20 Hz", "cycles": 4e4, "tolerance": 1e-12}
+    moves = {"type": "fretting.motion", "frequency": "20 Hz", "cycles": 4e4}
     return Case.model_validate(
         {
             "grid": {"size": "0.5 mm", "cells": 24},

@@ -47,20 +47,14 @@ def coefficients(
     Johnson, K. L. (1985), Contact Mechanics, section 3.6 (Cerruti), integrated over a rectangle.
     """
     # Corners lie half a cell off, so that none has x = 0 or y = 0.
-    x, y = ((np.arange(n // 2 + 2) - 0.5) * d for n, d in zip(shape, spacing, strict=True))
+    x, y = ((np.arange(n + 1) - n // 2 - 0.5) * d for n, d in zip(shape, spacing, strict=True))
     x, y = x[:, None], y[None, :]
     # arcsinh(x/|y|) is ln(x + r) less ln |y|, which the differences along x take out.
     along, across = y * np.arcsinh(x / np.abs(y)), x * np.arcsinh(y / np.abs(x))
     whole, less = compliances[0], compliances[0] - compliances[1]
     corners = [whole * along + less * across, less * along + whole * across]
     corners.append(-compliances[1] * np.hypot(x, y))
-    quarters = np.diff(np.diff(np.array(corners), axis=1), axis=2)
-    i, j = (np.arange(n) for n in shape)
-    near = np.ix_(np.minimum(i, shape[0] - i), np.minimum(j, shape[1] - j))
-    wrapped = np.array([quarter[near] for quarter in quarters])
-    odd = (np.sign(n - 2 * at) * (at > 0) for n, at in zip(shape, (i, j), strict=True))
-    wrapped[2] *= np.outer(*odd)
-    return wrapped
+    return np.fft.ifftshift(np.diff(np.diff(corners, axis=1), axis=2), axes=(1, 2))
 
 
 class Cerruti:
@@ -108,9 +102,7 @@ class Cerruti:
 
     def preconditioned(self, slip: Array) -> Array:
         """Return about the traction that gives a displacement, both (components, nx, ny)."""
-        modes = scipy.fft.rfft2(slip)
-        modes /= self._symbols
-        return np.asarray(scipy.fft.irfft2(modes, slip.shape[-2:]))
+        return np.asarray(scipy.fft.irfft2(scipy.fft.rfft2(slip) / self._symbols, self.shape))
 
 
 cerruti = lru_cache(maxsize=16)(Cerruti)

@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 from tribo import Array, Mask, Material, Result
 
-from tribo_fretting.loading import first_loading
 from tribo_fretting.motion import Fretting
 
 POINTS = 16
@@ -78,16 +77,12 @@ class SavedCycle:
 
         From the first loading, by Masing's rule: the branches are twice as large.
         """
-        first = [(0.0, 0.0)]
-        for part in np.linspace(0.0, 1.0, POINTS + 1)[1:]:
-            amplitude, grid = float(part) * self.amplitude, self.result.grid
-            limit = self.friction * self.pressure
-            drag = first_loading(self.motion, grid, self.materials, limit, amplitude)
-            force = float(np.sum(drag.traction[0])) * self.result.grid.cell_area
-            rig = force / self.motion.stiffness if self.motion.stiffness else 0.0
-            first.append((drag.displacement + rig, force))
-        one = np.array(first)
-        back = one[-1] - 2 * one
+        grid, limit = self.result.grid, self.friction * self.pressure
+        first = np.zeros((POINTS + 1, 2))
+        for point, amplitude in enumerate(np.linspace(0, self.amplitude, POINTS + 1)[1:], 1):
+            drag = self.motion.first_loading(grid, self.materials, limit, float(amplitude))
+            first[point] = drag.displacement, np.sum(drag.traction[0]) * grid.cell_area
+        back = first[-1] - 2 * first
         moved, force = np.concatenate([back, -back]).T
         return moved, force
 

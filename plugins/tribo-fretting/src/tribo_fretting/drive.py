@@ -1,13 +1,20 @@
-"""What drags the contact: an amplitude, one or in stages, a rig, and a largest force."""
+"""What drags a contact to and fro, and the first loading from rest that a whole cycle follows."""
 
 from __future__ import annotations
 
 from bisect import bisect_left
+from collections.abc import Mapping
+from functools import lru_cache
 from typing import Annotated, Literal, Self
 
+import numpy as np
 from pydantic import Tag, model_validator
-from tribo import Quantity, Table
-from tribo.kernel_api import NUMBER, ONE_OR_STAGES, STAGES, Held, held
+from scipy.optimize import brentq
+from tribo import Array, Grid, Material, Quantity, Table
+from tribo.kernel_api import NUMBER, ONE_OR_STAGES, STAGES, Held, around, held, readonly
+
+from tribo_fretting.cerruti import cerruti, tangential_compliances
+from tribo_fretting.projected_cg import TOLERANCE, Drag, dragged
 
 Amplitude = Annotated[float, Quantity("m", above=0, usual=(1e-10, 1e-3))]
 
@@ -37,8 +44,6 @@ class Drive(Table):
     """Tangential force at which the motion turns back before its amplitude is reached."""
     direction: Literal["free", "along"] = "along"
     """Whether points slip along x alone, as in closed forms, or as their traction leads them."""
-    tolerance: Annotated[float, Quantity("1", above=1e-13, below=1e-3)] = 1e-9
-    """How exactly points stick, relative to the displacement."""
     allow_narrow_ring: bool = False
     """Whether a first contact is accepted whose ring of slip is narrower than four cells."""
 
@@ -68,3 +73,48 @@ class Drive(Table):
     def components(self) -> int:
         """How many components the traction has."""
         return 2 if self.direction == "free" else 1
+
+    def rig(self, grid: Grid) -> float:
+        """Return by how much the rig gives way under a traction of 1 on one cell, in m/Pa."""
+        return grid.cell_area / self.stiffness if self.stiffness else 0.0
+
+    def first_loading(
+        self, grid: Grid, materials: Mapping[str, Material], limit: Array, amplitude: float
+    ) -> Drag:
+        """Drag a contact from rest to the reversal, where the traction is q₁ and the slip s₁.
+
+        Under a steady pressure a motion between ±δ leads to the tractions ±q₁, and each point slips
+        4 s₁ a cycle: Masing's rule. With a rig the contact moves by δ less Q/k; with a force
+        amplitude δ is less, if Q reaches it.
+
+        The limit μp (Pa) has the shape of the grid, the amplitude δ is in m. The answer has both
+        components of the traction, and beyond the contact the slip of a point that comes to touch.
+        """
+        compliances = tangential_compliances(materials.values())
+        return _first_loading(self, grid, compliances, limit.tobytes(), amplitude)
+
+
+@lru_cache(maxsize=8)
+def _first_loading(
+    drive: Drive, grid: Grid, compliances: tuple[float, float], limits: bytes, amplitude: float
+) -> Drag:
+    limit, rig = np.frombuffer(limits).reshape(grid.cells), drive.rig(grid)
+    box = around(limit > 0, 0)
+    operator = cerruti(box.shape, grid.spacing, compliances, drive.components, rig)
+
+    def loaded(displacement: float) -> Drag:
+        return dragged(operator, displacement, limit[box.slices])
+
+    def excess(displacement: float) -> float:
+        force = np.sum(loaded(displacement).traction[0]) if displacement else 0.0
+        return float(force) * grid.cell_area - (drive.force_amplitude or np.inf)
+
+    if drive.force_amplitude and excess(amplitude) > 0:
+        amplitude = brentq(excess, 0.0, amplitude, xtol=TOLERANCE * amplitude)
+    inside = loaded(amplitude)
+    traction = np.zeros((2, *grid.cells))
+    traction[: drive.components] = box.embed(inside.traction)
+    moved = cerruti(grid.cells, grid.spacing, compliances, 2, rig).apply(traction)
+    beyond = np.hypot(amplitude - moved[0], moved[1] * (drive.components - 1))
+    slip = np.where(limit > 0, box.embed(inside.slip), beyond)
+    return Drag(amplitude, readonly(traction), readonly(slip), inside.iterations)

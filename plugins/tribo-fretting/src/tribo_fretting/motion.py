@@ -7,7 +7,7 @@ from dataclasses import replace
 from math import inf
 from typing import Annotated, Self
 
-from pydantic import ConfigDict, model_validator
+from pydantic import model_validator
 from tribo import Effect, Exposure, Grid, Kinematics, Quantity, Stationary
 from tribo.kernel_api import Held
 
@@ -22,10 +22,7 @@ class Fretting(Kinematics, Drive):
     slip that the motion brings along, `fretting.partial_slip`.
     """
 
-    model_config = ConfigDict(
-        json_schema_extra={"examples": [{"amplitude": "3 um", "frequency": "20 Hz", "cycles": 1e5}]}
-    )
-
+    examples = ({"amplitude": "3 um", "frequency": "20 Hz", "cycles": 1e5},)
     type = "fretting.motion"
     turns_back = True
     frequency: Annotated[float, Quantity("Hz", above=0, usual=(1e-6, 1e5))]

@@ -13,15 +13,16 @@ ON_RIM = 1e-12
 """Relative distance from the rim of its disc within which a traction is on it."""
 MOST = 500
 """Iterations."""
+TOLERANCE = 1e-9
+"""What the slip within the discs and along their rims must fall to, relative to δ."""
 
 
 @dataclass(frozen=True)
 class Drag:
     """A contact that was dragged along x from a traction of 0.
 
-    By a displacement, in m, to a traction in Pa, shape (components, nx, ny). Points have slipped by
-    `slip` (nx, ny), in m: 0 where they stick. An iteration costs two calls of the operator, one
-    where no cell meets its rim.
+    By a displacement of what drags it, in m, to a traction in Pa, shape (components, nx, ny).
+    Points have slipped by `slip` (nx, ny), in m: 0 where they stick.
     """
 
     displacement: float
@@ -30,19 +31,13 @@ class Drag:
     iterations: int
 
 
-def dragged(
-    operator: Cerruti,
-    displacement: float,
-    limit: Array,
-    start: Array | None = None,
-    tolerance: float = 1e-9,
-) -> Drag:
+def dragged(operator: Cerruti, displacement: float, limit: Array) -> Drag:
     """Minimise ½ qᵀA q − δ Σ qₓ over |q| ≤ μp in each cell.
 
     The gradient is the slip δ − A q reversed: it is 0 within the disc, and points outward on its
-    rim. Preconditioned conjugate gradients move the cells within their discs; on a rim the cells
-    move along it alone. There its curvature adds λ/(μp) to the stiffness, with the slip λ: without
-    that the tractions of two components do not converge.
+    rim. Preconditioned conjugate gradients move the cells within their discs, from μp along x on;
+    on a rim the cells move along it alone. There its curvature adds λ/(μp) to the stiffness, with
+    the slip λ: without that the tractions of two components do not converge.
 
     Parameters
     ----------
@@ -52,10 +47,6 @@ def dragged(
         δ along x, in m; positive.
     limit : ndarray, shape (nx, ny)
         μp, in Pa; 0 beyond the contact.
-    start : ndarray, shape (components, nx, ny), optional
-        A traction to start from; if left out, 0, or μp along x where all points slip under that.
-    tolerance : float
-        What the slip within the discs and along their rims must fall to, relative to δ.
 
     Raises
     ------
@@ -66,14 +57,10 @@ def dragged(
     drive[0] = displacement
     pressed = limit > 0
     safe = np.where(pressed, limit, 1.0)
-    if start is None:
-        start = np.zeros((operator.components, *limit.shape))
-        start[0] = limit
-        if np.any(operator.apply(start)[0] > displacement):
-            start[0] = 0.0
-    q = _on_discs(start, limit)
+    q = np.zeros((operator.components, *limit.shape))
+    q[0] = limit
     moved = operator.apply(q)
-    direction = before = None
+    direction = before = np.zeros_like(q)
     was_sliding, decrease = np.zeros_like(pressed), 1.0
     for iteration in range(MOST + 1):
         slip = drive - moved
@@ -83,16 +70,14 @@ def dragged(
         normal *= sliding
         residual = pressed * slip - outward * normal
         error = float(np.max(np.abs(residual)))
-        if error <= tolerance * displacement:
+        if error <= TOLERANCE * displacement:
             return Drag(displacement, q, np.where(sliding, outward, 0.0), iteration)
         curved = np.where(sliding, outward / safe, 0.0)
         scale = pressed / np.sqrt(1 + curved / operator.typical)
         z = tangent(scale * operator.preconditioned(scale * residual), normal)
-        if direction is None or not np.array_equal(sliding, was_sliding):
-            direction = z
-        else:
-            beta = max(0.0, float(np.sum(z * (residual - before))) / decrease)
-            direction = z + beta * tangent(direction, normal)
+        goes_on = np.array_equal(sliding, was_sliding)
+        beta = max(0.0, float(np.sum(z * (residual - before))) / decrease) if goes_on else 0.0
+        direction = z + beta * tangent(direction, normal)
         decrease, before, was_sliding = float(np.sum(residual * z)), residual, sliding
         response = operator.apply(direction)
         stiffness = np.sum(direction * (response + curved * direction))
@@ -103,8 +88,7 @@ def dragged(
         moved = moved + length * response if np.array_equal(q, ahead) else operator.apply(q)
     raise NumericalError(
         f"partial slip did not converge in {MOST} iterations: slip is off by "
-        f"{error / displacement:.1e} of the displacement, allowed are {tolerance:.1e}; raise "
-        "kinematics.tolerance"
+        f"{error / displacement:.1e} of the displacement, allowed are {TOLERANCE:.1e}"
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from math import pi
 
 import numpy as np
@@ -29,28 +30,22 @@ def pulled_back(
     is n (q̂ − A v), and −v q in A.
     """
     grid, materials = contact.grid, contact.materials
-    rig = grid.cell_area / drive.stiffness if drive.stiffness else 0.0
-
-    def operator(compliances: tuple[float, float], rig: float = 0.0) -> Cerruti:
-        return cerruti(grid.cells, grid.spacing, compliances, drive.components, rig)
-
-    a = operator(tangential_compliances(materials.values()), rig)
+    operator = partial(cerruti, grid.cells, grid.spacing, components=drive.components)
+    rig = drive.rig(grid)
+    a = operator(tangential_compliances(materials.values()), rig=rig)
     q, pressed, slips = drag.traction[: drive.components], limit > 0, drag.slip > 0
-    force = float(np.sum(q[0]))
-    moved, pull = drag.displacement + rig * force, np.zeros_like(by)
+    force, pull = float(np.sum(q[0])), np.zeros_like(by)
     pull[1] = 1.0
     safe = np.where(pressed, limit, 1.0)
     normal = np.where(pressed & slips, q / safe, 0.0)
-    beyond = (moved * pull[1:] - a.apply(q)) / np.where(slips, drag.slip, 1.0)
+    beyond = (drag.displacement * pull[1:] - a.apply(q)) / np.where(slips, drag.slip, 1.0)
 
     def adjoint(by: Array) -> Array:
         direct: Array = by[0] * np.where(pressed, normal, beyond)
         return direct + _response(a, by[1:] - a.apply(direct), pressed, normal, drag.slip / safe)
 
     v, numbers = adjoint(by), dict[str, float]()
-    if drive.force_amplitude and (
-        force * grid.cell_area / drive.force_amplitude > moved / drive.amplitude_at(contact.time)
-    ):
+    if drag.displacement < drive.amplitude_at(contact.time):
         # The force is held, not the amplitude.
         of_force = adjoint(pull)
         by_force = float(np.sum(v[0]) / np.sum(of_force[0]))
