@@ -137,7 +137,7 @@ class Component(Table, ABC):
         named = {"const": cls.type, "default": cls.type, "title": "Type", "type": "string"}
         made["properties"] = {"type": named, **made.get("properties", {})}
         if cls.examples:
-            made["examples"] = list(cls.examples)
+            made.setdefault("examples", list(cls.examples))
         return made
 
     def __eq__(self, other: object) -> bool:

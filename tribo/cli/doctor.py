@@ -18,7 +18,7 @@ SHORT = ("grid={ size = 0.7e-3, cells = 64 }", "kinematics.duration=20", "output
     "--time-limit",
     type=float,
     metavar="SECONDS",
-    help="Time of a plugin's import.  [default: TRIBO_PLUGIN_TIME_LIMIT, or 60]",
+    help="CPU time of a plugin's import.  [default: TRIBO_PLUGIN_TIME_LIMIT, or 30 times tribo's]",
 )
 def doctor(as_json: bool, time_limit: float | None) -> None:
     """Test the installation, and try every plugin anew, in another process.

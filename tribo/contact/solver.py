@@ -57,7 +57,7 @@ class ContactSolver(Component):
     where it is not."""
 
     @property
-    def thickness(self) -> float:
+    def layer_thickness(self) -> float:
         """Thickness of the elastic layer that wears, in m; infinite for half-spaces."""
         return math.inf
 

@@ -206,7 +206,7 @@ class Winkler(ContactSolver):
         return self
 
     @property
-    def thickness(self) -> float:
+    def layer_thickness(self) -> float:
         """Thickness of the `layer`, in m; infinite without one."""
         return inf if self.layer is None else self.layer.thickness
 

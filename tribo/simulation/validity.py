@@ -239,7 +239,7 @@ def implausible(model: Model, state: State) -> Iterator[tuple[Finding, bool]]:
     for name in model.laws.wear:
         wear, exposure = state.bodies[name].wear, model.cycle.maps[name]
         radii = (1 / abs(each) for each in model.surfaces[name].curvature or () if each)
-        size = min((*edges, *radii, model.case.contact.thickness))
+        size = min((*edges, *radii, model.case.contact.layer_thickness))
         depth = float(np.max(wear))
         if depth > findings.DEEP * size:
             yield findings.too_deep(name, depth, size), depth >= size
