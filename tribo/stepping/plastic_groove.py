@@ -1,4 +1,4 @@
-"""Plastic depth: what yields in contact, and the groove that it leaves along a track."""
+"""Plastic depth: the yielding in contact, and the groove that it leaves along a track."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def yielded(
     contacts: Sequence[ContactSolution],
     places: Sequence[int],
 ) -> dict[str, BodyState]:
-    """Return the bodies with what yields at some positions, once where these overlap."""
+    """Return the bodies after yielding at some positions, counted once where these overlap."""
     if not yields(contacts):
         return dict(bodies)
     model.tell(Yielded(places))
