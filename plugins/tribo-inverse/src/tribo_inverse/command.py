@@ -191,7 +191,7 @@ def _print_run(what: str, run: int, misfit: float = math.nan) -> None:
 
 
 def _print_pass(count: int, misfit: float) -> None:
-    """Print the number of a run and pass back, which is for the map or for what is sure of it."""
+    """Print the number of a run with adjoint, for the map or for its standard deviation."""
     if math.isnan(misfit):
         click.echo(f"run and pass back {count}: for standard deviations", err=True)
     else:

@@ -65,7 +65,7 @@ def depth_fit(found: LocalMap, title: str = "") -> Figure:
 
 
 def _places(values: Array, spacing: tuple[float, float]) -> Array:
-    """Return where the cells of a row lie along y, in µm."""
+    """Return the positions of the cells of a row along y, in µm."""
     cells = np.arange(values.size) - 0.5 * (values.size - 1)
     return np.asarray(1e6 * spacing[1] * cells)
 

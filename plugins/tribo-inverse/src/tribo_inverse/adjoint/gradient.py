@@ -22,7 +22,7 @@ from tribo_inverse.recording.local import factor_shape, localised
 from tribo_inverse.recording.tape import Tape, recorded
 
 FURTHEST = 30.0
-"""Change of the logarithm of a number beyond which no case is asked for."""
+"""Largest change of the logarithm of a number that is evaluated."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Gradient:
     refused: Mapping[str, str]
 
     def __str__(self) -> str:
-        """Return which numbers rule the objective, in per cent for one per cent, as lines."""
+        """Return lines with the influence of numbers on the objective, in % for 1 %."""
         ranked = sorted(self.relative.items(), key=lambda item: -abs(item[1]))
         width = max((len(path) for path in self.relative), default=0)
         lines = [f"{path:{width}}  {percent:+.3f} % for 1 %" for path, percent in ranked]
@@ -83,17 +83,17 @@ def gradient(
 ) -> Gradient:
     """Run a case; return the derivatives of a number of its result in every input.
 
-    They are exact for the steps that the run took (the discrete adjoint): their ends are held at
-    the same parts of the time between saves. One solve more a step gives all derivatives, and two
-    where a depth ends the run, which is then as long as it takes to wear to that depth.
+    They are exact for the steps that the run took (the discrete adjoint): their ends stay at
+    the same parts of the time between saves. One more solve a step gives all derivatives, and two
+    where a depth ends the run, whose duration then depends on the inputs.
 
     Parameters
     ----------
     case : Case, Mapping, str, Path or Model
         As `Simulation` takes it.
     objective : callable, or Mapping of float to callable
-        What is differentiated, at the end of the run; or the sum of several, by the time (s) of the
-        save that each looks at. See `tribo_inverse.adjoint.objective`.
+        The number at the end of the run; or the sum of several numbers, by the saved time (s) of
+        each. See `tribo_inverse.adjoint.objective`.
     wrt : sequence of str, optional
         Paths of numbers, as ``bodies.ball.wear.k``; ``*`` stands for each body. All numbers of
         bodies, load, motion, friction and contact, and ``stop.depth``, if left out.
@@ -104,13 +104,13 @@ def gradient(
     Returns
     -------
     Gradient
-        With the maps, which cost nothing more.
+        With the maps, at no further cost.
 
     Raises
     ------
     CaseError
-        If the case has parts through which no gradient goes, or a path leads to no number, or to
-        one in which there is no derivative.
+        If the case has parts without a gradient, or a path leads to no number or to a number
+        without a derivative.
     NumericalError
         If the run fails.
     """
@@ -237,7 +237,7 @@ def _deepest(model: Model, end: State) -> Seeds:
 def _chains(
     model: Model, wrt: Sequence[str] | None, factors: Mapping[str, Array]
 ) -> tuple[list[Chain], dict[str, str]]:
-    """Return what each number changes; and by path why one of all has no derivative."""
+    """Return the chain of each number; and by path why a number has no derivative."""
     chains, refused = list[Chain](), dict[str, str]()
     for path, places, value in find(model.case, wrt):
         try:
@@ -252,12 +252,12 @@ def _chains(
 def _looks(
     objective: Objective | Mapping[float, Objective], end_time: float
 ) -> Mapping[float, Objective]:
-    """Return objectives by the time (s) that they look at; refuse what is none."""
+    """Return objectives by their saved time (s); refuse invalid objectives."""
     looks = objective if isinstance(objective, Mapping) else {end_time: objective}
     for time in looks:
         if not is_finite(time):
             raise CaseError(
-                f"an objective is to look at the time {time!r}; give a number, that of a save in s"
+                f"the objective has the time {time!r}, which is no number; give a saved time, in s"
             )
     for look in looks.values() or [None]:
         if not callable(look) or isinstance(look, type):
@@ -276,8 +276,8 @@ def value_and_gradient(
 ) -> ValueAndGradient:
     """Return an objective with its gradient, for ``scipy.optimize.minimize(…, jac=True)``.
 
-    Unknown are the logarithms of numbers of the case, relative to what they are there, and of
-    factors on wear rates at each cell of bodies: one vector, which begins with `start`, all 0.
+    The unknowns are the logarithms of numbers of the case, relative to their values there, and of
+    factors on wear rates at each cell of bodies: one vector, whose `start` is all 0.
 
     Parameters
     ----------
@@ -328,7 +328,7 @@ class ValueAndGradient:
     def at(self, unknowns: Array) -> tuple[Case, dict[str, Array]]:
         """Return the case and the factors on wear rates, by body, for a vector of unknowns.
 
-        `CaseError` if it has another length than `start`, or a number that the case may not have.
+        `CaseError` if its length differs from `start`, or the case refuses a number.
         """
         if np.shape(unknowns) != self.start.shape:
             raise CaseError(f"{np.size(unknowns)} unknowns were given; start has {self.start.size}")
