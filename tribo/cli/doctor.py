@@ -21,7 +21,7 @@ SHORT = ("grid={ size = 0.7e-3, cells = 64 }", "kinematics.duration=20", "output
     help="Time of a plugin's import.  [default: TRIBO_PLUGIN_TIME_LIMIT, or 60]",
 )
 def doctor(as_json: bool, time_limit: float | None) -> None:
-    """Test the installation, and try every plugin anew, in another process.
+    """Test the installation, and try every plugin in a new process.
 
     Exit codes: 0 all is well, 3 something is not.
 

@@ -14,9 +14,9 @@ from tribo.cli.options import PLUGIN, RESULT
 @PLUGIN
 @click.option("--allow-changed", is_flag=True, help="Go on with other versions of components.")
 def resume(output: Path, allow_changed: bool) -> None:
-    """Go on with the stopped run whose result file is OUTPUT.
+    """Continue the stopped run whose result file is OUTPUT.
 
-    The result has the same bits as that of a run that was never stopped.
+    The result has the same bits as the result of a run that was never stopped.
 
     \b
     Example:

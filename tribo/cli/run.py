@@ -23,7 +23,7 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     Example:
       tribo run my.toml --set grid.cells=128 --set contact.type=winkler -o winkler.h5
 
-    Ctrl-C stops cleanly; 'tribo resume' goes on. Exit codes: 0 done, 2 bad
+    Ctrl-C stops cleanly; 'tribo resume' continues. Exit codes: 0 done, 2 bad
     input, 3 numerical failure or output that cannot be written, 130
     interrupted.
     """

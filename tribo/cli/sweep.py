@@ -37,13 +37,13 @@ def sweep(
     yes: bool,
     as_json: bool,
 ) -> None:
-    """Run the cases of STUDY, a TOML file that says what varies, in parallel.
+    """Run the cases of STUDY, a TOML file with the values that vary, in parallel.
 
     Every case is validated before any is run. Afterwards the folder holds
     runs.csv (a row a run), saves.csv (a row a save), the folder results and,
     where curves say it, a picture of the depth of each worn body. A
-    failing run is recorded and the others go on. A sweep that was stopped, or
-    whose study has grown, goes on with the same command.
+    failing run is recorded and the others continue. A sweep that was stopped,
+    or whose study has grown, continues with the same command.
 
     \b
     Example:

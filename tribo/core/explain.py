@@ -91,7 +91,7 @@ def explained(
 
 
 def _unknown(key: object, allowed: Sequence[str], data: object) -> tuple[str, str | None]:
-    """Return what to say of an unknown key, and the key that it is likely to mean."""
+    """Return the message for an unknown key, and the key that it is likely to mean."""
     given = data if isinstance(data, Mapping) else {}
     # One that is there already may still be meant: an override adds its key beside it.
     like = did_you_mean(key, [name for name in allowed if name not in given])
@@ -102,7 +102,7 @@ def _unknown(key: object, allowed: Sequence[str], data: object) -> tuple[str, st
 def case_error(error: ValidationError) -> WrongValues:
     """Return pydantic's error as one exception, a line for each error, with the first path.
 
-    Unknown keys come first: a key that is misspelt is often also the one that is missing.
+    Unknown keys come first: a misspelt key often explains a missing one.
     """
     lines: dict[str, list[str]] = {}
     for details in sorted(error.errors(), key=lambda details: details["type"] != UNKNOWN):

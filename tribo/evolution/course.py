@@ -177,7 +177,7 @@ def _rates(
     passed: float,
 ) -> Values:
     """Return the rates of the states, where they lie, and the depth rates in the contact."""
-    # A load that jumps as it begins is told apart in its middle.
+    # A load that jumps at the beginning is recognised by the middle.
     middle = interval.at(0.5).time
     if model.contact.loads.before(middle) != model.contact.loads.before(interval.end_time):
         contacts = with_loads(model, contacts, interval, passed)

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
     """Return the fields of effects at `state`, by field and body, shape (nx, ny)."""
     speeds = model.cycle[len(model.cycle) // 2].speeds
-    # Of an average's speeds none is that of the pressure shown.
+    # None of an average's speeds belongs to the pressure shown.
     here = speeds if len(model.cycle) > 1 else None
     speed = state.speed
     if here is not None and speed > 0:

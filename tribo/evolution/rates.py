@@ -107,7 +107,7 @@ def _sliding(
     speeds = [by_reach(place.speeds or [(moment.speed, 1.0)], place.reach) for place in model.cycle]
     each = []
     for of_positions in zip_longest(*speeds):
-        # One that has fewer speeds than others is asked again, and counts for nothing.
+        # A position with fewer speeds than others is evaluated again, with weight 0.
         asked = [
             one or (last[0], 0.0, 0.0) for one, (*_, last) in zip(of_positions, speeds, strict=True)
         ]
@@ -325,9 +325,9 @@ def _with_rest_of_track(
             completed[field.name] = rate + (1 / covered - 1) * untouched
         elif exposure.rows > cells[0] and np.any(np.abs(untouched) > SLIGHT * np.max(np.abs(rate))):
             raise CaseError(
-                f"{field.name!r} of {effect} changes on {effect.carrier!r} where nothing presses, "
-                "and positions of a cycle do not tell how it does beyond the window; set "
-                'kinematics.positions = "average" if the motion has that, or let the state lie in '
+                f"{field.name!r} of {effect} changes on {effect.carrier!r} under no pressure, and "
+                "its change beyond the window is unknown at positions of a cycle; set "
+                'kinematics.positions = "average" if the motion has it, or let the state lie in '
                 "the contact",
                 "effects",
             )

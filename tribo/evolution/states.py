@@ -58,8 +58,8 @@ class OfLaws(dict[str, Array]):
 
     def __missing__(self, body: str) -> Array:
         raise CaseError(
-            f"an effect asks for {self.field!r} of {body!r}, whose wear law does not remember it; "
-            f"that of {', '.join(self)} does. Give {body!r} such a law, or leave out the effect",
+            f"an effect needs the state {self.field!r} of {body!r}, which its wear law lacks; the "
+            f"law of {', '.join(self)} has it. Give {body!r} such a law, or leave out the effect",
             f"bodies.{body}.wear",
         )
 

@@ -78,8 +78,8 @@ def integrated(
     Each part is solved by Euler steps, extrapolated; where that is not accurate, by exponential
     ones, exact for a state that relaxes linearly; and where that is not either, or leaves the
     limits of a state, in two halves. States that relax over far less than a part come to rest
-    there. At breaks that a state declares steps end; rates that jump elsewhere would need parts
-    without end, and are integrated less accurately.
+    there. Steps end at breaks that a state declares; rates that jump elsewhere would need
+    endless parts, and are integrated less accurately.
 
     Parameters
     ----------
@@ -132,8 +132,7 @@ def integrated(
         elif left and (part <= FINEST or len(waiting) + len(done) > MOST_LEAVING):
             of = kept[int(np.argmax(trial.beyond))]
             raise PluginError(
-                f"{of} goes on beyond its limits of {of.least:g} to {of.most:g}: "
-                "let its rate vanish there"
+                f"{of} leaves its limits of {of.least:g} to {of.most:g}: let its rate vanish there"
             )
         elif left or (part > FINEST and len(waiting) + len(done) < MOST_PARTS):
             waiting[:1] = [(0.5 * part, True)] * 2
@@ -148,8 +147,8 @@ def integrated(
     if not missed <= ROUGHEST:
         names = ", ".join(map(str, kept))
         raise BadValues(
-            f"what is remembered ({names}) changes too often to be followed over {length:g} (m, or "
-            "s of a rest): shorten the steps"
+            f"states ({names}) change too often to be integrated over {length:g} (m, or s of a "
+            "rest): shorten the steps"
         )
     return Integral(here.values, here.sums, replace(plan, parts=tuple(done)), here.breaks)
 

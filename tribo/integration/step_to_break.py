@@ -134,7 +134,7 @@ def stepped_back(
     rates, own = piece.rates, len(kept)
     states = [*seeds]
     for at, (here, _) in piece.ended.items():
-        # What comes to a break is there, whatever it was before.
+        # A state that reaches a break is at the break, whatever it was before.
         states[at] = np.where(here, 0.0, seeds[at])
     given: list[Field] = []
     left: dict[str, Field] = {}

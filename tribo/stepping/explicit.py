@@ -115,7 +115,7 @@ class Explicit(Scheme):
             raise CaseError(
                 f"contact.type = {model.case.contact.type!r} does not state its smallest "
                 "compliance, so the stability of explicit steps cannot be checked; set "
-                "stepping.allow_unstable = true to go on without",
+                "stepping.allow_unstable = true to run without the check",
                 PLACE,
             )
         increment, dt = moment.distance - state.distance, moment.time - state.time

@@ -137,7 +137,7 @@ class Implicit(Scheme):
                     break
                 changes = load_changes(model, state, trial.state)
                 if changes and increment < AT_REST * target and depth <= 1:
-                    # The load goes on to change over a rest, however short the step.
+                    # The load changes over a rest, however short the step.
                     return replace(
                         trial.ended(model, state),
                         increment=0.0,

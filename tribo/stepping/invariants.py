@@ -60,7 +60,7 @@ def wear_balance(
             asked = max(asked, SMALL * exposure.volume(before.bodies[name].wear))
         volumes.append(error / asked if asked != 0 else error)
         regrowths.append(0.0 - float(np.min(depth)))
-    # Unlike that of Python, the maximum of numpy is NaN if a value is.
+    # Unlike Python's, the maximum of numpy is NaN if a value is.
     return Invariants(volume=float(np.max(volumes)), regrowth=float(np.max(regrowths)))
 
 

@@ -49,7 +49,7 @@ def distance_until(model: Model, state: State, time: float) -> float | None:
             return None
     if not state.distance < distance < np.inf:
         raise PluginError(
-            f"{model.motion} does not slide on: {state.distance:g} m "
+            f"{model.motion} has a distance that does not grow: {state.distance:g} m "
             f"at {state.time:g} s, {distance:g} m at {time:g} s"
         )
     return distance

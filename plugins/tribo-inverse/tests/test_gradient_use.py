@@ -53,7 +53,7 @@ class Turns(Effect):
 
 @pytest.mark.parametrize("path", ["contact.tolerance", "grid.size.0"])
 def test_how_a_run_is_computed_has_no_derivative(path):
-    with pytest.raises(CaseError, match=f"{path}: says how the run is computed"):
+    with pytest.raises(CaseError, match=f"{path}: is a number of the numerics"):
         gradient(run(), Volume("ball"), [path])
 
 

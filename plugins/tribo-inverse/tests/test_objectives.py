@@ -33,7 +33,7 @@ def test_what_is_no_objective_is_refused(given):
 
 @pytest.mark.parametrize("time", ["20 s", None, True, NAN])
 def test_a_time_to_look_at_that_is_none_is_refused(time):
-    with pytest.raises(CaseError, match=f"look at the time {time!r}; give a number, that of a"):
+    with pytest.raises(CaseError, match=f"has the time {time!r}, which is no number"):
         gradient(run(), {time: Volume("ball")})
 
 
@@ -102,7 +102,7 @@ def test_a_save_that_is_not_there_is_refused():
 
 def test_a_depth_that_ends_the_run_before_an_objective_looks_is_refused():
     stops = run(stop=Stop(depth="0.2 um"), save_times=(15.0,))
-    with pytest.raises(CaseError, match=r"a depth ends the run at 6\.\d+ s, before 15 s"):
+    with pytest.raises(CaseError, match=r"a depth ends the run at 6\.\d+ s, before the time 15 s"):
         gradient(stops, {15.0: Volume("ball")}, [])
 
 
