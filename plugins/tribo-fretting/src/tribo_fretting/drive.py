@@ -1,4 +1,4 @@
-"""What drags the contact: an amplitude, one or in stages, a rig, and a largest force."""
+"""The drive of the contact: an amplitude, constant or in stages, a rig, and a largest force."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ class AmplitudeStage(Table):
 
 
 class Drive(Table):
-    """What drags a contact to and fro along x."""
+    """The drive of a contact to and fro along x."""
 
     amplitude: Annotated[
         Annotated[Amplitude, Tag(NUMBER)] | Annotated[tuple[AmplitudeStage, ...], Tag(STAGES)],
         ONE_OR_STAGES,
     ]
-    """How far the motion goes to each side: a number, or a list of stages, each a table with
+    """Amplitude of the motion to each side: a number, or a list of stages, each a table with
     `until` and `amplitude`."""
     stiffness: Annotated[float, Quantity("N/m", above=0, usual=(1e2, 1e12))] | None = None
-    """Stiffness of the rig in series with the contact, along x: the amplitude is then that of the
-    rig; a rigid rig if left out."""
+    """Stiffness of the rig in series with the contact, along x: the amplitude is then the rig's; a
+    rigid rig if left out."""
     force_amplitude: Annotated[float, Quantity("N", above=0)] | None = None
     """Tangential force at which the motion turns back before its amplitude is reached."""
     direction: Literal["free", "along"] = "along"
@@ -66,5 +66,5 @@ class Drive(Table):
 
     @property
     def components(self) -> int:
-        """How many components the traction has."""
+        """Number of components of the traction."""
         return 2 if self.direction == "free" else 1

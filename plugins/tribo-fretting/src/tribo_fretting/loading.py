@@ -22,10 +22,10 @@ def first_loading(
 
     Under a steady pressure a motion between ±δ leads to the tractions ±q₁, and each point slips
     4 s₁ a cycle: Masing's rule. With a rig the contact moves by δ less Q/k; with a force amplitude
-    by less, if Q reaches it. Answers are kept while the same contact is asked for again.
+    by less, if Q reaches it. Answers are cached for repeated contacts.
 
     The limit μp (Pa) has the shape of the grid, the amplitude δ is in m. The answer has both
-    components of the traction, and beyond the contact the slip of a point that comes to touch.
+    components of the traction, and beyond the contact the slip of a point when it first touches.
     """
     compliances = tangential_compliances(materials.values())
     return _loading(drive, grid, compliances, limit.tobytes(), amplitude)

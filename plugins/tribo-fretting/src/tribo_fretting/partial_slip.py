@@ -62,13 +62,13 @@ class PartialSlip(Effect, Drive):
         """Refuse all but two half-spaces whose points stay in contact."""
         if solver != "dcfft":
             raise CaseError(
-                f"{solver!r} has no tangential displacement; partial slip is that of two "
-                'half-spaces: contact.type = "dcfft"',
+                f"{solver!r} has no tangential displacement; partial slip needs two half-spaces: "
+                'contact.type = "dcfft"',
                 "contact.type",
             )
         if system.coatings:
             raise CaseError(
-                f"{min(system.coatings)!r} has an elastic layer; partial slip is that of two "
+                f"{min(system.coatings)!r} has an elastic layer; partial slip needs two "
                 "half-spaces: give the layer no modulus of its own",
                 "bodies",
             )
@@ -120,8 +120,8 @@ class PartialSlip(Effect, Drive):
         if cap is not None and np.max(pressure) >= cap * (1 - 1e-9):
             raise CaseError(
                 f"the pressure reaches the hardness of {cap / 1e9:.3g} GPa, where friction is not "
-                "in proportion to it; partial slip is that of elastic bodies: lower load.normal, "
-                "or leave the hardness out",
+                "in proportion to it; partial slip needs elastic bodies: lower load.normal, or "
+                "leave the hardness out",
                 "bodies",
             )
         coupled = abs(dundurs_beta(contact.materials.values())) * float(np.max(friction))

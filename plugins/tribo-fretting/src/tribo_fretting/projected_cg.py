@@ -55,7 +55,7 @@ def dragged(
     start : ndarray, shape (components, nx, ny), optional
         A traction to start from; if left out, 0, or μp along x where all points slip under that.
     tolerance : float
-        What the slip within the discs and along their rims must fall to, relative to δ.
+        Largest slip within the discs and along their rims, relative to δ.
 
     Raises
     ------
@@ -109,7 +109,7 @@ def dragged(
 
 
 def tangent(vectors: Array, normal: Array) -> Array:
-    """Return vectors without what lies along a normal, all (components, nx, ny)."""
+    """Return vectors without their normal part, all (components, nx, ny)."""
     return np.asarray(vectors - np.sum(vectors * normal, axis=0) * normal)
 
 

@@ -91,8 +91,8 @@ def fit_words(found: FittedMaps) -> str:
     """Return the goodness of fit in a sentence."""
     return (
         f"χ² {found.chi_square:.4g} with {found.degrees_of_freedom:.4g} degrees of freedom, "
-        f"{p_words(found.p_value)}. A cell is told where less than {SILENT:g} of the prior's "
-        "standard deviation is left."
+        f"{p_words(found.p_value)}. The data determine a cell where less than {SILENT:g} of the "
+        "prior's standard deviation is left."
     )
 
 

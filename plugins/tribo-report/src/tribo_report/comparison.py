@@ -68,8 +68,8 @@ def comparison_page(comparison: Comparison) -> str:
 def _how_compared(comparison: Comparison) -> str:
     """Say what the percentages of the table are."""
     return (
-        f"Percentages are relative to {comparison.reference}; those of fields and sections "
-        "are the L2 norm and the largest difference, of a pressure often that of a cell at the rim."
+        f"Percentages are relative to {comparison.reference}; for fields and sections they are "
+        "the L2 norm and the largest difference, which for a pressure often lies at the rim."
     )
 
 

@@ -32,9 +32,9 @@ NUMBERS = 150_000
 AT_SAVES = "A mark for each save; not known between."
 
 Results = Mapping[str, Result]
-"""By label; that of a single one is empty."""
+"""By label; empty for a single result."""
 Curves = Mapping[str, tuple[Result, list[Array]]]
-"""Fields of a result, one for each time, by what their curve is called."""
+"""Fields of a result, one for each time, by the name of their curve."""
 Panel = tuple[str, str, dict[str, list[Array]]]
 """Name, SI unit, and curves by what they are called: distance, time and values."""
 

@@ -14,7 +14,7 @@ from tribo_report.amounts import amount
 from tribo_report.printed import printed_by
 
 AGREES = 0.02
-"""Relative difference up to which a value is that of a study of the same case."""
+"""Relative difference up to which a value agrees with a study of the same case."""
 
 EXACT = 1e-6
 """Relative uncertainty up to which none is quoted: Archard's law fixes the volume."""

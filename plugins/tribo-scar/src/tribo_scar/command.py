@@ -115,7 +115,7 @@ def _write(found: MeasuredScar, path: Path, shape: tuple[int, ...]) -> Path:
     if path.suffix.lower() == DEPTHS:
         import numpy as np
 
-        # The middle of the map stays where it is, which is that of the contact in a fit.
+        # The middle of the map stays, as a fit takes it as the middle of the contact.
         depths = np.full(shape, np.nan)
         depths[found.registration.part] = found.depths
         image = BytesIO()

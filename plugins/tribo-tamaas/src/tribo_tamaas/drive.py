@@ -27,9 +27,9 @@ def pressure(
     tolerance: float,
     max_iterations: int,
 ) -> tuple[Array, int]:
-    """Return what tamaas takes for the solution, and its iterations.
+    """Return the solution of tamaas, and its iterations.
 
-    tamaas says neither whether nor how well it converged, so the caller has to
+    tamaas reports neither whether nor how well it converged, so the caller must
     judge the pressure.
 
     Parameters
@@ -61,7 +61,7 @@ def pressure(
     Raises
     ------
     NumericalError
-        If tamaas raises something, or gives a pressure that cannot be one.
+        If tamaas raises an error, or returns an invalid pressure.
     """
     import tamaas
 
