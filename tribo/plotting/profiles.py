@@ -190,7 +190,7 @@ def height_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Pictu
 def material_ratio_curves(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
     """Draw the material ratio (Abbott) curves of a body, form removed.
 
-    That of its scar at a save, of what was there at first, and of the surface beside.
+    The curves are for its scar at a save, the first surface there, and the surface beside.
     """
     worn = reliefs(result, result.body(name), saves[-1] % len(result.times))
     labels = f"scar, {time_labels(result.times)[saves[-1]]}", "unworn", "beside"

@@ -96,7 +96,7 @@ def save_looks(count: int) -> list[Look]:
 
 
 def overlay_looks(count: int) -> list[Look]:
-    """Return a look for each of several results; the first shows below one that coincides."""
+    """Return a look for each of several results; the first shows below a coinciding curve."""
     return [{"color": "#a8a8a8", "linewidth": 3.0}, *save_looks(count - 1)][:count]
 
 
