@@ -107,7 +107,7 @@ def test_a_file_that_is_not_a_sound_result_is_kept(done, damaged):
     content = bytearray(path.read_bytes() if damaged else b"my notes")
     content[len(content) // 2] ^= 1
     path.write_bytes(content)
-    with pytest.raises(CaseError, match=r"dcfft\.h5 is .* or run all anew with --force"):
+    with pytest.raises(CaseError, match=r"dcfft\.h5 is .* or run all again with --force"):
         compare(CASE, CONTACTS, done)
     assert path.read_bytes() == content
 

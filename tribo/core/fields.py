@@ -137,7 +137,7 @@ PLACE_Y = Field(
 HEADING_X = Field(
     "heading_x",
     "1",
-    "Which way the other body slides over the body, along x: that of a vector of length 1.",
+    "Direction in which the other body slides over the body: x of a vector of length 1.",
     at_least=-1.0,
     at_most=1.0,
     typical=0.6,

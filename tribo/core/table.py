@@ -71,7 +71,7 @@ class Table(BaseModel, metaclass=_TableClass):
         made = handler.resolve_ref_schema(handler(schema))
         keys = made.get("properties", {})
         for name, text in descriptions(cls).items():
-            # One that is left out of the schema has no key.
+            # A field that is left out of the schema has no key.
             keys.get(cls.model_fields[name].alias or name, {})["description"] = text
         return made
 

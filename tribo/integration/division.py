@@ -77,9 +77,9 @@ def integrated(
 
     Each part is solved by Euler steps, extrapolated; where that is not accurate, by exponential
     ones, exact for a state that relaxes linearly; and where that is not either, or leaves the
-    limits of a state, in two halves. States that relax over far less than a part come to rest
-    there. Steps end at breaks that a state declares; rates that jump elsewhere would need
-    endless parts, and are integrated less accurately.
+    limits of a state, in two halves. States that relax over far less than a part reach equilibrium
+    there. Steps end at breaks that a state declares; rates that jump elsewhere would need endless
+    parts, and are integrated less accurately.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The names of a plugin, all of which follow from that of its distribution."""
+"""The names of a plugin, all of which follow from the name of its distribution."""
 
 from __future__ import annotations
 

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from tribo.model.model import Model
 
 PARTS = np.logspace(-6, 0, 7)
-"""Parts of the path over which it is held against it."""
+"""Parts of the path over which filling and opening are compared."""
 MOST = 10.0
-"""Powers of e by which what is uneven may grow over the path."""
+"""Powers of e by which an unevenness may grow over the path."""
 
 
 def check_filling(model: Model, state: State) -> None:

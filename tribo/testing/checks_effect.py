@@ -55,7 +55,7 @@ class EffectChecks(LocalChecks):
         return super()._old(given, part) if apart else given
 
     def _inputs(self, component: Any, number: int) -> ContactConditions:
-        """Return conditions by number, with a state of some age at each point; 3: come to rest."""
+        """Return conditions by number, with a state of some age at each point; 3: at rest."""
         fresh = samples.contact_conditions(component, self._fields, number % 3, self._bodies)
         at: ContactConditions = self._remembering(
             fresh, _LONGEST * samples.pattern(GRID.cells) ** 3

@@ -29,7 +29,7 @@ class Keeps(Observer):
     _seen: list[Any] = PrivateAttr(default_factory=list)
 
     def on_start(self, run: RunInfo) -> None:
-        """Keep what is told at the start."""
+        """Keep the information at the start."""
         self._seen.append(run)
 
     def on_step(self, snapshot: Snapshot) -> None:
