@@ -17,8 +17,8 @@ PAGES = [
 SOURCES = [ROOT / "tribo", *sorted((ROOT / "plugins").glob("*/src"))]
 FOLDERS = sorted({path.parent for source in SOURCES for path in source.rglob("*.py")})
 FORBIDDEN = re.compile(
-    r"\b(that of|those of|one that|comes? to|is told|goes on|on the mean|in sum|anew|could be had"
-    r"|at hand|notices?|doubts?)\b",
+    r"(?<![.\w])(that of|those of|one that|comes? to|is told|goes on|on the mean|in sum|anew"
+    r"|could be had|at hand|notices?|doubts?)\b",
     re.IGNORECASE,
 )
 MEAN_WORDS, LONG_WORDS, LONG_SHARE = 22, 30, 0.1

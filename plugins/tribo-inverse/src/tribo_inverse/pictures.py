@@ -37,7 +37,7 @@ def coefficient_map(found: LocalMap, level: float, title: str = "") -> Figure:
     if len(part) == 1:
         low, high = (known(each)[0] for each in found.interval(level))
         figure.axes[0].fill_between(_places(part, spacing), low, high, color="#d0d0d0", lw=0)
-        # Ends where hardly anything is told would leave the rest flat.
+        # Ends with hardly any information would flatten the rest.
         if np.any(sure := part[0] < SURE):
             figure.axes[0].set_ylim(0.95 * np.min(low[sure]), 1.05 * np.max(high[sure]))
     return figure
@@ -46,8 +46,8 @@ def coefficient_map(found: LocalMap, level: float, title: str = "") -> Figure:
 def depth_fit(found: LocalMap, title: str = "") -> Figure:
     """Draw a measured depth, and the residual of the fit.
 
-    On a map a solid line surrounds residuals above three standard deviations, a dashed one those
-    below minus three.
+    On a map a solid line surrounds residuals above three standard deviations, a dashed line
+    residuals below minus three.
     """
     off = (found.computed - found.measured) / found.uncertainty
     largest = float(np.max(np.abs(off), initial=SIGNIFICANT, where=np.isfinite(off)))

@@ -216,7 +216,7 @@ class Backwards:
         return behind
 
     def _behind(self, parts: Sequence[Increment]) -> list[Before]:
-        """Return derivatives before increments from what has been gathered after them."""
+        """Return derivatives before increments from the derivatives after them."""
         return [each.back(self.worn_before, self.states) for each in parts]
 
     def _wear(self, slid: Slid, behind: Sequence[Before]) -> None:
@@ -233,7 +233,7 @@ class Backwards:
             self.states = Memory(laws, {**self.states.between, **each.states.between})
 
     def _of_wear(self, increment: Increment, box: Box, z: Array) -> Array:
-        """Return what the wear and the filling that pressures make add to the adjoint of K."""
+        """Return the contribution of wear and filling to the adjoint of K."""
         y = over(self.shares) * z
         wear = {name: self.carriers[name].gathered(y, box) for name in self.model.laws.wear}
         zeros = [np.zeros_like(value) for value in self.states.values]

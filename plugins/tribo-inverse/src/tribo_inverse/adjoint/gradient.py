@@ -148,12 +148,12 @@ def gradient(
 
 
 def covered(model: Model) -> Model:
-    """Return a model without the effects that no law follows, and no load.
+    """Return a model without the effects on which no law and no load depends.
 
     Raises
     ------
     CaseError
-        If there is no gradient through a part of it.
+        If a part of it has no gradient.
     """
     given = {
         field.name
@@ -166,15 +166,13 @@ def covered(model: Model) -> Model:
     followed = followed or any(field.fills for f in model.laws.effects for field in f.state_fields)
     if loading := [each for each in model.laws.effects if each.changes_load]:
         raise CaseError(
-            f"{loading[0]} makes the load follow the state, and no gradient goes through that; "
-            "leave it out",
+            f"{loading[0]} makes the load depend on the state, which has no gradient; leave it out",
             "effects",
         )
     if model.contact.hardness:
         raise CaseError(
-            "the largest pressure of a cell jumps in the step in which it is worn into a layer of "
-            "another hardness, and so does all that follows; a gradient needs one hardness, leave "
-            "that of layers out",
+            "the largest pressure of a cell jumps where it wears into a layer of another hardness; "
+            "a gradient needs one hardness: leave out the hardness of layers",
             "bodies",
         )
     if (
@@ -194,15 +192,15 @@ def covered(model: Model) -> Model:
 def _at_depth(
     model: Model, tape: Tape, seeds: Mapping[float, Seeds], chains: Sequence[Chain], end: State
 ) -> tuple[Derivatives, float]:
-    """Return the derivatives of a run that ends at a depth, and that in this depth, in 1/m.
+    """Return the derivatives of a run that ends at a depth; the second in this depth, in 1/m.
 
-    With J the objective, and D the depth at the time t, a number p that the depth follows changes t
+    With J the objective, and D the depth at the time t, a number p that changes the depth changes t
     by −(∂D/∂p)/(∂D/∂t), and so J by ∂J/∂p − (∂J/∂t)/(∂D/∂t) ∂D/∂p, both at a fixed time.
 
     Raises
     ------
     CaseError
-        If the depth went past its limit in a jump.
+        If the depth jumped past its limit.
     """
     length, last = of_length(model, end.time), model.end_time
     at_end = {**dict.fromkeys(seeds, Seeds()), last: _deepest(model, end)}
@@ -216,7 +214,7 @@ def _at_depth(
 
 
 def _deepest(model: Model, end: State) -> Seeds:
-    """Return 1 at the cell whose depth ended the run, the first of those that are as deep."""
+    """Return 1 at the cell whose depth ended the run, the first of equally deep cells."""
     stop = model.case.stop
     assert stop.depth is not None
     worn = {name: end.bodies[name].wear for name in stop.whose(end.bodies)}

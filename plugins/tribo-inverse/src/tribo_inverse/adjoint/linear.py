@@ -15,7 +15,7 @@ from tribo_inverse.increment.carriers import Carrier
 Map = Callable[[Array], Array]
 
 TOLERANCE = 1e-8
-"""Residual of a system, relative to its right side: as that of a run's contacts."""
+"""Residual of a system, relative to its right side, as for the contacts of a run."""
 ALIKE = 1e-9
 """Relative difference below which slopes are alike, which are differences of rates."""
 MOST, RESTART = 400, 60

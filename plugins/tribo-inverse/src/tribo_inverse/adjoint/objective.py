@@ -1,4 +1,4 @@
-"""What is differentiated: numbers of a saved state, and their derivatives in it."""
+"""Objectives: numbers of a saved state, and their derivatives in it."""
 
 from __future__ import annotations
 

@@ -303,7 +303,7 @@ def _varied(
 
 
 def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
-    """Return the bodies that wear otherwise under given contacts, and through what."""
+    """Return the bodies whose wear under given contacts changes, and through what."""
     one, other, laws = base.case, model.case, model.laws
     same = np.array_equal(Stops.of(base).times, Stops.of(model).times)
     moves = one.kinematics != other.kinematics or not same

@@ -132,7 +132,7 @@ def _asked(view: View) -> tuple[str, Answer]:
 
 
 def of_case(model: Model, half_width_x: float) -> list[Finding]:
-    """Return the `MOST` numbers that rule a case, with half its first contact's length, in m."""
+    """Return the `MOST` most influential numbers of a case; `half_width_x` of its contact in m."""
     try:
         found = sensitivity(model, half_width_x)
     except (CaseError, NumericalError) as error:
@@ -153,7 +153,7 @@ def of_case(model: Model, half_width_x: float) -> list[Finding]:
 def _sensitivity(
     what: str, path: str, change: float, uncertainty: float, kelvin: float | None
 ) -> Finding:
-    """Word by how many per cent an answer changes for 1 % more of a number, or 1 K more."""
+    """Word the change of an answer, in %, for 1 % more of a number, or 1 K more."""
     # A per cent of a temperature is one of its distance from absolute zero.
     more, per = ("1 %", 1.0) if kelvin is None else ("1 K", 100 / kelvin)
     return Finding(

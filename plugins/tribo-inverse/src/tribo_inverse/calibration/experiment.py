@@ -49,7 +49,7 @@ from tribo_inverse.calibration.setups import (
 from tribo_inverse.findings import named, of_run
 
 REFUSED = 300.0
-"""Factor between measured and computed values from which on they are refused: a wrong prefix of a
+"""Factor between measured and computed values above which they are refused: a wrong prefix of a
 unit makes 1000."""
 LINEAR_BELOW = 0.1
 """Part of the largest depth of a profile or map below which depths are taken as linear."""

@@ -36,7 +36,7 @@ class Share(float):
 
 
 def _part_of(text: str, quantity: str) -> Share:
-    """Return the part of a value that a text in per cent says; CaseError if it cannot be one."""
+    """Return a text in per cent as a part of a value; CaseError if it is none."""
     if quantity in FIELDS:
         raise CaseError(f"{text!r}: of depths at many places give it with a unit, as '10 nm'")
     try:
@@ -136,7 +136,7 @@ class MeasuredEntry(Table):
             if key not in own and getattr(self, key) is not None:
                 raise ValueError(f"{name} has no {key}; its numbers are {' and '.join(own)}")
         if found.label and self.time is not None:
-            raise ValueError(f"{name} is that of a whole run; leave time out")
+            raise ValueError(f"{name} belongs to a whole run; leave time out")
         if (found.of == "run") == bool(self.body):
             raise ValueError(f"{name} is of the run; leave body out" if self.body else "give body")
         return self

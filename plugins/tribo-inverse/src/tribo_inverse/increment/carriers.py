@@ -88,7 +88,7 @@ def carriers_between(model: Model, of_bodies: Mapping[str, Carrier]) -> dict[str
 
 
 def carriers_of(model: Model) -> dict[str, Carrier]:
-    """Return how the surfaces of bodies meet the window, by name.
+    """Return the carriers of bodies, by name.
 
     Raises
     ------
@@ -106,7 +106,7 @@ def carriers_of(model: Model) -> dict[str, Carrier]:
             )
         weights = None
         if exposure.averaged:
-            # An average is linear: those of each row of the window are its weights.
+            # An average is linear: the averages of the window's rows are its weights.
             rows = (np.outer(row, np.ones(cells[1])) for row in np.eye(cells[0]))
             weights = np.concatenate([exposure.average(row) for row in rows])
         starts = exposure.starts if exposure.starts is not None else [0] * len(model.cycle)

@@ -15,7 +15,7 @@ NUDGE = 3e-5
 ASIDE = 1e-7
 """The same where it is varied to one side only, or a derivative may soon change."""
 EVENLY = 1e-6
-"""Part of a pressure by which it is varied up and down where a rate follows it alone."""
+"""Part of a pressure by which it is varied up and down where a rate depends on it alone."""
 LEAST = 0.1
 """Part of a cell's pressure that must be varied for a derivative in it."""
 MOST = 25
@@ -75,9 +75,9 @@ def back(seeds: Sequence[Field], responses: Sequence[Response]) -> Field:
 
 
 def local(rates: Rates, found: Arrays, pressure: Array, reach: Offset = ALONE) -> list[Response]:
-    """Return the responses of rates that follow the pressures of their own cell, and near it.
+    """Return the responses of rates that depend on the pressures of their own cell, and near it.
 
-    Of their own cell alone it is a central difference, whose errors do not make it uneven.
+    For their own cell alone it is a central difference, whose errors are even.
     """
     if reach != ALONE:
         return near(rates, found, pressure, ASIDE * pressure, reach)

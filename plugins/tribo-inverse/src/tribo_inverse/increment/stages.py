@@ -36,11 +36,11 @@ AT_ONCE = 1 << 18
 
 @dataclass(frozen=True)
 class RateStage:
-    """Rates where a part of an increment has `passed`, at states that are held to their limits.
+    """Rates after a part of an increment has `passed`, at states clipped to their limits.
 
-    The rates are those at each cell of each position, and `means` those over each point of what
-    they change. `inside` has by state where it was within its limits already. Behind the rates
-    is what effects were told for their `answers`.
+    `rates` hold at each cell of each position, and `means` at each point of the depths and states.
+    `inside` has, by state, where it was within its limits before. After the rates in `rates` come
+    the inputs of effects for their `answers`.
     """
 
     passed: float
@@ -60,9 +60,8 @@ class Stages:
     model, carriers : Model, Mapping of Carrier by body
         The model, and the carriers of its bodies.
     box : Box
-        The part of the window that is looked at: all of it where effects reach beyond a point;
-        else what touches, in this increment or any, beyond which nothing that presses follows what
-        there is.
+        The part of the window for the rates: all of it where effects reach beyond a point; else
+        the contact, in this increment or any, as no pressure depends on cells beyond it.
     pressure : ndarray, shape (positions, nx, ny)
         The pressures, on the box.
     slid : Slid
@@ -339,6 +338,6 @@ def together(states: Sequence[Sequence[Array]]) -> Arrays:
 
 
 def _contacts(pressures: Array) -> list[ContactSolution]:
-    """Return contacts of given pressures, as laws are asked in them."""
+    """Return contacts of given pressures, as inputs of laws."""
     nothing = np.zeros(pressures.shape[1:]), 0, Residuals(0.0, 0.0, 0.0)
     return [ContactSolution(readonly(each), 0.0, *nothing) for each in pressures]
