@@ -164,7 +164,7 @@ class Component(Table, ABC):
         return {}
 
     def findings(self, snapshot: Snapshot) -> Sequence[Finding]:
-        """Return what there is to say of an accepted step, such as that a limit is passed.
+        """Return findings on an accepted step, such as a limit that is passed.
 
         Each kind is said once, with the time and place from which on it holds: as a warning on the
         terminal, and in the findings of the result. One of the kind ``"stop"`` ends the run, as a

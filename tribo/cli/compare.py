@@ -118,7 +118,7 @@ def _print(comparison: Comparison, times: Sequence[float]) -> None:
 def _asked(
     files: tuple[Path, ...], vary: tuple[str, ...], overrides: tuple[str, ...], force: bool
 ) -> tuple[Any, dict[str, Any]]:
-    """Return what is compared, a case or result files, and how a case varies."""
+    """Return the operands, a case or result files, and the variation of a case."""
     from tribo.config.load import read_toml
     from tribo.config.overrides import apply_settings
     from tribo.observers.progress import Progress

@@ -43,7 +43,7 @@ _WORDS = {
     }.items()
     for kind in kinds.split()
 }
-"""What to say, by pydantic's type of an error."""
+"""Messages, by pydantic's type of an error."""
 
 
 def told(text: str, kind: str = TOLD) -> PydanticCustomError:

@@ -223,7 +223,7 @@ def unstable(time_step: float, increment: float, limit: float) -> Finding:
 
 
 def layer_worn_through(body: str, layer: int, bottom: float) -> Finding:
-    """Word a layer, counted from 1, of which the deepest point passes the bottom, in m."""
+    """Word a layer, counted from 1, whose bottom (m) the deepest point passes."""
     return Finding(
         "layer",
         f"layer {layer} of {body}, down to {1e6 * bottom:.4g} µm, is worn through at its "
@@ -344,7 +344,7 @@ def damaged(damage: str) -> Finding:
 
 
 def worn_through(findings: Iterable[Finding]) -> list[dict[str, str | int | float]]:
-    """Return which layers of which bodies were worn through, and when, as plain data."""
+    """Return the layers worn through, with body, distance and time, as plain data."""
     passed: list[dict[str, str | int | float]] = []
     for each in findings:
         if each.kind == "layer":

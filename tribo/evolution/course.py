@@ -120,7 +120,7 @@ def accumulated(
 def in_stripes(
     contacts: Sequence[ContactSolution],
 ) -> tuple[list[ContactSolution], list[Array]]:
-    """Return contacts with pressures varied up and down from row to row, and by how much, in Pa.
+    """Return contacts with pressures varied up and down from row to row, and the changes, in Pa.
 
     It is the mode that grows first, under the same load.
     """

@@ -30,7 +30,7 @@ class Interval:
     end_time : float
         When it ends, in s.
     slides : float
-        How far it slides, in m; 0 at rest.
+        Its sliding distance, in m; 0 at rest.
     load_factor : float
         Load factor by effects over it.
     """
@@ -48,7 +48,7 @@ class Interval:
 
     @property
     def lasts(self) -> float:
-        """How long it lasts, in s."""
+        """Its duration, in s."""
         return self.end_time - self.time
 
     @property

@@ -269,7 +269,7 @@ def _changes(
     fields: Mapping[str, Mapping[str, Array]],
     depths: Mapping[str, Array],
 ) -> dict[str, Array]:
-    """Return by how much each state of an effect changes per second, in the window.
+    """Return the change of each state of an effect per second, in the window.
 
     On a moving body the rest of the track changes as points under no pressure.
     """

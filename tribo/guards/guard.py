@@ -119,7 +119,7 @@ class Guard(Generic[C]):
 
 
 def _plain(value: object) -> NDArray[Any]:
-    """Return `value` as an array; one of no shape that is asked for where it cannot be one."""
+    """Return `value` as an array; an array of a wrong shape where it cannot be converted."""
     try:
         array = np.asarray(value)
     except (TypeError, ValueError):

@@ -24,7 +24,7 @@ SAME = 1e-6
 
 
 class GuardedMotion(Guard[Kinematics]):
-    """A motion of which every answer is checked."""
+    """A motion whose answers are checked."""
 
     def cycle(self, grid: Grid) -> tuple[Position, ...]:
         """Return the positions of a cycle, whose shares add up to 1."""

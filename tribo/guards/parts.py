@@ -174,7 +174,7 @@ class GuardedEffect(Guard[Effect]):
         return found
 
     def load_factor(self, snapshot: Snapshot) -> float:
-        """Return what the normal load is multiplied by."""
+        """Return the factor on the normal load."""
         return self.number("load_factor", self.ask(self.component.load_factor, snapshot))
 
     def state_rates(self, contact: ContactConditions) -> dict[str, Array]:

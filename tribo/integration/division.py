@@ -320,6 +320,6 @@ def _jump(rates: Sequence[Array], span: float, so_far: Array) -> float:
 
 
 def _beyond(values: Array, size: Array, kept: Kept) -> float:
-    """Return by how much values pass their limits, relative to the largest."""
+    """Return the distance of values beyond their limits, relative to the largest."""
     over = max(kept.least - float(np.min(values)), float(np.max(values)) - kept.most, 0.0)
     return over / float(np.max(size)) if over > 0 else 0.0

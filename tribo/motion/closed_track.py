@@ -145,7 +145,7 @@ class ClosedTrack(Steady):
 
 
 NEAR_AXIS = 0.1
-"""Half-width of a contact over the track's radius, from which on its curvature is spoken of."""
+"""Half-width of a contact over the track's radius, above which a run warns of its curvature."""
 
 
 class Unidirectional(ClosedTrack):

@@ -75,7 +75,7 @@ class Held:
 
 @lru_cache(maxsize=32)
 def held(what: str, given: float | tuple[Any, ...]) -> Held:
-    """Return what a case gives: a number, or stages with `until` and a rate by the name `what`.
+    """Return the rate given by a case: a number, or stages with `until` and a rate called `what`.
 
     ValueError if the times do not increase, or all are rests.
     """

@@ -164,7 +164,7 @@ class Recorder(Observer):
         return self.path if self._begun else None
 
     def result(self) -> Result:
-        """Return what was recorded, for reading."""
+        """Return the recorded result, for reading."""
         folder = self._folder
         return Result(self._image, "the result") if folder is None else Result.open(folder.result)
 

@@ -1,4 +1,4 @@
-"""Curves of what a person asks for: columns of a history, runs of a sweep, a fit and its data."""
+"""Curves on request: columns of a history, runs of a sweep, a fit and its data."""
 
 from __future__ import annotations
 

@@ -72,7 +72,7 @@ def _grids(results: Results) -> str:
 
 
 def _field(result: Result, time: float, name: str) -> tuple[Grid, Array, Mask]:
-    """Return how far a body's surface lies below its first, or for "" the pressure."""
+    """Return the depth of a body's surface below its first, or for "" the pressure."""
     save = result.save_at(time)
     field = removed(result, name)[save] if name else result.field("pressure", save)
     return result.grid, field, scar_mask(field)

@@ -44,7 +44,7 @@ BESIDE: Look = {"color": "#b05a00", "linewidth": 1.2, "linestyle": (0.0, (1.2, 1
 
 
 def scar_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
-    """Draw from above how much of a body is gone at a save: worn off and displaced.
+    """Draw from above the depth of a body at a save: worn off and displaced.
 
     For a body that passes through a resolved cycle it is the groove along the whole track. What
     varies along one axis only is drawn as its profile.
@@ -86,7 +86,7 @@ def body_profiles(
 
 
 def _gone(result: Result, name: str, saves: Sequence[int]) -> tuple[Grid, list[Array]]:
-    """Return how much of a body is gone at saves, along the whole track where it is known."""
+    """Return the depth of a body at saves, along the whole track where it is known."""
     grid = result.grid
     if not (result.body(name).swept and result.has("track_depth")):
         return grid, list(removed(result, name)[list(saves)])

@@ -1,4 +1,4 @@
-"""What is to be seen of fields: the axes along which they vary, limits, and sections."""
+"""Views of fields: the axes along which they vary, limits, and sections."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ OVER: Look = {"color": "#202020", "linewidth": 1.1, "linestyle": (0.0, (3.0, 1.6
 PRESSURES = "viridis"
 """Colours of pressures: higher is lighter."""
 DEPTHS = "Blues"
-"""Colours of what is gone: deeper is darker."""
+"""Colours of depths: deeper is darker."""
 SIGNIFICANT = 3.0
 """Residual, in standard deviations, that is outlined where its sign should be seen in grey too; and
 the least range of a colour scale of residuals."""

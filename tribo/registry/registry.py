@@ -295,7 +295,7 @@ def _item(hook: str, item: object) -> object:
 
 
 def from_packages(hook: str, own: object = None, **asked: Any) -> list[Any]:
-    """Return what `own`, the imported plugins and plugins with hooks alone answer; see `ask`."""
+    """Return answers of `own`, of imported plugins and of plugins with hooks alone; see `ask`."""
     registry = default_registry()
     for plugin in registry.plugins:
         if plugin.usable and not plugin.names:
@@ -304,9 +304,9 @@ def from_packages(hook: str, own: object = None, **asked: Any) -> list[Any]:
 
 
 def from_plugins_of(result: Result, hook: str) -> list[Any]:
-    """Return what the plugins of a result's models and plugins with hooks alone answer; see `ask`.
+    """Return answers of the plugins of a result's models and of plugins with hooks alone.
 
-    Those that are not installed are left out.
+    Plugins that are not installed are left out; see `ask`.
     """
     types = {str(made["type"]) for made in result.provenance["components"].values()}
     for name in sorted(types):

@@ -1,4 +1,4 @@
-"""A result: a dataset, and the questions that a tribologist asks of it."""
+"""A result: a dataset, and methods for the questions of a tribologist."""
 
 from __future__ import annotations
 
@@ -167,7 +167,7 @@ class Result:
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """What is to be known of the run: warnings, what it began with and why it ended."""
+        """The findings of the run: warnings, its beginning and the reason of its end."""
         return self._header.findings
 
     @property
@@ -266,7 +266,7 @@ class Result:
         raise CaseError(f"{self.name} has no save at {time:g} s; its saves are at {listed} s")
 
     def body(self, name: str) -> BodyResult:
-        """Return what is kept of a body.
+        """Return the data of a body.
 
         Raises
         ------
@@ -324,7 +324,7 @@ class Result:
         return rows
 
     def report(self) -> LabReport:
-        """Return what a laboratory would measure of the result."""
+        """Return the laboratory report of the result."""
         report: LabReport = call("report", self)
         return report
 
@@ -354,7 +354,7 @@ class Result:
         return page
 
     def totals(self) -> Mapping[str, Any]:
-        """Return what the run cost: solves, iterations, steps and `wall_time`."""
+        """Return the cost of the run: solves, iterations, steps and `wall_time`."""
         history = self.table("history")
         steps = len(history["time_s"])
         last = -1 if steps else slice(0)

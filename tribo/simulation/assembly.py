@@ -205,7 +205,7 @@ def _gaps(cycle: Cycle, surfaces: Mapping[str, GuardedSurface]) -> tuple[Array, 
 
 
 def _check_sliding(surface: GuardedSurface, exposure: Exposure) -> None:
-    """Raise `CaseError` if the motion moves a shape that would not stay as it is."""
+    """Raise `CaseError` if the motion changes the shape of a moving body in the window."""
     if not exposure.shape_stays and _varies_along_x(surface.height):
         raise CaseError(
             f"body {surface.body!r} is swept along x, so its surface must not vary along x, as "

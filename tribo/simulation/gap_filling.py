@@ -1,4 +1,4 @@
-"""What fills the gap, held against how fast that opens."""
+"""The rate of filling of the gap, compared with the rate of its opening."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def check_filling(model: Model, state: State) -> None:
 
 
 def _lost(model: Model, state: State, contacts: Sequence[ContactSolution], part: float) -> Array:
-    """Return by how much the gap fills more than it opens over a part of the path, in m."""
+    """Return the filling of the gap less its opening over a part of the path, in m."""
     increment, time = part * model.end_distance, part * model.end_time
     interval = interval_from(state, increment, state.time + time)
     slid = course(model, remembered(model, state), contacts, interval)

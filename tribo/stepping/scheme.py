@@ -35,7 +35,7 @@ class Scheme(Table, ABC):
         return False
 
     def check(self, model: Model, state: State) -> Finding | None:
-        """Return what is wrong with the first step from `state`; `CaseError` if it is refused."""
+        """Return a finding on the first step from `state`; `CaseError` if it is refused."""
         return None
 
     def advance(self, model: Model, state: State, until: float) -> State:

@@ -212,14 +212,14 @@ class EffectChecks(LocalChecks):
 
 
 def _beside(value: Any, by: float) -> Any:
-    """Return by how much a number is varied, each cell of an array by a part of its own."""
+    """Return the variation of a number, or of each cell of an array, as a part of itself."""
     return by * value * (0.5 + samples.pattern(np.shape(value))) if np.ndim(value) else by * value
 
 
 def _varied(
     given: ContactConditions, whole: bool
 ) -> Iterator[tuple[str, list[Cell], ContactConditions]]:
-    """Yield what is varied, at which cells, and the conditions with it.
+    """Yield the varied input, its cells, and the conditions with it.
 
     One cell is varied; of a pressure that acts as a whole, two are exchanged, so that sums stay.
     """

@@ -72,7 +72,7 @@ class ObserverChecks(Checks):
 
 @cache
 def _watched(*observers: Observer) -> list[Any]:
-    """Return what a small run tells at its start and in each step, with `observers` too."""
+    """Return the inputs of an observer in a small run, which has the `observers` too."""
     keeps = Keeps()
     case = samples.small_case({}, observers=observers, output=Output(save_times=(5.0,)))
     with TemporaryDirectory() as folder, chdir(folder):

@@ -179,7 +179,7 @@ def wider(grid: Grid, way: int = 1) -> Grid:
 
 
 def inside(field: Array | float, grid: Grid = GRID) -> Array:
-    """Return what lies in a window of a field of the window that is wider by a rim."""
+    """Return the part in a window of a field on a window that is wider by a rim."""
     wide = np.broadcast_to(field, wider(grid).cells)
     return wide[RIM[0] : -RIM[0], RIM[1] : -RIM[1]]
 

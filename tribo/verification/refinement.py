@@ -101,7 +101,7 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
 
 
 def _coarser(cells: tuple[int, int], factor: float) -> tuple[int, int]:
-    """Return fewer cells, even or odd as they are, so that the centre stays what it is."""
+    """Return fewer cells, of the same parity, so that the centre stays in place."""
     nx, ny = (n % 2 + 2 * round(0.5 * (n / factor - n % 2)) for n in cells)
     return nx, ny
 

@@ -18,7 +18,7 @@ class AmplitudeStage(Table):
     until: Annotated[float, Quantity("s", above=0)]
     """When it ends."""
     amplitude: Amplitude
-    """How far the motion goes to each side."""
+    """Amplitude of the motion to each side."""
 
 
 class Drive(Table):

@@ -22,7 +22,7 @@ def loops(cycles: list[SavedCycle], frequency: float) -> Figure:
 
 
 def slip_map(cycle: SavedCycle) -> Figure:
-    """Draw how far points slip from one end of the stroke to the other, and where they stick."""
+    """Draw the slip of points from one end of the stroke to the other, and the stick zone."""
     figure = Figure(figsize=(3.35, 2.8), layout="constrained")
     axes = figure.add_subplot(xlabel="x (µm)", ylabel="y (µm)")
     grid, pressed = cycle.result.grid, cycle.pressure > 0

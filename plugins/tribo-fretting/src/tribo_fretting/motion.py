@@ -84,5 +84,5 @@ class Fretting(Kinematics, Drive):
         return [PartialSlip(**{name: getattr(self, name) for name in Drive.model_fields})]
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
-        """Return that the points of both bodies stay in contact."""
+        """Return stationary exposures of both bodies."""
         return {name: Stationary(grid) for name in bodies}

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from tribo.kernel_api import Model
 
 COUPLED = 0.02
-"""|β|μ from which on a report warns that traction and pressure act on each other."""
+"""|β|μ above which a report warns that traction and pressure act on each other."""
 
 
 @hookimpl

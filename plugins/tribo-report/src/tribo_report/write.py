@@ -86,7 +86,7 @@ def _page(what: What, verified: Path | None) -> str:
 
 
 def _opened(what: What, opened: ExitStack) -> Result | Comparison | Calibration | Path:
-    """Return what is to be reported; the path alone of a sweep and of a printed calibration."""
+    """Return the subject of the report; for a sweep and a printed calibration the path alone."""
     if isinstance(what, str | Path):
         place = Path(what)
         if place.suffix == ".json" or (place / RUNS).exists():

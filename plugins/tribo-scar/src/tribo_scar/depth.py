@@ -77,7 +77,7 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
 
 
 def _holes(area: Mask, missing: Mask) -> Mask:
-    """Return what an area encloses that is missing, but for what is missing in a ring's middle."""
+    """Return the missing pixels that an area encloses, without the middle of a ring."""
     places, count = ndimage.label(ndimage.binary_fill_holes(area) & ~area)
     parts = np.array([1.0, *ndimage.mean(missing, places, np.arange(1, count + 1))])
     found: Mask = missing & (places > 0) & (parts[places] > MOSTLY)

@@ -53,7 +53,7 @@ def warn_of_zeros(heights: Heights, which: str) -> None:
 
 
 def check_scales(before: Heights, after: Heights) -> None:
-    """Refuse maps of which one has a whole part of the other's pixels along both axes."""
+    """Refuse maps whose numbers of pixels along both axes have a whole ratio above 1."""
     fewer, more = sorted((before.heights.shape, after.heights.shape))
     ratio = more[0] // fewer[0]
     if ratio > 1 and more == tuple(ratio * n for n in fewer):

@@ -70,7 +70,7 @@ class WornArea:
 
 
 def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -> WornArea:
-    """Return what is worn; `CaseError` if nothing is. The map before may be an ideal shape."""
+    """Return the worn area; `CaseError` if nothing is. The map before may be an ideal shape."""
     smooth, known = smoothed(found.depth), np.isfinite(found.depth)
     depth = _filled(found.depth, smooth, known)
     noise = _noise(smooth, found)
@@ -140,7 +140,7 @@ def _noise(depth: Array, found: Registration) -> float:
 
 
 def _thin_ridges(found: Registration, fine: Array, relief: float, margin: Mask) -> Mask:
-    """Return what stands up in the margin of a scar, too thin for `_largest`.
+    """Return the ridges in the margin of a scar, too thin for `_largest`.
 
     Beyond noise, and beyond the relief of the worn surface, whose tops are no ridges.
     """

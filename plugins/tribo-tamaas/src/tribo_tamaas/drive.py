@@ -102,7 +102,7 @@ def pressure(
 
 
 def _counter(tamaas: Any) -> Any:
-    """Return an energy that is zero, to count how often its gradient is asked for."""
+    """Return an energy that is zero, to count evaluations of its gradient."""
 
     class Counter(tamaas.Functional):  # type: ignore[misc]
         def __init__(self) -> None:

@@ -180,7 +180,7 @@ class Flash(Effect):
         }
 
     def state_rates(self, contact: ContactConditions) -> Mapping[str, Array]:
-        """Return by how much the bulk of each body that warms in time does so per second."""
+        """Return the bulk temperature rate, in K/s, of each body that warms in time."""
         flows, rates = self._flows(contact), {}
         for name, path in self._warming.items():
             assert path.capacity is not None
@@ -190,7 +190,7 @@ class Flash(Effect):
         return rates
 
     def rises(self, contact: ContactConditions) -> dict[str, float]:
-        """Return how much hotter than ambient each body is in the contact, in K."""
+        """Return the temperature rise of each body in the contact above ambient, in K."""
         flows = self._flows(contact)
         return {
             name: self._bulk(name, contact) + flows[name] * self._resistance(name, contact)
