@@ -188,9 +188,9 @@ def peak_at_the_edge(largest: float, inside: float) -> Finding:
     """Word a largest pressure at the edge of the contact, with the largest inside, in Pa."""
     return Finding(
         "resolution",
-        f"the largest pressure, {1e-6 * largest:.4g} MPa, stands in cells at the edge of the "
-        f"contact alone, and {1e-6 * inside:.4g} MPa inside of it: it changes with the size of the "
-        "cells and from step to step; compare pressures in the centre instead",
+        f"the largest pressure, {1e-6 * largest:.4g} MPa, occurs only in cells at the edge of the "
+        f"contact, against {1e-6 * inside:.4g} MPa inside: it changes with the size of the cells "
+        "and from step to step; compare pressures in the centre instead",
         value=largest,
         limit=SHARP * inside,
     )
@@ -305,8 +305,8 @@ def other_grid(labels: Sequence[str], reference: str) -> Finding:
     """Word results on another grid than the reference result."""
     return Finding(
         "grid",
-        f"{', '.join(labels)}: not on the grid of {reference}, so that only scalars "
-        "and sections are compared, the latter interpolated where both windows reach",
+        f"{', '.join(labels)}: not on the grid of {reference}; only scalars and "
+        "sections are compared, sections by interpolation where both windows reach",
     )
 
 

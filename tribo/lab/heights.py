@@ -62,7 +62,7 @@ class Heights:
         if not np.any(np.isfinite(self.heights)):
             raise CaseError("every height of the map is missing; measure again, or mask less")
         if not min(self.pitch) > 0:
-            raise CaseError(f"a pitch of {self.pitch} m is none; give one above 0")
+            raise CaseError(f"the pitch is {self.pitch} m; give a pitch above 0, in m")
         known, width = self.heights[~np.isnan(self.heights)], max(self.grid.size)
         absurd = known[np.abs(known - np.median(known[np.isfinite(known)])) > width]
         if len(absurd):

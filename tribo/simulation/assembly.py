@@ -69,9 +69,9 @@ def assemble(case: Case) -> Model:
     if case.load.along:
         if case.contact.periodic:
             raise CaseError(
-                f"contact.type = {case.contact.type!r} repeats with the window, so that it is at "
-                "many places of the stroke at once; leave it out, or take a contact that does not "
-                "repeat",
+                f"contact.type = {case.contact.type!r} repeats with the window and has many places "
+                "along the stroke at once; leave load.along out, or use a contact that does not "
+                "repeat, as 'dcfft'",
                 "load.along",
             )
         dx = grid.spacing[0]

@@ -100,7 +100,7 @@ def _check_alike(model: Model, result: Result) -> None:
         if was != model.data["bodies"][body]["surface"] or off > SAME * np.ptp(height):
             raise CaseError(
                 f"{name} begins with another surface of {body} than the case does; give the case "
-                "the same surfaces: what is worn is a depth below them",
+                "the same surfaces, from which wear depths count",
                 PLACE,
             )
 

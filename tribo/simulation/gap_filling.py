@@ -54,8 +54,8 @@ def check_filling(model: Model, state: State) -> None:
     where = f"let it lie on the body that passes ({passing}), " if passing else ""
     raise CaseError(
         f"{states} fills the gap faster than wear opens it where the pressure is higher, so that "
-        f"the load would draw together on ever fewer points; {where}let less of what is worn stay, "
-        "or let it not fill the gap (fills = false)",
+        f"the load would concentrate on ever fewer points; {where}let less of the worn material "
+        "stay, or set fills = false",
         "effects",
     )
 

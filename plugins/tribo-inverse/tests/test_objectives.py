@@ -41,11 +41,11 @@ def test_a_time_to_look_at_that_is_none_is_refused(time):
     ("make", "message"),
     [
         (lambda: Deepest("ball", 1), "an order of 1 of Deepest is not allowed"),
-        (lambda: Depth("ball", "1 mm"), r"the place x = '1 mm', y = 0\.0 is none; give both in m"),
-        (lambda: Pressure(0.0, None), r"the place x = 0\.0, y = None is none"),
+        (lambda: Depth("ball", "1 mm"), r"the place is x = '1 mm', y = 0\.0; give numbers, in m"),
+        (lambda: Pressure(0.0, None), r"the place is x = 0\.0, y = None"),
         (lambda: Misfit("ball", [[1.0], [1.0, 2.0]]), "depth of ball is no array of numbers"),
-        (lambda: Width("ball", 5), "an axis of 5 of Width is none; give 0, along, or 1"),
-        (lambda: Misfit("ball", np.zeros((3, 3)), 0.0), "an uncertainty of 0.0 is none"),
+        (lambda: Width("ball", 5), "the axis of Width is 5; give 0 for along, or 1"),
+        (lambda: Misfit("ball", np.zeros((3, 3)), 0.0), "the uncertainty of Misfit is 0.0"),
         (lambda: Misfit("ball", np.diag([INF, 1, 1])), "is infinite somewhere"),
     ],
 )

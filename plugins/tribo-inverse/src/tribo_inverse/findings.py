@@ -90,8 +90,8 @@ def _bounds(estimates: pd.DataFrame, scatters: bool) -> Iterator[Finding]:
         elif each.limited:
             yield Finding(
                 "undetected",
-                f"{each.path}: what it wears was below the limit of detection, so that it is below "
-                f"{upper} and nothing more is known; the fitted case has as good as none",
+                f"{each.path}: its wear was below the limit of detection, so that only the bound "
+                f"{upper} is known; the fitted case has a negligible value",
                 limit=each.upper,
                 place=each.path,
             )
@@ -140,8 +140,8 @@ def _collinear(paths: list[str], jacobian: Array) -> Iterator[Finding]:
         ]
         yield Finding(
             "collinear",
-            f"the data cannot tell {' and '.join(names)} apart: measure something that only one "
-            "of them changes, or leave one out of fit",
+            f"the data do not separate {' and '.join(names)}: measure something that only one of "
+            "them changes, or leave one out of fit",
             value=float(angle),
             limit=COLLINEAR,
             place=", ".join(names),
@@ -319,7 +319,7 @@ def undecided(best: str, rivals: Mapping[str, float], limit: float, following: A
         )
     return Finding(
         "undecided",
-        f"these data cannot tell {' and '.join([best, *rivals])} apart: Schwarz's criterion "
+        f"these data do not separate {' and '.join([best, *rivals])}: Schwarz's criterion "
         f"differs by {', '.join(f'{by:.2g}' for by in rivals.values())}, where {limit:g} is strong "
         f"evidence{more}",
         value=min(rivals.values()),

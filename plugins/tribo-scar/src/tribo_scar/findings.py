@@ -141,8 +141,8 @@ def warn_of_area(worn: WornArea, *, within: bool) -> None:
         )
     elif (part := _in_a_gap(worn)) > GAP:
         warn(
-            f"{100 * part:.0f} % of the volume lie in one gap of what was measured, by the depths "
-            "around it: too much if it is not worn there, as in the middle of a circular track"
+            f"{100 * part:.0f} % of the volume lies in one gap of the map, interpolated from the "
+            "depths around it: too much if the gap is unworn, as in the middle of a circular track"
         )
     if worn.several:
         warn(

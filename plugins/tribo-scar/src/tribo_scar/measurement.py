@@ -205,9 +205,9 @@ def measured_scar(
     covered = float(np.mean(found.worn))
     if covered > MOST:
         raise CaseError(
-            f"{100 * covered:.0f} % of the {shape[0]} × {shape[1]} pixels differ, or lie within a "
-            "few of those that do, too much to register the maps by the rest; measure a larger "
-            "area, half of it unworn, or with smaller pixels"
+            f"{100 * covered:.0f} % of the {shape[0]} × {shape[1]} pixels differ, or lie next to "
+            "differing pixels, too many to register the maps by the rest; measure a larger area, "
+            "half of it unworn, or with smaller pixels"
         )
     worn = worn_area(found, after.pitch, ideal=ideal)
     smooth, depth, known, scar = worn.smooth, worn.depth, worn.known, worn.scar

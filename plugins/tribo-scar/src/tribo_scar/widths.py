@@ -91,7 +91,7 @@ def track_across(
     along_core = np.flatnonzero(np.mean(core_part, axis=1) > BESIDE)
     if not along_core.size:
         raise CaseError(
-            "what is worn runs across the map, but along no line: check that both maps are of one "
+            "the worn area crosses the map, but along no line; check that both maps show the same "
             "body"
         )
     first, last = along_core[[0, -1]]

@@ -81,12 +81,11 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         why = f"if over half of the map is worn, measure a larger area; or {doubt}"
         if piled.any():
             why = (
-                "but some of it stands up; is the map after the test given first, or are heights "
-                "counted downwards?"
+                "but a part stands up; give the map of before first, and heights that count upwards"
             )
         raise CaseError(
-            f"no scar was found: nothing is worn deeper than {1e6 * DEEP * noise:.3g} µm, {DEEP:g} "
-            f"times what else differs; {why}"
+            f"no scar was found: no depth exceeds {1e6 * DEEP * noise:.3g} µm, {DEEP:g} times the "
+            f"other differences; {why}"
         )
     is_open = [
         all(bool(np.any(core.take(end, axis))) for end in (range(MARGIN), range(-MARGIN, 0)))

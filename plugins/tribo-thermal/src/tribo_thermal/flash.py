@@ -160,8 +160,8 @@ class Flash(Effect):
                 )
         if swept >= bodies:
             raise CaseError(
-                "'thermal.flash' needs a body that stays in the contact; here all are swept, at "
-                "speeds it does not know"
+                "'thermal.flash' needs a stationary body, and all bodies are swept; leave it out, "
+                "or use a motion that sweeps one body"
             )
         for name, key in product(swept, ("density", "heat_capacity")):
             if getattr(materials[name], key) is None:

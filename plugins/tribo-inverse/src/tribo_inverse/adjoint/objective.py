@@ -12,7 +12,7 @@ from tribo_inverse.adjoint.view import Seeds, View, as_numbers, is_finite
 
 def _check_place(x: float, y: float) -> None:
     if not (is_finite(x) and is_finite(y)):
-        raise CaseError(f"the place x = {x!r}, y = {y!r} is none; give both in m, from the middle")
+        raise CaseError(f"the place is x = {x!r}, y = {y!r}; give numbers, in m from the middle")
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ class Width:
     def __post_init__(self) -> None:
         if self.axis not in (0, 1):
             raise CaseError(
-                f"an axis of {self.axis!r} of Width is none; give 0, along, or 1, across"
+                f"the axis of Width is {self.axis!r}; give 0 for along, or 1 for across"
             )
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
@@ -143,7 +143,7 @@ class Misfit:
     def __post_init__(self) -> None:
         if not (is_finite(self.uncertainty) and self.uncertainty > 0):
             raise CaseError(
-                f"an uncertainty of {self.uncertainty!r} is none; give Misfit one above 0, in m"
+                f"the uncertainty of Misfit is {self.uncertainty!r}; give a number above 0, in m"
             )
         depth = as_numbers(self.depth)
         if depth is None or np.any(np.isinf(depth)) or np.all(np.isnan(depth)):

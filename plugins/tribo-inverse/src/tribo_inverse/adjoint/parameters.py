@@ -296,8 +296,8 @@ def _varied(
         both = (of_load & of_motion) | ((of_load | of_motion) & base.saves)
         at = min(both, key=lambda time: abs(time - moved), default=moved)
         raise CaseError(
-            f"it parts what falls together at {at:g} s: a save, the end of a stage of the load or "
-            "of the motion; move one of them a little"
+            f"a change of it separates events that coincide at {at:g} s: a save, the end of a "
+            "stage of the load or of the motion; move one of them a little"
         )
     return model
 

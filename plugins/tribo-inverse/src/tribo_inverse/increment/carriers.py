@@ -100,8 +100,8 @@ def carriers_of(model: Model) -> dict[str, Carrier]:
         exposure = model.cycle.maps[name]
         if exposure.across is not None:
             raise CaseError(
-                f"gradients are not known where {name} moves across as well as along x, as it does "
-                f"with {model.case.kinematics.type!r}",
+                f"{name} moves across as well as along x with {model.case.kinematics.type!r}, "
+                "which has no gradient; use a motion along x",
                 "kinematics.type",
             )
         weights = None
