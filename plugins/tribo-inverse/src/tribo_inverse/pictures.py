@@ -30,7 +30,7 @@ def coefficient_map(found: LocalMap, level: float, title: str = "") -> Figure:
         return np.where(found.told, values, np.nan)
 
     panels: dict[str, tuple[Array, Range]] = {
-        "factor on k, where told": (known(found.factor), (None, None)),
+        "factor on k, where known": (known(found.factor), (None, None)),
         "standard deviation / prior's": (part, (0.0, 1.0)),
     }
     figure = _drawn(panels, spacing, title, "viridis")
