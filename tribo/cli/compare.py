@@ -21,12 +21,12 @@ _GAP = 3
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=PATH)
-@click.option("--vary", multiple=True, metavar="PATH=A,B", help="Values that take turns.")
+@click.option("--vary", multiple=True, metavar="PATH=A,B", help="Vary a value.")
 @SET
 @PLUGIN
-@click.option("-o", "--output", type=PATH, help="Folder; CASE-compare.")
-@click.option("--at", "at", multiple=True, metavar="TIME", help="Save to show, as '1 h'.")
-@click.option("--match", multiple=True, metavar="NAME=NAME", help="First's body=another's.")
+@click.option("-o", "--output", type=PATH, help="Write to this folder, by default CASE-compare.")
+@click.option("--at", "at", multiple=True, metavar="TIME", help="Show this saved time, as '1 h'.")
+@click.option("--match", multiple=True, metavar="NAME=NAME", help="Match two bodies, as ball=pin.")
 @click.option("--force", is_flag=True, help="Run all again.")
 @JSON
 @click.option("--no-plots", is_flag=True, help="Write no pictures.")

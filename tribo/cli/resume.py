@@ -12,7 +12,7 @@ from tribo.cli.options import PLUGIN, RESULT
 @click.command()
 @RESULT
 @PLUGIN
-@click.option("--allow-changed", is_flag=True, help="Go on with other versions of components.")
+@click.option("--allow-changed", is_flag=True, help="Accept changed components.")
 def resume(output: Path, allow_changed: bool) -> None:
     """Continue the stopped run whose result file is OUTPUT.
 

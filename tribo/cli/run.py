@@ -12,7 +12,7 @@ from tribo.cli.waiting import waiting_for
 
 @click.command()
 @CASE
-@click.option("-o", "--output", type=PATH, help="Result file; CASE.h5.")
+@click.option("-o", "--output", type=PATH, help="Write this result file, by default CASE.h5.")
 @SET
 @PLUGIN
 @click.option("--force", is_flag=True, help="Replace a result; one to resume gets another name.")

@@ -42,7 +42,7 @@ Shown = TypeVar("Shown", Calibration, Choice, Plan)
     "--measured",
     required=True,
     type=PATH,
-    help="What was measured, and what to fit: a TOML file.",
+    help="File of measured values and parameters to fit, in TOML.",
 )
 @SET
 @PLUGIN
