@@ -1,5 +1,6 @@
-"""How pages are written: the words of the field, short lines, short sentences."""
+"""How pages, docstrings and messages are written: the field's words, short lines and sentences."""
 
+import ast
 import re
 from pathlib import Path
 
@@ -13,9 +14,11 @@ PAGES = [
     for page in sorted(folder.rglob("*.md"))
     if not any(part in str(page) for part in (*GENERATED, ".venv", "site-packages", "templates"))
 ]
+SOURCES = [ROOT / "tribo", *sorted((ROOT / "plugins").glob("*/src"))]
+FOLDERS = sorted({path.parent for source in SOURCES for path in source.rglob("*.py")})
 FORBIDDEN = re.compile(
-    r"\b(that of|those of|one that|comes? to|is told|goes on|on the mean|in sum|anew|could be had"
-    r"|at hand|notices?|doubts?)\b",
+    r"(?<![.\w])(that of|those of|one that|comes? to|is told|goes on|on the mean|in sum|anew"
+    r"|could be had|at hand|notices?|doubts?)\b",
     re.IGNORECASE,
 )
 MEAN_WORDS, LONG_WORDS, LONG_SHARE = 22, 30, 0.1
@@ -49,6 +52,25 @@ def test_page_uses_the_words_of_the_style(page):
     assert not found
 
 
+def texts(source):
+    """Yield the comments of a module, and its docstrings and messages: texts of several words."""
+    yield " ".join(re.findall(r"(?:^|\s)#(.*)", source)).split()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            yield node.value.split()
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=_name)
+def test_code_uses_the_words_of_the_style(folder):
+    assert not [
+        (path.name, match.group())
+        for path in folder.glob("*.py")
+        for words in texts(path.read_text("utf-8"))
+        if len(words) > 1
+        for match in re.finditer(rf".{{,40}}{FORBIDDEN.pattern}.{{,40}}", " ".join(words), re.I)
+    ]
+
+
 @pytest.mark.parametrize("page", PAGES, ids=_name)
 def test_page_has_short_sentences_and_lines(page):
     text = page.read_text(encoding="utf-8")
@@ -63,6 +85,9 @@ def test_page_has_short_sentences_and_lines(page):
 
 def test_the_lint_finds_what_it_forbids():
     assert FORBIDDEN.search("It is that of a wave.")
+    docstring, message = "'Return that of\\n    a wave.'", "raise ValueError('it goes on')"
+    found = [FORBIDDEN.search(" ".join(words)) for words in texts(f"{docstring}\n{message}")]
+    assert sum(map(bool, found)) == 2
     assert [
         len(each.split())
         for each in prose("One two three four. Five six seven.\n\n```\ncode\n```\n")

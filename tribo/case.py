@@ -38,15 +38,15 @@ class Layer(Table):
     """A layer of a body, with what differs from the body below it."""
 
     thickness: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1e-2))]
-    """How much of it has to be worn away."""
+    """Thickness of the layer."""
     wear: WearLaw | None = None
-    """How it wears; as the body below if left out."""
+    """Wear law of the layer; the body's if left out."""
     young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12))] | None = None
-    """Young's modulus; that of the body if left out."""
+    """Young's modulus; the body's if left out."""
     poisson: Poisson | None = None
-    """Poisson's ratio; that of the body if left out."""
+    """Poisson's ratio; the body's if left out."""
     hardness: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e11))] | None = None
-    """Hardness, for laws that use it; that of the body if left out."""
+    """Hardness, for laws that use it; the body's if left out."""
 
     def material(self, below: Material) -> Material:
         """Return its material on a body of `below`."""
@@ -58,31 +58,31 @@ class Body(Table):
     """One of the two bodies."""
 
     surface: Surface
-    """Shape before it wears."""
+    """Shape before wear."""
     material: Material
-    """What it is made of."""
+    """Material of the body."""
     wear: WearLaw | None = None
-    """How it wears; it does not if left out."""
+    """Wear law; the body does not wear if left out."""
     layers: tuple[Layer, ...] = ()
-    """Layers on it, from the top: `material` and `wear` are those of what lies below them."""
+    """Layers on it, from the top; `material` and `wear` belong to the body below them."""
 
     @model_validator(mode="after")
     def _wears_in_layers(self) -> Self:
         if self.layers and self.wear is None:
             raise ValueError(
-                "layers are worn through: give wear for what lies below them, as "
-                "{ type = 'archard', k = 0 } if that does not wear"
+                "layers wear through to the body: give its wear, as { type = 'archard', k = 0 } if "
+                "it does not wear"
             )
         return self
 
     def laws(self) -> tuple[WearLaw, ...]:
-        """Return its wear laws, those of its layers first; none if it does not wear."""
+        """Return its wear laws, the layers' first; none if it does not wear."""
         if self.wear is None:
             return ()
         return (*(layer.wear or self.wear for layer in self.layers), self.wear)
 
     def materials(self) -> tuple[Material, ...]:
-        """Return its materials, those of its layers first."""
+        """Return its materials, the layers' first."""
         return (*(layer.material(self.material) for layer in self.layers), self.material)
 
 

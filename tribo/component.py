@@ -53,7 +53,7 @@ class Component(Table, ABC):
     """The name that stands for the class in a case; its own in snake case if left out."""
 
     material_properties: ClassVar[tuple[Field, ...]] = ()
-    """What it needs of materials: of that of its body, or of both if it belongs to none. Each is
+    """What it needs of its body's material, or of both materials if it belongs to no body. Each is
     the name of a key of `Material`, or of one of its `properties`, which a case then gives."""
 
     examples: ClassVar[Sequence[Mapping[str, Any]]] = ()
@@ -164,7 +164,7 @@ class Component(Table, ABC):
         return {}
 
     def findings(self, snapshot: Snapshot) -> Sequence[Finding]:
-        """Return what there is to say of an accepted step, such as that a limit is passed.
+        """Return findings on an accepted step, such as a limit that is passed.
 
         Each kind is said once, with the time and place from which on it holds: as a warning on the
         terminal, and in the findings of the result. One of the kind ``"stop"`` ends the run, as a
@@ -204,5 +204,5 @@ def _snake_case(name: str) -> str:
 
 
 def registry_of(info: ValidationInfo) -> Any:
-    """Return the registry of a validation, or else that of the installed plugins."""
+    """Return the registry of a validation, or else the registry of the installed plugins."""
     return (info.context or {}).get("registry") or call("registry")

@@ -1,4 +1,4 @@
-"""What the packages beside the kernel add, so that who asks for it is told what to install."""
+"""The contents of the packages beside the kernel, to name what to install."""
 
 COMMANDS = {
     "calibrate": ("tribo-inverse", "Fit a case to measured wear."),

@@ -59,7 +59,7 @@ def test_a_body_that_is_swept_without_turning_is_refused():
             Waves(amplitude="1 nm", wavelength="1 mm", along="x", on=Cylinder(radius=RADIUS)),
             "is not round",
         ),
-        (Cylinder(radius="25 mm"), r"radius is 25 mm, but that of the track 20 mm; .* = 0\.025"),
+        (Cylinder(radius="25 mm"), r"radius is 25 mm, the track's 20 mm; .* = 0\.025"),
     ],
 )
 def test_a_ring_is_round_and_as_large_as_its_track(ring, words):

@@ -167,12 +167,12 @@ def test_what_a_law_within_a_law_remembers_goes_on(tmp_path):
         case = worn_case(duration=1, bodies=bodies(law), begin=begin, **small)
         state = first_state(Simulation(case).model)
         np.testing.assert_array_equal(state.bodies["ball"].law["slip"], slipped)
-        assert state.findings[-1].words.endswith("begin anew")
+        assert state.findings[-1].words.endswith("start at 0")
     case = worn_case(duration=1, bodies=bodies(archard()), begin=begin, **small)
     assert (
         first_state(Simulation(case).model)
         .findings[-1]
-        .words.endswith("; left out of it is slip of ball")
+        .words.endswith("; not taken from it: slip of ball")
     )
 
 
@@ -212,8 +212,8 @@ def test_what_an_effect_remembers_goes_on_at_its_place_only_and_the_finding_says
             (warm,) = state.between.values()
             np.testing.assert_allclose(warm, 2.0 if now == was else 1.0)
             before, after = (f"warm of {each.on or 'the contact'}" for each in (was, now))
-            words = f"begins afresh: {after}; left out of it is {before}"
-            assert text.endswith("begin anew" if now == was else words)
+            words = f"start afresh: {after}; not taken from it: {before}"
+            assert text.endswith("start at 0" if now == was else words)
 
 
 @pytest.mark.slow

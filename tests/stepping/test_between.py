@@ -190,7 +190,7 @@ class OfBoth(Follows):
 
 def test_a_body_whose_law_does_not_remember_is_named():
     bodies = pair(Rubbed())
-    words = r"^bodies\.disk\.wear: an effect asks for 'rubbed' of 'disk'.*that of ball does"
+    words = r"^bodies\.disk\.wear: an effect needs the state 'rubbed' of 'disk'.*of ball has it"
     with pytest.raises(CaseError, match=words):
         states(model(bodies=bodies, effects=[OfBoth()]))
 

@@ -128,7 +128,7 @@ def test_a_run_that_ends_at_a_depth_tells_only_of_layers_passed_by_then():
 @pytest.mark.parametrize(
     ("body", "words"),
     [
-        ({**coated(), "wear": None}, "pin: layers are worn through: give wear for what lies below"),
+        ({**coated(), "wear": None}, "pin: layers wear through to the body: give its wear"),
         (
             coated(wear={"type": "archard", "K": 1e-6}),
             r"pin\.layers\.0\.wear: K needs a hardness",

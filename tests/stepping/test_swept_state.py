@@ -50,7 +50,7 @@ def test_what_air_does_beside_what_pressure_does_is_the_mean_over_the_track():
 
 
 def test_positions_that_do_not_tell_are_refused():
-    told = "changes on 'disk' where nothing presses"
+    told = "changes on 'disk' under no pressure"
     with (
         pytest.raises(CaseError, match=told),
         Simulation(run(0.72e-3, Oxide(), positions=33)).run(),

@@ -83,8 +83,8 @@ def test_only_common_saves_count_and_a_run_that_goes_on_alone_is_told(saved_at):
         with pytest.raises(CaseError, match="has no save at 50 s; its saves are at"):
             comparison.chosen_times([50])
         assert [note.split(",")[0] for note in comparison.notes] == [
-            "300 goes on to 300 s",
-            "150 goes on to 150 s",
+            "300 continues to 300 s",
+            "150 continues to 150 s",
         ]
 
 
@@ -107,7 +107,7 @@ def test_a_file_that_is_not_a_sound_result_is_kept(done, damaged):
     content = bytearray(path.read_bytes() if damaged else b"my notes")
     content[len(content) // 2] ^= 1
     path.write_bytes(content)
-    with pytest.raises(CaseError, match=r"dcfft\.h5 is .* or run all anew with --force"):
+    with pytest.raises(CaseError, match=r"dcfft\.h5 is .* or run all again with --force"):
         compare(CASE, CONTACTS, done)
     assert path.read_bytes() == content
 

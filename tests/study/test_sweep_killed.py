@@ -115,7 +115,7 @@ def assert_ends_as(whole, folder):
 def assert_stopped(folder, process):
     code, _, err = finished(process)
     assert code == 130
-    assert err.endswith("error: stopped; the same command goes on\n")
+    assert err.endswith("error: stopped; the same command continues\n")
     assert "interrupted" in set(table(folder)["status"])
     # A killed worker leaves its own; those that have stopped leave none.
     assert len(list(results(folder).glob("*.lock"))) <= 1
@@ -193,7 +193,7 @@ def test_a_sweep_survives_a_killed_worker_and_the_end_of_dask(tmp_path, whole, c
     scheduler.kill()
     code, _, err = finished(process)
     assert code == 3
-    assert "the same command goes on" in err
+    assert "the same command continues" in err
     assert_ends_as(whole, tmp_path)
 
 

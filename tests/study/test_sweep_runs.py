@@ -120,7 +120,7 @@ def test_a_run_whose_worker_always_dies_fails_after_three(again):
 def test_a_worker_with_a_folder_of_its_own_is_told_of(tmp_path):
     swept = sweep(sweeps.study(tmp_path), executor=sweeps.Inline(lambda case: ("done", "")))
     assert statuses(swept) == ["failed"] * 2
-    assert "must be one that all share" in swept.table["message"][0]
+    assert "all workers must share" in swept.table["message"][0]
 
 
 def test_an_executor_that_takes_no_runs_ends_the_sweep(tmp_path):
@@ -160,7 +160,7 @@ def test_a_damaged_result_is_done_again(again):
     content[len(content) // 2] ^= 1
     damaged.write_bytes(content)
     executor = sweeps.Inline()
-    with pytest.warns(TriboWarning, match=f"{damaged.name} is begun anew: "):
+    with pytest.warns(TriboWarning, match=f"{damaged.name} is started again: "):
         assert statuses(sweep(again, executor=executor)) == ["done"] * 2
     assert executor.calls == [str(damaged)]
 
@@ -169,7 +169,7 @@ def test_a_damaged_result_is_done_again(again):
 def test_results_of_other_components_are_made_anew(again, monkeypatch):
     monkeypatch.setattr("tribo.result.provenance._code", lambda package: "edited")
     executor = sweeps.Inline()
-    with pytest.warns(TriboWarning, match="is begun anew: .* is done, with other components: "):
+    with pytest.warns(TriboWarning, match="is started again: .* is done, with other components: "):
         assert statuses(sweep(again, executor=executor)) == ["done"] * 2
     assert len(executor.calls) == 2
 

@@ -27,7 +27,7 @@ for name, words, saved, parts in (
     ("stands_still", "slides from 0 m to 0 m", False, path(lambda t, s: 0.0)),
     ("no_path", "'distance_at' at 0 s that is a NoneType", False, path(lambda t, s: None)),
     # Between the times that are tried at first.
-    ("turns_back", "does not slide on", True, path(lambda t, s: s if abs(t - 7) > 0.1 else 0.0)),
+    ("turns_back", "does not grow", True, path(lambda t, s: s if abs(t - 7) > 0.1 else 0.0)),
     ("stops", "raised OverflowError: too late", True, path(stopping)),
     ("ends_before", "'end_time' that is -3.0; ", False, {"end_time": property(lambda self: -3.0)}),
     ("no_inverse", "not the inverse", False, {"time_at": lambda self, s: 5 * s}),

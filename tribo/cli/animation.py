@@ -1,4 +1,4 @@
-"""A run as an animation: the pressure and what is gone of each body, a frame a saved time."""
+"""A run as an animation: the pressure and the wear depth of each body, a frame a saved time."""
 
 from __future__ import annotations
 

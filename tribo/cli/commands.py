@@ -1,4 +1,4 @@
-"""The commands of `tribo`: the kernel's own and those of packages, through one hook."""
+"""The commands of `tribo`, of the kernel and of packages, through one hook."""
 
 from __future__ import annotations
 

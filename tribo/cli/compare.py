@@ -21,13 +21,13 @@ _GAP = 3
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=PATH)
-@click.option("--vary", multiple=True, metavar="PATH=A,B", help="Values that take turns.")
+@click.option("--vary", multiple=True, metavar="PATH=A,B", help="Vary a value.")
 @SET
 @PLUGIN
-@click.option("-o", "--output", type=PATH, help="Folder; CASE-compare.")
-@click.option("--at", "at", multiple=True, metavar="TIME", help="Save to show, as '1 h'.")
-@click.option("--match", multiple=True, metavar="NAME=NAME", help="First's body=another's.")
-@click.option("--force", is_flag=True, help="Run all anew.")
+@click.option("-o", "--output", type=PATH, help="Write to this folder, by default CASE-compare.")
+@click.option("--at", "at", multiple=True, metavar="TIME", help="Show this saved time, as '1 h'.")
+@click.option("--match", multiple=True, metavar="NAME=NAME", help="Match two bodies, as ball=pin.")
+@click.option("--force", is_flag=True, help="Run all again.")
 @JSON
 @click.option("--no-plots", is_flag=True, help="Write no pictures.")
 def compare(
@@ -101,7 +101,7 @@ def _print(comparison: Comparison, times: Sequence[float]) -> None:
     console.print(
         f"Percentages are relative to {escape(comparison.reference)}. Maps are compared cell by "
         "cell, sections where grids differ: the L2 norm of the difference, then the largest, "
-        "which of a pressure is often that of a cell at the rim."
+        "which for a pressure often lies in a cell at the rim."
     )
     # A label is broken between its words, unless two of them would not fit.
     longest = max((len(word) for label in labels for word in label.split()), default=0)
@@ -118,7 +118,7 @@ def _print(comparison: Comparison, times: Sequence[float]) -> None:
 def _asked(
     files: tuple[Path, ...], vary: tuple[str, ...], overrides: tuple[str, ...], force: bool
 ) -> tuple[Any, dict[str, Any]]:
-    """Return what is compared, a case or result files, and how a case varies."""
+    """Return the operands, a case or result files, and the variation of a case."""
     from tribo.config.load import read_toml
     from tribo.config.overrides import apply_settings
     from tribo.observers.progress import Progress

@@ -33,7 +33,7 @@ LIKE = {
     type=PATH,
     default="tribo-demo",
     show_default=True,
-    help="Folder to write to.",
+    help="Write to this folder.",
 )
 @click.option("--force", is_flag=True, help="Replace the results of an earlier demo.")
 def demo(directory: Path, force: bool) -> None:

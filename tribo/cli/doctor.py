@@ -13,7 +13,7 @@ SHORT = ("grid={ size = 0.7e-3, cells = 64 }", "kinematics.duration=20", "output
 
 
 @click.command()
-@click.option("--json", "as_json", is_flag=True, help="One JSON object.")
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
 @click.option(
     "--time-limit",
     type=float,
@@ -21,7 +21,7 @@ SHORT = ("grid={ size = 0.7e-3, cells = 64 }", "kinematics.duration=20", "output
     help="CPU time of a plugin's import.  [default: TRIBO_PLUGIN_TIME_LIMIT, or 30 times tribo's]",
 )
 def doctor(as_json: bool, time_limit: float | None) -> None:
-    """Test the installation, and try every plugin anew, in another process.
+    """Test the installation, and try every plugin in a new process.
 
     Exit codes: 0 all is well, 3 something is not.
 

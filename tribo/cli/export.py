@@ -16,9 +16,9 @@ OWN = {"csv": "tables", "xlsx": "the same tables in one file for Excel"}
 
 @click.command()
 @RESULT
-@click.option("-d", "--directory", type=PATH, help="Folder to write to; OUTPUT-FORMAT.")
+@click.option("-d", "--directory", type=PATH, help="Write to a folder, by default OUTPUT-FORMAT.")
 @click.option(
-    "--format", "name", default="csv", show_default=True, help="csv, xlsx, or one of a plugin."
+    "--format", "name", default="csv", show_default=True, help="csv, xlsx, or a plugin's format."
 )
 @click.option("--columns", metavar="A,B,…", help="Write these columns of lab.csv alone.")
 def export(output: Path, directory: Path | None, name: str, columns: str | None) -> None:

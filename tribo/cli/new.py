@@ -16,7 +16,7 @@ HELP = f"""Write a commented case, study or measurements from TEMPLATE to FILE; 
 \b
 Templates:
 {_LISTED}
-and those of plugins, which are listed where TEMPLATE is none of them.
+and templates of plugins, which are listed where TEMPLATE is unknown.
 
 \b
 Example:

@@ -25,7 +25,7 @@ PLUGIN = click.option(
     callback=lambda _, __, files: _add(files),
     help="Run a Python file, and let its classes and hooks take part.",
 )
-JSON = click.option("--json", "as_json", is_flag=True, help="One JSON object, in SI units.")
+JSON = click.option("--json", "as_json", is_flag=True, help="Print a JSON object, in SI units.")
 
 
 def _add(files: tuple[Path, ...]) -> None:

@@ -11,7 +11,7 @@ from tribo.cli.options import PATH, RESULT
 
 @click.command()
 @RESULT
-@click.option("-d", "--directory", type=PATH, help="Folder to write to; OUTPUT-plots.")
+@click.option("-d", "--directory", type=PATH, help="Write to this folder, by default OUTPUT-plots.")
 @click.option(
     "--format", "suffix", type=click.Choice(["png", "pdf", "svg"]), default="png", show_default=True
 )
@@ -20,7 +20,7 @@ from tribo.cli.options import PATH, RESULT
 )
 @click.option("--only", "names", multiple=True, help="Write this picture alone; repeatable.")
 @click.option("--animate", is_flag=True, help="Write animation.gif: pressure, depths.")
-@click.option("--against", default="distance_m", show_default=True, help="Over this column.")
+@click.option("--against", default="distance_m", show_default=True, help="Draw over this column.")
 def plot(
     output: Path,
     directory: Path | None,

@@ -22,7 +22,7 @@ def plugins() -> None:
 
 
 @plugins.command("list")
-@click.option("--json", "as_json", is_flag=True, help="One JSON list.")
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON list.")
 def list_(as_json: bool) -> None:
     """List every component, and every plugin that cannot be used; imports no plugin.
 
@@ -128,7 +128,7 @@ def check(name: str) -> None:
 @plugins.command()
 @click.argument("name")
 @click.option("--kind", required=True, metavar="KIND", help="wear-law, effect, surface, …")
-@click.option("-d", "--directory", type=PATH, default=Path(), help="Where to put it.")
+@click.option("-d", "--directory", type=PATH, default=Path(), help="Write to this folder.")
 def new(name: str, kind: str, directory: Path) -> None:
     """Write a complete plugin distribution NAME that installs and passes its tests.
 

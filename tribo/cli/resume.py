@@ -12,11 +12,11 @@ from tribo.cli.options import PLUGIN, RESULT
 @click.command()
 @RESULT
 @PLUGIN
-@click.option("--allow-changed", is_flag=True, help="Go on with other versions of components.")
+@click.option("--allow-changed", is_flag=True, help="Accept changed components.")
 def resume(output: Path, allow_changed: bool) -> None:
-    """Go on with the stopped run whose result file is OUTPUT.
+    """Continue the stopped run whose result file is OUTPUT.
 
-    The result has the same bits as that of a run that was never stopped.
+    The result has the same bits as the result of a run that was never stopped.
 
     \b
     Example:

@@ -12,7 +12,7 @@ from tribo.cli.waiting import waiting_for
 
 @click.command()
 @CASE
-@click.option("-o", "--output", type=PATH, help="Result file; CASE.h5.")
+@click.option("-o", "--output", type=PATH, help="Write this result file, by default CASE.h5.")
 @SET
 @PLUGIN
 @click.option("--force", is_flag=True, help="Replace a result; one to resume gets another name.")
@@ -23,7 +23,7 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     Example:
       tribo run my.toml --set grid.cells=128 --set contact.type=winkler -o winkler.h5
 
-    Ctrl-C stops cleanly; 'tribo resume' goes on. Exit codes: 0 done, 2 bad
+    Ctrl-C stops cleanly; 'tribo resume' continues. Exit codes: 0 done, 2 bad
     input, 3 numerical failure or output that cannot be written, 130
     interrupted.
     """

@@ -65,7 +65,7 @@ def say(what: str, colour: str, text: str) -> None:
 def over(stream: TextIO | None, number: int) -> TextIO:
     """Return a guarded stream to the file of a standard stream, which escapes signs it lacks.
 
-    None stands for one that is closed.
+    None is a closed stream.
     """
     if stream is None:
         # Otherwise the next file that is opened has its number.

@@ -21,11 +21,11 @@ NAMED = 5
 
 @click.command()
 @click.argument("study", type=PATH)
-@click.option("-o", "--output", type=PATH, help="Folder; STUDY-sweep.")
-@click.option("-j", "--jobs", type=click.IntRange(1), help="Runs at once; a core each.")
+@click.option("-o", "--output", type=PATH, help="Write to this folder, by default STUDY-sweep.")
+@click.option("-j", "--jobs", type=click.IntRange(1), help="Parallel runs, by default one a core.")
 @click.option("--scheduler", metavar="ADDRESS", help="Run on this dask scheduler's workers.")
-@click.option("--retry", is_flag=True, help="Run again what failed before.")
-@click.option("--yes", is_flag=True, help="More than 1000 runs are meant.")
+@click.option("--retry", is_flag=True, help="Repeat failed runs.")
+@click.option("--yes", is_flag=True, help="Allow more than 1000 runs.")
 @JSON
 @PLUGIN
 def sweep(
@@ -37,13 +37,13 @@ def sweep(
     yes: bool,
     as_json: bool,
 ) -> None:
-    """Run the cases of STUDY, a TOML file that says what varies, in parallel.
+    """Run the cases of STUDY, a TOML file with the values that vary, in parallel.
 
     Every case is validated before any is run. Afterwards the folder holds
     runs.csv (a row a run), saves.csv (a row a save), the folder results and,
     where curves say it, a picture of the depth of each worn body. A
-    failing run is recorded and the others go on. A sweep that was stopped, or
-    whose study has grown, goes on with the same command.
+    failing run is recorded and the others continue. A sweep that was stopped,
+    or whose study has grown, continues with the same command.
 
     \b
     Example:

@@ -98,11 +98,11 @@ def solve_together(
     tolerance: float = 1e-8,
     max_iterations: int = 500,
 ) -> list[ContactSolution]:
-    """Solve one position, or those of a cycle stacked, as one problem; see `solve_bounded`.
+    """Solve one position, or the stacked positions of a cycle, as one problem.
 
     Gap, cap and start have the shape (nx, ny) or (positions, nx, ny), the load () or (positions,).
     Positions that a compliance couples are weighted with their shares of the path, which keeps A
-    symmetric; else alike.
+    symmetric; else equally. See `solve_bounded`.
     """
     if compliance is not None:
         operator = WornOperator(operator, compliance)

@@ -24,15 +24,15 @@ layer may be as thick without that."""
 def base_kernel(
     shape: tuple[int, int], spacing: tuple[float, float], coatings: Iterable[Coating]
 ) -> Array:
-    """Return what the bases add to the displacement, in the order a circular convolution needs.
+    """Return the displacement due to the bases, in the order a circular convolution needs.
 
-    The point load's is the Hankel transform of `Coating.influence`, smooth over the
+    For a point load it is the Hankel transform of `Coating.influence`, smooth over the
     thickness and, unlike the transform on a grid, without images and with its 1/r
     (the correction near q = 0 of Liu & Wang 2002, J. Tribol. 124, 36-45, is not needed). It is
     integrated over the cell: exactly near it, by Gauss's rule further off.
 
-    Shape, spacing and order are those of `tribo.contact.love.wrapped_kernel`; the displacement is
-    for p = 1, in m/Pa. `coatings` are those of both bodies.
+    Shape, spacing and order are as in `tribo.contact.love.wrapped_kernel`; the displacement is
+    for p = 1, in m/Pa. `coatings` are the coatings of both bodies.
     """
     halves = [n // 2 + 1 for n in shape]
     quarter = np.zeros(halves)

@@ -30,7 +30,7 @@ class HalfSpace:
     spacing : tuple of float
         Edge lengths of a cell along x and y, in m.
     modulus : float
-        Contact modulus E*, in Pa; with coatings that of what lies at the surface.
+        Contact modulus E*, in Pa; with coatings the modulus of the layers at the surface.
     coatings : tuple of Coating, optional
         Elastic layers on the half-spaces.
 

@@ -16,7 +16,7 @@ LEAST_LOAD = 1e-100
 def check_bearable(load: float, area: float, limit: Array | float) -> None:
     """Raise `CaseError` unless `load` is positive, not lost in rounding, and `area` can bear it.
 
-    `area` is that of the window, in m², and `limit` the largest pressure, in Pa; may be infinite.
+    `area` is the window's, in m², and `limit` the largest pressure, in Pa, which may be infinite.
     """
     if not load > 0:
         raise CaseError(f"the load is {load:g} N; a contact needs a positive load")

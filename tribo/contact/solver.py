@@ -39,7 +39,7 @@ class ContactSolver(Component):
 
     couples: ClassVar[bool] = False
     """Whether `solve_cycle` takes the wear that couples the positions of a cycle; if not, a step
-    comes to it by passes."""
+    iterates over it in passes."""
 
     def __init_subclass__(cls, **named: Any) -> None:
         """Take the positions one by one where a subclass solves a contact of its own."""

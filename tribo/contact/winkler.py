@@ -37,7 +37,7 @@ def solve_foundation(
     bracket finds them in finitely many passes.
 
     Exact to round-off. `modulus` is K_w, in Pa/m, `cap` the largest pressure, in Pa, and `guess` an
-    approach to start from, in m. Errors are those of `tribo.contact.bounded_cg.solve_together`.
+    approach to start from, in m. It raises as `tribo.contact.bounded_cg.solve_together`.
     """
     gap, grid = problem.gap, problem.system.grid
     limit = np.inf if cap is None else cap

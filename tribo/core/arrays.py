@@ -59,9 +59,9 @@ def union(first: Region, second: Region) -> Region:
 
 
 def part_from(field: Array, first: Cell, count: Cell) -> Array:
-    """Return `count` rows and columns of a field, of which those of the cell `first` are the first.
+    """Return `count` rows and columns of a field, starting at the cell `first`.
 
-    After its last row a field goes on with its first, and so do its columns.
+    The field is periodic: its first row follows its last, and so do its columns.
     """
     rows, columns = field.shape
     row, column = first[0] % rows, first[1] % columns

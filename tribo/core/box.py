@@ -14,7 +14,7 @@ _SMALLEST = 8
 
 @dataclass(frozen=True)
 class Box:
-    """A rectangle of cells: its first cell, its cells, and those of the window, by axis."""
+    """A rectangle of cells: its first cell, its cells, and the window's cells, by axis."""
 
     first: tuple[int, int]
     shape: tuple[int, int]

@@ -26,7 +26,7 @@ class Coating:
     """In m."""
     layer: Material
     base: Material
-    """Of the layer, and of what is below it."""
+    """Of the layer, and of the body below it."""
 
     @cached_property
     def modulus(self) -> float:
@@ -34,7 +34,7 @@ class Coating:
         return self.layer.young / (1 - self.layer.poisson**2)
 
     def influence(self, wavenumber: Array) -> Array:
-        """Return what the base makes of the displacement, relative to a half-space of the layer.
+        """Return the influence of the base on the displacement of a half-space of the layer.
 
         A wave of pressure of amplitude 1 and wavenumber q displaces the surface by
         2 (1 + influence)/(E′ q), with E′ the layer's `modulus`. It is 0 for a thick layer

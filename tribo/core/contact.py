@@ -44,11 +44,11 @@ class WearCompliance:
         return np.asarray(self.local * pressure + self.swept * (dx * np.sum(pressure, axis=0)))
 
     def on(self, box: Box) -> WearCompliance:
-        """Return what of it lies on a box."""
+        """Return its part on a box."""
         return WearCompliance(self.local[box.slices], self.swept[box.slices[1]])
 
     def typical(self, length: float) -> tuple[float, float]:
-        """Return its means, in m/Pa: of what a cell wears, and of what rows of a length (m) do."""
+        """Return its mean depths per pressure, in m/Pa: by a cell, and by rows of a length (m)."""
         return _mean_where_positive(self.local), length * _mean_where_positive(self.swept)
 
 
@@ -56,8 +56,8 @@ class WearCompliance:
 class CycleCompliance:
     """The wear of an implicit step at the positions of a cycle, as additional compliance.
 
-    What a body loses at one position it lacks at the others. With Tₘ cutting the window out of
-    the body's own surface at position m, and ωₘ the share of the path spent there::
+    The wear of a body at one position changes its gap at the others. With Tₘ cutting the window out
+    of the body's own surface at position m, and ωₘ the share of the path spent there::
 
         (A p)ₘ = K pₘ + Σ over bodies Tₘ c Σₙ ωₙ Tₙᵀ pₙ
 
@@ -104,12 +104,12 @@ class CycleCompliance:
         return depth
 
     def on(self, box: Box) -> CycleCompliance:
-        """Return what of it lies on a box of the window."""
+        """Return its part on a box of the window."""
         along, columns = box.slices
         return replace(self.beside(columns), rows=along)
 
     def beside(self, columns: slice) -> CycleCompliance:
-        """Return what of it lies on some columns of the window."""
+        """Return its part on some columns of the window."""
         bodies: list[tuple[Array, Sequence[Cell]]] = []
         for compliance, cells in self.bodies:
             if any(column for _, column in cells):
@@ -120,7 +120,7 @@ class CycleCompliance:
         return replace(self, bodies=bodies)
 
     def typical(self, length: float) -> tuple[float, float]:
-        """Return its means, in m/Pa: of what a cell wears, and of what all rows do."""
+        """Return its mean depths per pressure, in m/Pa: by a cell, and by all rows."""
         local = swept = 0.0
         for compliance, cells in self.bodies:
             mean = _mean_where_positive(compliance)
@@ -172,7 +172,7 @@ class ContactSystem:
 
     @property
     def surface_modulus(self) -> float:
-        """Contact modulus of what lies at the surface of both bodies, in Pa."""
+        """Contact modulus of the materials at the surface of both bodies, in Pa."""
         if not self.coatings:
             return self.modulus
         compliance = 1 / self.modulus
@@ -204,8 +204,8 @@ class ContactProblem:
     wear : WearCompliance, optional
         Wear of the step that this solve is part of.
     cap : ndarray, shape (nx, ny), optional
-        Largest pressure at each point, in Pa, in place of the system's: where a layer is worn
-        through it is another. Given only to solvers with `takes_cap_map`.
+        Largest pressure at each point, in Pa, in place of the system's: it differs where a layer is
+        worn through. Given only to solvers with `takes_cap_map`.
     """
 
     system: ContactSystem
@@ -253,7 +253,7 @@ class ContactSolution:
         Rigid approach δ, in the gap's own zero, in m.
     overlap : ndarray, shape (nx, ny)
         Depth by which the bodies overlap where the pressure is at the cap:
-        the plastic displacement this solution asks for, in m; 0 elsewhere.
+        the plastic displacement of this solution, in m; 0 elsewhere.
     iterations : int
         Iterations on the full grid.
     residuals : Residuals

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 NOTHING = "–"
-"""What is printed for a missing value."""
+"""Printed for a missing value."""
 Value = float | str | None
 
 
@@ -38,9 +38,9 @@ class Heading(NamedTuple):
 
 
 class TableRow(NamedTuple):
-    """The values of a row, None or NaN where missing; one alone is the title of the rows below.
+    """The values of a row, None or NaN where missing; a single one titles the rows below.
 
-    The format of its numbers is `form`, or else that of their columns.
+    The format of its numbers is `form`, or else the format of their columns.
     """
 
     values: tuple[Value, ...]

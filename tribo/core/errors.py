@@ -58,7 +58,7 @@ class TooWorn(OutOfWindow):
 
 
 class PluginError(NumericalError):
-    """A component raised something that nobody expected."""
+    """A component raised an unexpected error."""
 
 
 class BadValues(PluginError):
@@ -84,7 +84,7 @@ class OutputError(TriboError):
 class Interrupted(KeyboardInterrupt):
     """The run was stopped from outside and can be resumed.
 
-    Like Ctrl-C, it passes code that goes on after errors.
+    Like Ctrl-C, it passes through code that handles errors.
     """
 
     exit_code: ClassVar[int] = 130
@@ -97,7 +97,7 @@ class ReaderGone(TriboError):
 
 
 class TriboWarning(UserWarning):
-    """Something a user should know about a run that goes on."""
+    """A warning for the user of a run that does not stop."""
 
 
 _INSIDE = ("tribo", "pydantic", "pluggy")

@@ -43,7 +43,7 @@ _WORDS = {
     }.items()
     for kind in kinds.split()
 }
-"""What to say, by pydantic's type of an error."""
+"""Messages, by pydantic's type of an error."""
 
 
 def told(text: str, kind: str = TOLD) -> PydanticCustomError:
@@ -80,7 +80,7 @@ def explained(
             lines.append(_line((*loc, "type"), f"type is missing; allowed: {names}", given))
         else:
             loc = (*loc, "type") if kind == "union_tag_invalid" else loc
-            # Those of tables inside are told already.
+            # Errors of tables inside have their message already.
             lines.append(_line(loc, message(details), given, UNKNOWN if kind == UNKNOWN else TOLD))
     # A key that is misspelt is one mistake, not an unknown key and a missing one.
     for key in [key for key in missing if key not in meant]:
@@ -91,9 +91,9 @@ def explained(
 
 
 def _unknown(key: object, allowed: Sequence[str], data: object) -> tuple[str, str | None]:
-    """Return what to say of an unknown key, and the key that it is likely to mean."""
+    """Return the message for an unknown key, and the key that it is likely to mean."""
     given = data if isinstance(data, Mapping) else {}
-    # One that is there already may still be meant: an override adds its key beside it.
+    # A key that is given may still be meant: an override adds its key beside it.
     like = did_you_mean(key, [name for name in allowed if name not in given])
     like = like or did_you_mean(key, allowed)
     return f"unknown key {key!r}{suggestion(like)} Allowed: {', '.join(allowed)}", like
@@ -102,7 +102,7 @@ def _unknown(key: object, allowed: Sequence[str], data: object) -> tuple[str, st
 def case_error(error: ValidationError) -> WrongValues:
     """Return pydantic's error as one exception, a line for each error, with the first path.
 
-    Unknown keys come first: a key that is misspelt is often also the one that is missing.
+    Unknown keys come first: a misspelt key often explains a missing one.
     """
     lines: dict[str, list[str]] = {}
     for details in sorted(error.errors(), key=lambda details: details["type"] != UNKNOWN):

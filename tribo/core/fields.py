@@ -29,14 +29,14 @@ class Field:
     typical : float, optional
         A usual value, at which models that require it are tested.
     uniform : bool, optional
-        Whether the state of an effect is one number, as the temperature of a bath, and not one at
-        each point.
+        Whether the state of an effect is one number, such as the temperature of a bath, and not one
+        at each point.
     fills : bool, optional
         Whether a state is a height, in m, that fills the gap: the bodies meet on it, as on debris
         or on a film that has grown.
     breaks : tuple of float, optional
         Values of a state at which a rate jumps, rising. A step ends at a point where its state
-        comes to one, and goes on from there; at the value itself rates are those above it.
+        reaches a break, and a new one starts there; at the break itself the rates above it hold.
     """
 
     name: str
@@ -54,7 +54,7 @@ class Field:
 
 
 def check_declared(owner: object, who: str) -> None:
-    """Check the fields that a class provides or keeps, and the names of those that it requires.
+    """Check the fields that a class provides or keeps, and the names of fields that it requires.
 
     `TypeError`, in which the class is called `who`, if they are not tuples of `Field`, each with a
     name of its own, and of names. Of properties only objects have the answer.
@@ -123,10 +123,10 @@ LOCAL_SLIP = Field(
     typical=0.5,
 )
 WORN_DEPTH = Field("worn_depth", "m", "Depth that a point of the body has lost.")
-"""A law that has it among its `state_fields` is told it, and gives its depth rate as the rate.
+"""A law that lists it in its `state_fields` gets it as an input; its rate is the depth rate.
 
-The run has it already: it is neither saved twice, nor begun anew. ``replace(WORN_DEPTH, breaks=…)``
-declares the depths at which the rate jumps.
+The run already has it: it is not saved twice, and does not restart at 0. ``replace(WORN_DEPTH,
+breaks=…)`` declares the depths at which the rate jumps.
 """
 PLACE_X = Field(
     "place_x", "m", "Place along x on the body's own surface, 0 in its middle.", typical=1e-4
@@ -137,7 +137,7 @@ PLACE_Y = Field(
 HEADING_X = Field(
     "heading_x",
     "1",
-    "Which way the other body slides over the body, along x: that of a vector of length 1.",
+    "Direction in which the other body slides over the body: x of a vector of length 1.",
     at_least=-1.0,
     at_most=1.0,
     typical=0.6,
@@ -149,7 +149,7 @@ HEADING_Y = replace(
     typical=0.8,
 )
 OF_MOTION = {field.name: field for field in (PLACE_X, PLACE_Y, HEADING_X, HEADING_Y)}
-"""What the motion of a case provides to all that require it."""
+"""Fields that the motion of a case provides to any law or effect that requires them."""
 
 
 @dataclass(frozen=True)
@@ -217,7 +217,7 @@ class ContactConditions:
     Parameters
     ----------
     system : ContactSystem
-        The contact, as `Effect.check` is told it.
+        The contact, as in `Effect.check`.
     pressure : ndarray, shape (nx, ny)
         Contact pressure, in Pa.
     speed : float
@@ -235,14 +235,13 @@ class ContactConditions:
     turns_back : bool
         Whether the motion goes to and fro along it, rather than round it.
     fields : Mapping[str, Mapping[str, ndarray]]
-        Fields of the effects that ran before, and what effects and wear laws remember if it is
-        required, by field and body; what laws remember, for the bodies whose law does.
+        Fields of the effects that ran before, and required states of effects and wear laws, by
+        field and body; a state of laws, for the bodies whose law has it.
     state : Mapping[str, ndarray]
-        The effect's own state fields where the window is, shape (nx, ny), or (1, 1) of one that is
-        uniform.
+        The effect's own state fields in the window, shape (nx, ny), or (1, 1) if uniform.
     wear_rates : Mapping[str, ndarray]
-        Depth that each body loses per metre of sliding, in m/m, by name; empty where fields are
-        asked for, on which these depend.
+        Depth that each body loses per metre of sliding, in m/m, by name; empty for `Effect.fields`,
+        on which these depend.
     """
 
     system: ContactSystem

@@ -1,4 +1,4 @@
-"""What is to be known of a case or a run, as data and in words."""
+"""Findings on a case or a run, as data and in words."""
 
 from __future__ import annotations
 
@@ -9,20 +9,21 @@ from dataclasses import asdict, dataclass, replace
 from tribo.core.words import readable
 
 NOTHING_WRONG = ("begin", "layer", "stop")
-"""Kinds that say what the case itself asks for."""
+"""Kinds that report what the case itself asks for."""
 FEW_CELLS = 8
 """Cells across a first contact, below which its pressure is inaccurate."""
 STEEP = 0.3
-"""Half-width of a contact over the radius of a body, above which the half-space is doubted."""
+"""Half-width of a contact over the radius of a body, above which a half-space is inaccurate."""
 DEEP = 0.1
 """Part of the window's edge or of a radius that wear may reach, as slopes are small."""
 FAST, IMPOSSIBLE = 1e-9, 1e-5
 """Specific wear rates in 1/Pa: K = kH = 0.1, the most in abrasive wear, at H = 100 MPa, and
 Archard's K ≤ 1 at 0.1 MPa."""
 SHARP = 1.2
-"""Largest pressure at the edge of a contact over that inside, above which it is an artefact."""
+"""Largest pressure at the edge of a contact over the largest inside, above which it is an
+artefact."""
 COARSE, FINE = 0.05, 0.01
-"""Error of the depth by too few positions that is reported, and that with those advised."""
+"""Error of the depth by too few positions that is reported, and the error at the number advised."""
 UNLIKE = 0.01
 """Relative difference of a track from the period that is reported."""
 CHATTERING = 0.5
@@ -32,16 +33,16 @@ stable explicit ones, as they begin, 0.28; unstable ones between 0.6 and 0.9."""
 
 @dataclass(frozen=True)
 class Finding:
-    """What is to be known of a case, a run or a fit.
+    """A finding on a case, a run or a fit: a warning, or what the case itself asks for.
 
     Parameters
     ----------
     kind : str
         What it is about, in a word or two, such as ``"averaging"``.
     words : str
-        What is so, and what to do.
+        What was found, and what to do.
     value, uncertainty, limit : float, optional
-        The number that it is about, in SI units, and the number that it should keep to.
+        The number that it is about, in SI units, and the limit of this number.
     place : str, optional
         Where in the case, as its path or the name of a body; empty for all of it.
     time, distance : float, optional
@@ -58,7 +59,7 @@ class Finding:
     distance: float | None = None
 
     def __str__(self) -> str:
-        """Return the sentence that is printed of a run."""
+        """Return the sentence that is printed for a run."""
         if self.time is None or self.distance is None:
             return f"{self.kind}: {self.words}"
         time, distance = (f"{float(f'{value:.4g}'):g}" for value in (self.time, self.distance))
@@ -87,7 +88,7 @@ def few_cells(cells: float) -> Finding:
 
 
 def broken_period(body: str, along: str, jump: float) -> Finding:
-    """Word a surface that jumps by so much (m) where the contact repeats along an axis."""
+    """Word a surface with a jump (m) where the contact repeats along an axis."""
     return Finding(
         "period",
         f"the surface of {body} does not repeat with the window: along {along} it "
@@ -100,12 +101,12 @@ def broken_period(body: str, along: str, jump: float) -> Finding:
 
 
 def too_wide(body: str, ratio: float, radius: float, time: float) -> Finding:
-    """Word a contact whose half-width is so large a part of a radius (m) at a time (s)."""
+    """Word a contact whose half-width over a radius (m) is too large at a time (s)."""
     return Finding(
         "half-space",
         f"at {readable(time, '.3g')} s the contact's half-width a is {ratio:.2f} of the radius R "
-        f"of {body}, {1e3 * radius:.3g} mm: a half-space with small slopes asks for a/R well "
-        "below 1 (0.1, say), and pressures and depths may be far off",
+        f"of {body}, {1e3 * radius:.3g} mm: a half-space with small slopes needs a/R well "
+        "below 1 (0.1, say); pressures and depths may be inaccurate",
         value=ratio,
         limit=STEEP,
         place=f"bodies.{body}",
@@ -143,8 +144,8 @@ def short_of_a_lap(body: str, distance: float, length: float) -> Finding:
         "lap",
         f"the run slides {distance:.3g} m, {distance / length:.2g} of the track of {body}, "
         f"which is {length:.3g} m long: its wear is averaged over the whole track, also "
-        "where the contact never comes to; slide once over it at least, and for the "
-        "average to hold many times",
+        "where the contact never passes; slide over it at least once, and many times for "
+        "the average to hold",
         value=distance,
         limit=length,
         place=f"bodies.{body}",
@@ -152,7 +153,7 @@ def short_of_a_lap(body: str, distance: float, length: float) -> Finding:
 
 
 def averaged(words: str) -> Finding:
-    """Word where averaging over a track does not hold, as the motion says."""
+    """Word why averaging over a track does not hold, by the motion's own words."""
     return Finding("averaging", words, place="kinematics")
 
 
@@ -160,8 +161,8 @@ def unlike_the_period(body: str, length: float, period: float) -> Finding:
     """Word a track averaged over a length other than the period of an endless contact, in m."""
     return Finding(
         "averaging",
-        f"the contact repeats every {1e3 * period:.4g} mm without an end, but what one "
-        f"period wears off {body} is averaged over a track of {1e3 * length:.4g} mm: "
+        f"the contact repeats every {1e3 * period:.4g} mm without an end, but the wear of "
+        f"{body} by one period is averaged over a track of {1e3 * length:.4g} mm: "
         f"{body} wears {period / length:.2g} times as much as it would; make the track "
         'as long as the window, or resolve it by kinematics.positions = "cells"',
         value=length,
@@ -171,7 +172,7 @@ def unlike_the_period(body: str, length: float, period: float) -> Finding:
 
 
 def coarse_cycle(positions: int, apart: float, error: float, advised: int) -> Finding:
-    """Word so few positions, so far apart (m), that depths are off by a part `error`."""
+    """Word too few positions, `apart` (m), whose depths have the relative `error`."""
     return Finding(
         "quadrature",
         f"the {positions} positions of the cycle, {1e3 * apart:.3g} mm apart, "
@@ -184,19 +185,19 @@ def coarse_cycle(positions: int, apart: float, error: float, advised: int) -> Fi
 
 
 def peak_at_the_edge(largest: float, inside: float) -> Finding:
-    """Word a largest pressure at the edge of the contact, with that inside, in Pa."""
+    """Word a largest pressure at the edge of the contact, with the largest inside, in Pa."""
     return Finding(
         "resolution",
-        f"the largest pressure, {1e-6 * largest:.4g} MPa, stands in cells at the edge of the "
-        f"contact alone, and {1e-6 * inside:.4g} MPa inside of it: it changes with the size of the "
-        "cells and from step to step; compare pressures in the centre instead",
+        f"the largest pressure, {1e-6 * largest:.4g} MPa, occurs only in cells at the edge of the "
+        f"contact, against {1e-6 * inside:.4g} MPa inside: it changes with the size of the cells "
+        "and from step to step; compare pressures in the centre instead",
         value=largest,
         limit=SHARP * inside,
     )
 
 
 def chattering(part: float) -> Finding:
-    """Word a pressure of which such a part goes back and forth between cells."""
+    """Word a pressure of which a part goes back and forth between cells."""
     return Finding(
         "chattering",
         f"the pressure chatters: {100 * part:.0f} % of the load goes back "
@@ -222,7 +223,7 @@ def unstable(time_step: float, increment: float, limit: float) -> Finding:
 
 
 def layer_worn_through(body: str, layer: int, bottom: float) -> Finding:
-    """Word a layer, counted from 1, of which the deepest point passes the bottom, in m."""
+    """Word a layer, counted from 1, whose bottom (m) the deepest point passes."""
     return Finding(
         "layer",
         f"layer {layer} of {body}, down to {1e6 * bottom:.4g} µm, is worn through at its "
@@ -233,13 +234,13 @@ def layer_worn_through(body: str, layer: int, bottom: float) -> Finding:
 
 
 def begun_worn(result: str, time: float, afresh: Sequence[str], left: Sequence[str]) -> Finding:
-    """Word a begin with the bodies of a result at a time (s), and which states it has otherwise."""
+    """Word a begin with the bodies of a result at a time (s), and states that differ from it."""
     return Finding(
         "begin",
         f"the bodies begin as worn as in {result} at {time:g} s; wear depths, "
-        "volumes and load_distance go on from there, time and distance begin anew"
-        + (f"; what it does not have begins afresh: {', '.join(afresh)}" if afresh else "")
-        + (f"; left out of it is {', '.join(left)}" if left else ""),
+        "volumes and load_distance continue from there, time and distance start at 0"
+        + (f"; states that it lacks start afresh: {', '.join(afresh)}" if afresh else "")
+        + (f"; not taken from it: {', '.join(left)}" if left else ""),
         place="begin",
     )
 
@@ -289,23 +290,23 @@ def outgrown(size: tuple[float, float], time: float | None, end: float) -> Findi
 
 
 def trial_failed(error: object, *, on_any_cells: bool) -> Finding:
-    """Word a trial run that failed; what a coarse grid cannot carry through, a finer one may."""
-    may = "" if on_any_cells else " (the run, on finer cells, may yet go to its end)"
+    """Word a trial run that failed on a coarse grid; a finer grid may succeed."""
+    may = "" if on_any_cells else " (the run, on finer cells, may still succeed)"
     return Finding("trial", f"a trial run on a coarse grid failed{may}: {error}")
 
 
 def beyond(label: str, value: float, limit: float, unit: str) -> Finding:
-    """Word a value of a finished run for which a model does not hold any more."""
+    """Word a value of a finished run beyond the limit of a model."""
     words = f"{label} is {value:.4g}, beyond {limit:g} {unit}".rstrip()
     return Finding("validity", words, value=value, limit=limit)
 
 
 def other_grid(labels: Sequence[str], reference: str) -> Finding:
-    """Word results on another grid than the one that they are compared with."""
+    """Word results on another grid than the reference result."""
     return Finding(
         "grid",
-        f"{', '.join(labels)}: not on the grid of {reference}, so that only scalars "
-        "and sections are compared, the latter interpolated where both windows reach",
+        f"{', '.join(labels)}: not on the grid of {reference}; only scalars and "
+        "sections are compared, sections by interpolation where both windows reach",
     )
 
 
@@ -317,33 +318,33 @@ def paired(label: str, names: Sequence[tuple[str, str]]) -> Finding:
 
 def goes_on(label: str, end: float, last: float) -> Finding:
     """Word a result that has later saves than the last common one, both in s."""
-    words = f"{label} goes on to {end:g} s, beyond the last common save"
+    words = f"{label} continues to {end:g} s, beyond the last common saved time"
     return Finding("end", words, value=end, limit=last)
 
 
 def not_done(label: str, status: str) -> Finding:
-    """Word a run that did not come to its end."""
+    """Word a run that did not finish."""
     return Finding("status", f"{label} is {status}, not done")
 
 
 def of_runs(finding: Finding, labels: Sequence[str]) -> Finding:
-    """Word what several runs have to say."""
+    """Word a finding of several runs."""
     return replace(finding, words=f"{'; '.join(labels)}: {finding}")
 
 
 def failed(error: BaseException) -> Finding:
-    """Word what ended a run, with the numbers of an error that has a finding."""
+    """Word the error that ended a run, with the numbers of its finding, if any."""
     finding = getattr(error, "finding", Finding("failed", ""))
     return replace(finding, kind="failed", words=str(error))
 
 
 def damaged(damage: str) -> Finding:
     """Word a checkpoint that could not be read."""
-    return Finding("checkpoint", f"{damage}; this is what the checkpoint before it holds")
+    return Finding("checkpoint", f"{damage}; this is the state of the checkpoint before it")
 
 
 def worn_through(findings: Iterable[Finding]) -> list[dict[str, str | int | float]]:
-    """Return which layers of which bodies were worn through, and when, as plain data."""
+    """Return the layers worn through, with body, distance and time, as plain data."""
     passed: list[dict[str, str | int | float]] = []
     for each in findings:
         if each.kind == "layer":
@@ -356,5 +357,5 @@ def worn_through(findings: Iterable[Finding]) -> list[dict[str, str | int | floa
 
 
 def as_json(findings: Iterable[Finding]) -> str:
-    """Return findings as a file has them."""
+    """Return findings as JSON for a file."""
     return json.dumps([asdict(each) for each in findings])

@@ -92,7 +92,7 @@ class RepeatingGrid(Grid):
 
     @property
     def period(self) -> int:
-        """Cells along x after which all repeats: those of the window."""
+        """Cells along x after which all repeats: the window's."""
         return self.cells[0]
 
 

@@ -1,4 +1,4 @@
-"""HDF5 files from anywhere: what they hold themselves."""
+"""HDF5 files from unknown sources: only the data inside the file is read."""
 
 from __future__ import annotations
 

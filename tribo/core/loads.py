@@ -25,7 +25,7 @@ MOST = 10_000
 
 
 ONE_OR_STAGES = Discriminator(lambda value: STAGES if isinstance(value, list | tuple) else NUMBER)
-"""Tells a number from a list of stages, by the tags of these names."""
+"""Discriminates a number from a list of stages, by the tags of these names."""
 FEW = 50
 """Stages of an estimate."""
 FILES = (".csv", ".npy")
@@ -73,9 +73,9 @@ class Stage(Table):
     """
 
     until: Annotated[float, Quantity("s", above=0)] | None = None
-    """When a load ends that is held from the stage before."""
+    """End of a load that is held from the end of the stage before."""
     at: Annotated[float, Quantity("s", at_least=0)] | None = None
-    """When a load is reached to which the one before goes in a straight line."""
+    """Time at which the load is reached in a straight line from the load before."""
     normal: Annotated[float, Quantity("N", above=0, usual=USUAL, remedy=PAUSE)]
     """The load, at all times more than 0: bodies that lift off are not modelled."""
 
@@ -97,7 +97,7 @@ class Place(Table):
     """A place along the stroke, and the load there."""
 
     at: Annotated[float, Quantity("m")]
-    """Where the body that passes is along x, from the middle of its stroke or path."""
+    """Position of the moving body along x, from the middle of its stroke or path."""
     share: Annotated[float, Quantity("1", above=0)]
     """Load there, as a multiple of `normal`."""
 
@@ -153,8 +153,8 @@ class Load(Table):
     def shares_at(self, places: Array, reach: float) -> tuple[float, ...]:
         """Return a load that changes along the stroke, at `places`, as multiples of `normal`.
 
-        A place, in m from the middle, may lie `reach` (m) beyond those given; `CaseError` if one
-        lies further off.
+        A place, in m from the middle, may lie `reach` (m) beyond the places given; `CaseError` if
+        it lies further off.
         """
         if len(places) == 1:
             raise CaseError(
@@ -198,7 +198,7 @@ class Load(Table):
         return tuple(p.at for p in self.along), tuple(p.share for p in self.along)
 
     def thinned(self) -> Load:
-        """Return the load in a few stages, held at the mean of those that they stand for."""
+        """Return the load in a few stages, each held at the mean of the stages that it replaces."""
         if isinstance(self.normal, float) or len(self.normal) <= FEW:
             return self
         pieces = pieces_of(self)
@@ -238,9 +238,9 @@ def pieces_of(load: Load) -> tuple[Piece, ...]:
 class Loads:
     """The normal load over time, at each position of a cycle.
 
-    Its pieces follow one another from t = 0 on; where one ends at another load than the next begins
-    with, the load jumps. `shares` has the load at each position as a multiple of that of the piece,
-    `weights` the part of the path of a cycle there.
+    Its pieces follow one another from t = 0; the load jumps where the end of a piece differs from
+    the beginning of the next. `shares` has the load factor at each position, relative to the load
+    of the piece, `weights` the part of the path of a cycle there.
     """
 
     pieces: tuple[Piece, ...]
@@ -275,13 +275,13 @@ class Loads:
         return tuple(share * piece.last for share in shares) if steady else None
 
     def before(self, time: float) -> ByPosition:
-        """Return the loads as `time` (s) is reached: at a jump, those before it."""
+        """Return the loads as `time` (s) is reached: at a jump, the loads before it."""
         return self._constant or self._at(
             time, bisect_left(self.pieces, time, key=lambda piece: piece.end)
         )
 
     def after(self, time: float) -> ByPosition:
-        """Return the loads from `time` (s) on: at a jump, those after it."""
+        """Return the loads from `time` (s) on: at a jump, the loads after it."""
         return self._constant or self._at(
             time, bisect_right(self.pieces, time, key=lambda piece: piece.end)
         )

@@ -29,7 +29,7 @@ class Material(Table):
     """
 
     name: str | None = None
-    """What it is called; `tribo materials` lists names that are known."""
+    """Name of the material; `tribo materials` lists known names."""
     young: Annotated[float, Quantity("Pa", above=0, usual=(1e4, 2e12))]
     """Young's modulus E."""
     poisson: Poisson
@@ -43,7 +43,7 @@ class Material(Table):
     heat_capacity: Annotated[float, Quantity("J/(kg K)", above=0, usual=(50.0, 2e4))] | None = None
     """Specific heat capacity."""
     properties: dict[str, Any] | None = None
-    """Further properties by name, those that models of the case declare."""
+    """Further properties by name, as models of the case declare them."""
 
     @model_validator(mode="before")
     @classmethod
@@ -78,7 +78,7 @@ _MARKS = {key: mark for key, f in Material.model_fields.items() for mark in quan
 
 
 class Materials:
-    """The materials that are known by name: tribo's own, and those that packages offer.
+    """The materials that are known by name: tribo's own, and materials of packages.
 
     Examples
     --------
@@ -96,7 +96,7 @@ class Materials:
         return iter(self.tables())
 
     def tables(self) -> dict[str, dict[str, Any]]:
-        """Return what is known of each material, as files such as ``materials.toml`` have it."""
+        """Return the data of each material, as in files such as ``materials.toml``."""
         files = *call("materials"), Path(__file__).with_name("materials.toml")
         return {name: table for file in files for name, table in _read(file).items()}
 
@@ -118,7 +118,7 @@ materials = Materials()
 
 
 def typical(key: str, number: Mapping[str, Any]) -> float:
-    """Return what a case takes of a number: its value or, without one, the middle of its range."""
+    """Return the value of a number for a case: its value or the middle of its range."""
     given = [number["value"]] if "value" in number else number["range"]
     return sum(map(_MARKS[key].read, given)) / len(given)
 

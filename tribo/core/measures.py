@@ -17,8 +17,8 @@ from tribo.core.grid import Grid
 class BodyMeasures:
     """Depths in m and the worn volume in m³ of one body.
 
-    The volume is that of the whole scar, or of the whole track. `roughness` has, of a body that is
-    rough, the parameters of `tribo.lab.roughness.Roughness` within the contact.
+    The volume belongs to the whole scar, or to the whole track. `roughness` has the parameters of
+    `tribo.lab.roughness.Roughness` within the contact, for a rough body.
     """
 
     max_wear_depth: float
@@ -30,17 +30,17 @@ class BodyMeasures:
 
 @dataclass(frozen=True)
 class Invariants:
-    """Errors of a step in what must hold; all are 0 if it does.
+    """Errors of a step in its invariants, 0 if they hold.
 
     Parameters
     ----------
     volume : float
-        What a body has lost in the step against what its law asked for, relative to that;
-        the worst body's.
+        Difference of the volume that a body lost in the step from the volume by its law,
+        relative to the latter; the worst body's.
     regrowth : float
         Depth by which a point has grown back, in m.
     chattering : float
-        Share of the load that the step hands back to where the one before took it from.
+        Share of the load that the step hands back to the cells from which the step before took it.
     """
 
     volume: float = 0.0

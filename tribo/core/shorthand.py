@@ -1,6 +1,6 @@
-"""Functions of higher layers that methods of lower ones are short for, such as ``case.check()``.
+"""Functions of higher layers behind methods of lower layers, such as ``case.check()``.
 
-`tribo` says where each is, so that no module names what lies above it.
+`tribo` states the module of each, so that no module names a module above it.
 """
 
 from importlib import import_module

@@ -15,22 +15,22 @@ from tribo.core.measures import Invariants, Measures
 
 @dataclass(frozen=True)
 class BodyState:
-    """What has happened to one body's surface.
+    """The wear, plastic depth and states of one body's surface.
 
     Parameters
     ----------
     wear : ndarray
         Depth worn away, in m; on the body's own surface: shape (nx, ny),
-        (1, ny) on a body that the average sweeps along a track, and (rows, ny)
-        on one that passes through a resolved cycle.
+        (1, ny) on a moving body under an average along its track, and (rows, ny)
+        on a moving body of a resolved cycle.
     plastic : ndarray
         Permanent displacement by plastic flow, in m, positive into the body; shape (nx, ny), or
-        (rows, ny) on a body that passes through a resolved cycle.
+        (rows, ny) on a moving body of a resolved cycle.
     law : Mapping[str, ndarray]
         State fields of the body's wear law, shaped as `wear`.
     missed : ndarray or None, optional
-        Estimate of what positions between those of the cycle would add to `wear`, in m, shaped as
-        it; None where there is none.
+        Estimate of the wear that more positions of the cycle would add to `wear`, in m, of its
+        shape; None without an estimate.
     """
 
     wear: Array
@@ -74,17 +74,17 @@ class State:
     between : Mapping[str, ndarray]
         State fields of effects, by name; one on a body as ``"film of disk"``.
     findings : tuple of Finding
-        What is to be known of the run so far, each once.
+        The findings of the run so far, each once.
     invariants : Invariants
-        How well they hold in the step that led here.
+        Their errors in the step that led here.
     previous : tuple of ndarray, shape (nx, ny)
         Pressure at each position a step ago, in Pa, to detect chattering and to start the next
         solve; empty before the first.
     speed : float
-        Mean sliding speed of the last step, in m/s, 0 at rest; at first that of the motion soon
-        after.
+        Mean sliding speed of the last step, in m/s, 0 at rest; at first the speed of the motion
+        soon after.
     load_factor : float
-        What effects make of the normal load: by what the contacts carry more, and the next step.
+        Factor of effects on the normal load, in the contacts and in the next step.
     """
 
     time: float
@@ -110,7 +110,7 @@ class State:
 
     @property
     def contact(self) -> ContactSolution:
-        """The contact in the middle of the cycle: the one that a result shows."""
+        """The contact in the middle of the cycle, which a result shows."""
         return self.contacts[len(self.contacts) // 2]
 
     def has_finding(self, kind: str) -> bool:
@@ -130,19 +130,19 @@ class State:
         return self.with_findings(finding.at(self.time, self.distance))
 
     def remembered(self, body: str, field: str) -> Array:
-        """Return a state field on a body's surface: that of its law, or of an effect it carries."""
+        """Return a state field on a body's surface, of its law or of an effect on it."""
         law = self.bodies[body].law
         return law[field] if field in law else self.between[key_of(field, body)]
 
 
 def key_of(field: str, body: str | None) -> str:
-    """Return the key in `State.between` of what an effect keeps; no body for the contact."""
+    """Return the key in `State.between` of an effect's state; no body for the contact."""
     return field if body is None else f"{field} of {body}"
 
 
 @dataclass(frozen=True)
 class BodyInfo:
-    """What stays the same about a body.
+    """The constant facts of a body.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ class BodyInfo:
     rows : int
         Cells along x on its own surface.
     state_fields : tuple of Field, optional
-        What its wear law keeps per material point, and what effects keep on it.
+        States of its wear law per material point, and states of effects on it.
     rough : bool, optional
         Whether it is more than a smooth form at first.
     straight : bool, optional
@@ -176,7 +176,7 @@ class BodyInfo:
 
 @dataclass(frozen=True)
 class RunInfo:
-    """What an observer is told before a run begins.
+    """The input of an observer before a run begins.
 
     Parameters
     ----------
@@ -185,7 +185,7 @@ class RunInfo:
     bodies : tuple of BodyInfo
         In the order of the case.
     end_time : float
-        When the run will end if nothing stops it, in s.
+        End of the run if nothing stops it, in s.
     end_distance : float
         The sliding distance by then, in m.
     case : Mapping[str, object]
@@ -193,9 +193,9 @@ class RunInfo:
     provenance : Mapping[str, object]
         Versions and the classes that take part, as plain data.
     effect_fields : tuple of Field, optional
-        What the effects provide.
+        The fields of the effects.
     between_fields : tuple of Field, optional
-        What the effects remember in the contact frame, or as one number.
+        States of the effects in the contact frame, or as one number.
     columns : tuple of Column, optional
         Numbers that models and observers add to each step.
     resumed_from : Snapshot or None
@@ -219,7 +219,7 @@ class RunInfo:
 
 @dataclass(frozen=True)
 class Snapshot:
-    """A moment of a run: its state, the scalars read off it and what the effects make of it.
+    """A moment of a run: its state, its scalars and the fields of effects.
 
     Parameters
     ----------
@@ -229,7 +229,7 @@ class Snapshot:
         Its scalars.
     effects : Mapping[str, Mapping[str, ndarray]], optional
         Fields of the effects for the pressure and speed of `state`, by field
-        and body, shape (nx, ny). Empty but at saves, unless a model or observer has columns.
+        and body, shape (nx, ny). Empty except at saves, unless a model or observer has columns.
     columns : Mapping, optional
         Values of the columns of models and observers, by name: a number, or numbers by body.
     """

@@ -32,7 +32,7 @@ else:
 
 
 class _TableClass(ModelMetaclass):
-    """The class of tables: made in Python, they tell errors in the words of a case."""
+    """The class of tables: made in Python, they word errors as for a case."""
 
     def __call__(self, *values: Any, **named: Any) -> Any:
         made: Any = self
@@ -71,7 +71,7 @@ class Table(BaseModel, metaclass=_TableClass):
         made = handler.resolve_ref_schema(handler(schema))
         keys = made.get("properties", {})
         for name, text in descriptions(cls).items():
-            # One that is left out of the schema has no key.
+            # A field that is left out of the schema has no key.
             keys.get(cls.model_fields[name].alias or name, {})["description"] = text
         return made
 
@@ -87,9 +87,9 @@ def given(table: BaseModel) -> dict[str, Any]:
 
 
 def descriptions(table: type[BaseModel]) -> dict[str, str]:
-    """Return the descriptions of fields by name: those given to `Field`, or else their docstrings.
+    """Return the descriptions of fields by name, given to `Field` or as docstrings.
 
-    Docstrings of fields are read from the source when asked for: pydantic would read those of every
+    Docstrings of fields are read from the source on demand: pydantic would read the source of every
     class when it is made, which takes long.
     """
     texts: dict[str, str] = {}

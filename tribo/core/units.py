@@ -109,7 +109,7 @@ _PREFIXED = re.compile(r"(m|N|Pa|Hz|W|J)(?!\^|\w)")
 _THOUSANDS = {1.0: ""} | {
     10.0**power: prefix.replace("u", "µ") for prefix, power in PREFIXES.items() if power % 3 == 0
 }
-"""Those of steps of a thousand, by their factor."""
+"""Prefixes in steps of a thousand, by their factor."""
 
 _LONGEST = 100
 _TIMES_TEN = re.compile(r"^10\^|(?<=[\d.])\s*[·*×x]\s*10\^")
@@ -232,12 +232,12 @@ class Quantity:
         Bounds, in `unit`.
     usual : tuple of float, optional
         Range, in `unit`. A value beyond it, other than 0, is allowed, but
-        `tribo check` and the message of a failed run ask about it.
+        `tribo check` and the message of a failed run warn about it.
     remedy : str, optional
-        What to do instead of a value out of bounds, for its message.
+        The fix for a value out of bounds, for its message.
     also : tuple of str, optional
-        Units of other quantities of which a motion makes this one, as ``"lap"`` of a length. Text
-        in them is checked and left as text, laps in place of a number are that number.
+        Units of other quantities that a motion converts to this one, such as ``"lap"`` for a
+        length. Text in them is checked and left as text; for a number, laps are the number.
     """
 
     unit: str
@@ -250,7 +250,7 @@ class Quantity:
     also: tuple[str, ...] = ()
 
     def hint(self, info: object = None) -> str:
-        """Return what is needed, as "a length [m] is needed, as in '5 mm'"."""
+        """Return the end of a message, as "a length [m] is needed, as in '5 mm'"."""
         return _needed(self.unit)
 
     def read(self, value: object) -> float:

@@ -24,13 +24,13 @@ def shown(value: object) -> str:
 
 
 def signed(value: float, decimals: int) -> str:
-    """Return a number with its sign; what rounds to 0 has none."""
+    """Return a number with its sign; without one if it rounds to 0."""
     text = f"{value:+z.{decimals}f}"
     return text if float(text) else text[1:]
 
 
 def digits_of(lower: float, upper: float) -> int:
-    """Return how many digits of its ends show an interval's half-width to two digits; 3 or more."""
+    """Return the digits of an interval's ends that show its half-width to two digits; 3 or more."""
     if not 0 < upper - lower < math.inf:
         return 3
     return max(3, 2 + math.floor(math.log10(upper)) - math.floor(math.log10((upper - lower) / 2)))

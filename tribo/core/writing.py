@@ -56,8 +56,8 @@ def check_new(
 def write_file(path: Path, *parts: str | bytes | memoryview, through: Path | None = None) -> None:
     """Replace a file by `parts`, one after the other; texts are UTF-8.
 
-    Whoever reads it finds the old file or the new, never a part, and the new one would survive a
-    power failure once this returns. Its mode stays.
+    A reader finds the old file or the new one, never a part, and the new one survives a power
+    failure once this returns. Its mode stays.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def write_file(path: Path, *parts: str | bytes | memoryview, through: Path | Non
         What it will hold.
     through : Path, optional
         Folder in the same file system that has the new file, under a random name, until it is
-        whole; that of `path` if left out.
+        whole; the folder of `path` if left out.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def write_file(path: Path, *parts: str | bytes | memoryview, through: Path | Non
 
 
 def make_folder(path: Path) -> None:
-    """Make a folder and those that it lies in, where there are none; `OutputError` if it fails."""
+    """Make a folder and its missing parents; `OutputError` if it fails."""
     with writing(path):
         if not os.path.isdir(path):
             make_folder(path.parent)

@@ -1,4 +1,4 @@
-"""The interface of effects: what lies between the bodies."""
+"""The interface of interfacial effects."""
 
 from __future__ import annotations
 
@@ -13,32 +13,32 @@ from tribo.core.state import Snapshot
 
 
 class Effect(Component):
-    """What lies between the bodies, such as a temperature, debris or a film.
+    """An interfacial effect, such as a temperature, debris or a film.
 
     It provides fields of the solved contact, which wear laws and other effects
     read, and may own state that evolves with the run. Every pass of a step
-    asks it anew, so that its answers must follow from its configuration and
-    what it is given alone.
+    evaluates it again, so its answers must depend on its configuration and its
+    input alone.
 
     State is integrated inside each step, at the pressure of the step, to an
     accuracy of its own; steps of the contact need not be short for it.
     """
 
     provides: ClassVar[tuple[Field, ...]] = ()
-    """The fields it answers with."""
+    """The fields it provides."""
 
     requires: ClassVar[tuple[str | Field, ...]] = ()
-    """Fields it needs of other effects, of the case, or of the state of a wear law: their names, or
+    """Fields it needs from other effects, the case, or the state of a wear law: their names, or
     a `Field` with the limits and the typical value at which the conformance kit tries it."""
 
     state_fields: ClassVar[tuple[Field, ...]] = ()
-    """What it remembers; each field starts at `initial_state`, is kept in the result, and answers
-    whoever requires its name."""
+    """Its states; each field starts at `initial_state`, is kept in the result, and is provided to
+    laws and effects that require its name."""
 
     reach: ClassVar[Literal["point", "contact"] | tuple[int, int] | None] = None
-    """What its fields and rates at a point follow: the ``"point"`` alone; the load and the area of
-    the ``"contact"`` too; or points so many cells away along x and y. Gradients need it, or
-    `pull_back`."""
+    """What its fields and rates at a point depend on: the ``"point"`` alone; the load and the area
+    of the ``"contact"`` too; or points up to so many cells away along x and y. Gradients need it,
+    or `pull_back`."""
 
     def check(self, system: ContactSystem, swept: frozenset[str], solver: str) -> None:
         """Raise `CaseError` if the effect cannot serve this contact.
@@ -56,9 +56,9 @@ class Effect(Component):
     def carrier(self) -> str | None:
         """Return the body whose surface carries the state and moves it; None for the contact.
 
-        In the contact frame one state serves all positions of a cycle. What is uniform has no
-        carrier. Of two effects with a state of one name, one on each body, laws and other effects
-        have for each body the state on it; a state that stands alone in a case is that of both.
+        In the contact frame one state serves all positions of a cycle. A uniform state has no
+        carrier. If two effects have a state of the same name, one on each body, laws and other
+        effects read for each body the state on it; a single state of a case serves both bodies.
         """
         return None
 
@@ -82,17 +82,17 @@ class Effect(Component):
         return {}
 
     def load_factor(self, snapshot: Snapshot) -> float:
-        """Return what multiplies the normal load of the step that starts from a state; 1 by itself.
+        """Return the factor on the normal load of the step that starts from a state; 1 by default.
 
-        It is more than 0, as of a spring, a lever or a control, and held over the step: of first
-        order in its length. The factors of several effects multiply each other.
+        It is above 0, such as from a spring, a lever or a control, and held over the step, which is
+        first-order accurate. The factors of several effects multiply each other.
         """
         return 1.0
 
     def pull_back(
         self, contact: ContactConditions, cotangents: Mapping[str, Mapping[str, Array]]
     ) -> Mapping[str, Array | float]:
-        """Return the derivatives of a number in what `fields` follow: a vector-Jacobian product.
+        """Return the derivatives of a number in the inputs of `fields`: a vector-Jacobian product.
 
         Optional: with it gradients go through fields that reach across the contact.
 
@@ -108,15 +108,15 @@ class Effect(Component):
         Mapping[str, ndarray or float]
             By path in `contact` or the configuration, such as ``"pressure"``, ``"state.film"``,
             ``"fields.friction_coefficient.ball"``, ``"system.materials.ball.young"``, ``"width"``.
-            What is left out has the derivative 0.
+            An input that is left out has the derivative 0.
         """
         raise NotImplementedError
 
     def state_rates(self, contact: ContactConditions) -> Mapping[str, Array]:
-        """Return by how much each state field changes per second.
+        """Return the change of each state field per second.
 
-        What goes with sliding is a rate per metre times `contact.speed`, which
-        is 0 while the motion rests; what relaxes in time goes on then.
+        A change by sliding is a rate per metre times `contact.speed`, which is 0
+        while the motion rests; a relaxation in time continues at rest.
 
         Parameters
         ----------
@@ -126,6 +126,6 @@ class Effect(Component):
         Returns
         -------
         Mapping[str, ndarray]
-            By field name; arrays that broadcast to (nx, ny), one number of a uniform field.
+            By field name; arrays that broadcast to (nx, ny), one number for a uniform field.
         """
         return {}

@@ -1,4 +1,4 @@
-"""What bodies wear, and what laws and effects come to remember, under contacts that stay."""
+"""The wear of bodies and the states of laws and effects over an interval of constant contacts."""
 
 from __future__ import annotations
 
@@ -23,27 +23,27 @@ if TYPE_CHECKING:
 
 
 NUDGE = 1e-4
-"""Part of the pressure by which it is varied to find what a wear rate makes of it."""
+"""Part of the pressure by which it is varied to determine the slope of a wear rate."""
 COARSE = Division(((0.25, True), (0.75, True)), np.inf)
-"""Where an increment has more parts than these, they do to find slopes."""
+"""Division to determine slopes, where an increment has more parts than these."""
 
 
 @dataclass(frozen=True)
 class Course:
-    """An interval under contacts that stay as they are.
+    """An interval under constant contacts.
 
     Parameters
     ----------
     rates : sequence of Mapping[str, WearRate]
-        Mean rates over it, by position and body; no slopes where something is remembered.
+        Mean rates over it, by position and body; without slopes where there are states.
     memory : Memory
-        What is remembered at its end.
+        The states at its end.
     plan : Division
-        How it is divided for that to be accurate.
+        Its division for accurate states.
     friction_work : float or None
-        What friction does, in J, where points slip less than the motion and anything is remembered.
+        Work of friction, in J, where points slip less than the motion and there are states.
     passed : Mapping[str, Mapping[int, float]]
-        By body and break of its depth the first share of it at which a point reaches the break.
+        The first share of it at which a point reaches a break of a body's depth, by body and break.
     """
 
     rates: CycleRates
@@ -62,10 +62,10 @@ def course(
     *,
     asked: float = 1.0,
 ) -> Course:
-    """Return what an interval comes to, from what is remembered before it.
+    """Return the mean rates over an interval and the states at its end, from the states before it.
 
-    It is divided as in `plan`, or finer. Without anything to remember, rates are throughout those
-    of where a part `asked` has passed.
+    It is divided as in `plan`, or finer. Without states the rates are constant: the rates at the
+    part `asked` of the interval.
     """
     if not before.values:
         return Course(wear_rates(model, contacts, before, interval.at(asked)), before)
@@ -101,10 +101,10 @@ def accumulated(
     plan: Division,
     rate: Callable[[Memory, float], float],
 ) -> float:
-    """Return what a rate per metre comes to over a course, as it follows what is remembered.
+    """Return the integral over a course of a rate per metre that depends on the states.
 
-    `plan` is how that was divided. The rate is asked with what is remembered and how much of the
-    interval has passed.
+    `plan` is the division of the course. The rate is evaluated at the states and the part of the
+    interval that has passed.
     """
     states = len(before.values)
 
@@ -120,7 +120,7 @@ def accumulated(
 def in_stripes(
     contacts: Sequence[ContactSolution],
 ) -> tuple[list[ContactSolution], list[Array]]:
-    """Return contacts with pressures varied up and down from row to row, and by how much, in Pa.
+    """Return contacts with pressures varied up and down from row to row, and the changes, in Pa.
 
     It is the mode that grows first, under the same load.
     """
@@ -141,9 +141,9 @@ def sloped(
     interval: Interval,
     known: Course,
 ) -> CycleRates:
-    """Return the mean rates of a course with their slopes in pressure, through all that follows it.
+    """Return the mean rates of a course with their total slopes in pressure.
 
-    Where nothing presses the slope is that of the law.
+    Where the pressure is 0 the slope is the law's.
     """
     if not before.values:
         return known.rates
@@ -176,8 +176,8 @@ def _rates(
     values: Sequence[Array],
     passed: float,
 ) -> Values:
-    """Return the rates of what is remembered, where it lies, and the depths in the contact."""
-    # A load that jumps as it begins is told apart in its middle.
+    """Return the rates of the states, where they lie, and the depth rates in the contact."""
+    # A load that jumps at the beginning is recognised by the middle.
     middle = interval.at(0.5).time
     if model.contact.loads.before(middle) != model.contact.loads.before(interval.end_time):
         contacts = with_loads(model, contacts, interval, passed)
@@ -208,7 +208,7 @@ def _rates(
 def with_loads(
     model: Model, contacts: Sequence[ContactSolution], interval: Interval, passed: float
 ) -> list[ContactSolution]:
-    """Return contacts with pressures that carry the load where a part has passed."""
+    """Return contacts whose pressures carry the load after a part of the interval."""
     halfway, last = map(model.contact.loads.before, (interval.at(0.5).time, interval.end_time))
     cell, found = model.grid.cell_area, []
     for contact, half, whole in zip(contacts, halfway, last, strict=True):
@@ -219,7 +219,7 @@ def with_loads(
 
 
 def kept_in(model: Model, memory: Memory) -> list[Kept]:
-    """Return what the integrator must know of `Memory.values`."""
+    """Return the properties of `Memory.values` for the integrator."""
     kept = []
     for name, of_law in memory.laws.items():
         if of_law:

@@ -1,4 +1,4 @@
-"""The friction of a contact: that of the case, or what an effect makes of it."""
+"""The friction of a contact, by the case or by an effect."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def friction_force(model: Model, state: State) -> float:
 def _mean(model: Model, pressures: Sequence[Array], memory: Memory, moment: Moment) -> float:
     """Return the coefficient of friction at a moment, weighted with the load over a cycle.
 
-    Where points slip less than the motion it is what they dissipate for each newton and metre.
+    Where points slip less than the motion it is the energy dissipated per newton and metre.
     """
     laws = model.laws
     # What is the same at all points is no part of the mean.
@@ -71,10 +71,10 @@ def with_friction_work(
 ) -> State:
     """Return `after`, the end of a step, with the work of friction over it.
 
-    Load and pressure go in a straight line from one end of the step to the other: from after a jump
-    of the load that it begins with, to before one that it ends with. What is remembered goes on
-    under `contacts`, those that the bodies wear under, in the parts of their `course`. Where points
-    slip less than the motion the work is done by the pressures that wear: V = (k/μ) W.
+    Load and pressure change linearly from one end of the step to the other: from after a jump of
+    the load at its beginning to before a jump at its end. States evolve under `contacts`, under
+    which the bodies wear, in the parts of their `course`. Where points slip less than the motion
+    the work is done by the pressures that wear: V = (k/μ) W.
     """
     carried = after.load_distance - before.load_distance
     if course.friction_work is not None:
@@ -93,7 +93,7 @@ def with_friction_work(
 def _varying_work(
     model: Model, before: State, after: State, contacts: Sequence[ContactSolution], plan: Division
 ) -> float:
-    """Return the integral of what effects give, times the load, over a step, in J."""
+    """Return the integral of the friction coefficient of effects times the load, in J."""
     interval = interval_from(before, after.distance - before.distance, after.time)
     first, last = (
         model.contact.loads.over_cycle(loads)

@@ -1,4 +1,4 @@
-"""Times and distances of a run: the moments at which rates are asked for, and what lies between."""
+"""Times and distances of a run: moments at which rates are evaluated, and intervals between."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from tribo.core.state import State
 
 @dataclass(frozen=True)
 class Moment:
-    """When rates are asked for (s, m), and the mean speed of the step (m/s), 0 at rest.
+    """When rates are evaluated (s, m), and the mean speed of the step (m/s), 0 at rest.
 
-    The speed is told where the motion does not state those of its cycle.
+    Laws and effects read this speed where the motion does not state the speeds of its cycle.
     """
 
     time: float
@@ -21,7 +21,7 @@ class Moment:
 
 @dataclass(frozen=True)
 class Interval:
-    """What lies between two moments: a path that is slid, or a rest.
+    """The time between two moments: a sliding path, or a rest.
 
     Parameters
     ----------
@@ -30,9 +30,9 @@ class Interval:
     end_time : float
         When it ends, in s.
     slides : float
-        How far it slides, in m; 0 at rest.
+        Its sliding distance, in m; 0 at rest.
     load_factor : float
-        What effects make of the load over it.
+        Load factor by effects over it.
     """
 
     time: float
@@ -48,7 +48,7 @@ class Interval:
 
     @property
     def lasts(self) -> float:
-        """How long it lasts, in s."""
+        """Its duration, in s."""
         return self.end_time - self.time
 
     @property
@@ -73,5 +73,5 @@ class Interval:
 
 
 def interval_from(state: State, slides: float, time: float) -> Interval:
-    """Return what a step from `state` slides (m) until a time (s)."""
+    """Return the interval of a step from `state` that slides a distance (m) until a time (s)."""
     return Interval(state.time, state.distance, time, slides, state.load_factor)

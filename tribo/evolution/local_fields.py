@@ -1,4 +1,4 @@
-"""Fields at the points of a contact: what effects and the case provide, and what is remembered."""
+"""Fields at the points of a contact: what effects and the case provide, and states."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 
 
 def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
-    """Return what the effects make of `state`, by field and body, shape (nx, ny)."""
+    """Return the fields of effects at `state`, by field and body, shape (nx, ny)."""
     speeds = model.cycle[len(model.cycle) // 2].speeds
-    # Of an average's speeds none is that of the pressure shown.
+    # None of an average's speeds belongs to the pressure shown.
     here = speeds if len(model.cycle) > 1 else None
     speed = state.speed
     if here is not None and speed > 0:
@@ -44,9 +44,9 @@ def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
 def local_fields(
     model: Model, pressure: Array, moment: Moment, position: int, memory: Memory
 ) -> dict[str, dict[str, Array]]:
-    """Return what the effects and the case provide at a position, by field and body, (nx, ny).
+    """Return the fields of effects and of the case at a position, by field and body, (nx, ny).
 
-    `memory` is that of the window at this position; what is remembered is among the fields.
+    `memory` has the states in the window at this position, which are among the fields.
     """
     fields = fields_of(model, memory)
     if model.laws.required & OF_MOTION.keys():
@@ -84,7 +84,7 @@ def conditions(
     effect: GuardedEffect,
     memory: Memory,
 ) -> ContactConditions:
-    """Return what an effect is told of the window."""
+    """Return the input of an effect in the window."""
     motion = model.case.kinematics
     return ContactConditions(
         system=model.contact.system,

@@ -36,9 +36,9 @@ MARGIN = 8
 ENDS = [0, -1]
 """The rows of the window that lie furthest from the contact."""
 SLIGHT = 1e-6
-"""Of the largest rate of a state: what is below it is taken to stand still."""
+"""Part of the largest rate of a state below which a rate is taken as 0."""
 FINE = 0.1
-"""Relative speed between two at which laws are asked, where points have their own."""
+"""Relative spacing of the speeds at which laws are evaluated, where points have their own."""
 
 CycleRates = Sequence[Mapping[str, WearRate]]
 """Rates in the contact frame, by position of a cycle and body."""
@@ -48,8 +48,8 @@ CycleRates = Sequence[Mapping[str, WearRate]]
 class Rates:
     """Rates per metre in the contact frame, at a position: of wear by body, of effects by key.
 
-    At rest they are per second. Where points slip less than the motion, `friction` is what they
-    dissipate on it, in Pa.
+    At rest they are per second. Where points slip less than the motion, `friction` is the energy
+    that they dissipate per area and metre of the motion, in Pa.
     """
 
     wear: Mapping[str, WearRate]
@@ -69,7 +69,7 @@ def rates_at_each(
 ) -> list[Rates]:
     """Return the rates of bodies and effects at each position, as `wear_rates`.
 
-    At rest they are per second. Nobody knows at which position it rests; all have their shares.
+    At rest they are per second; the position of a rest is unknown, so each position has its share.
     """
     here = [under(model, memory, position) for position in range(len(contacts))]
     if moment.speed > 0:
@@ -91,7 +91,7 @@ def rates_at_each(
 def _resting(
     model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
 ) -> dict[str, Array]:
-    """Return what effects change per second at rest at a position, in the window."""
+    """Return the rates of effects per second at rest at a position, in the window."""
     still = dict.fromkeys(model.case.bodies, readonly(np.zeros(model.grid.cells)))
     fields = local_fields(model, contact.pressure, moment, position, memory)
     return _changes(model, position, contact, moment, memory, fields, still)
@@ -100,14 +100,14 @@ def _resting(
 def _sliding(
     model: Model, contacts: Sequence[ContactSolution], memories: Sequence[Memory], moment: Moment
 ) -> list[Rates]:
-    """Return the rates at each position per metre of the motion, with what changes at rest there.
+    """Return the rates at each position per metre of the motion, with changes at rest there.
 
-    They are the mean over the speeds of the position. Laws are asked of all positions at once.
+    They are the mean over the speeds of the position. Laws are evaluated at all positions at once.
     """
     speeds = [by_reach(place.speeds or [(moment.speed, 1.0)], place.reach) for place in model.cycle]
     each = []
     for of_positions in zip_longest(*speeds):
-        # One that has fewer speeds than others is asked again, and counts for nothing.
+        # A position with fewer speeds than others is evaluated again, with weight 0.
         asked = [
             one or (last[0], 0.0, 0.0) for one, (*_, last) in zip(of_positions, speeds, strict=True)
         ]
@@ -127,7 +127,7 @@ def _sliding(
 
 
 def _mean_rates(parts: Sequence[tuple[float | Array, float | Array, Rates]]) -> Rates:
-    """Return the mean of rates, each with what those per metre and changes in time count for."""
+    """Return the mean of rates, each with weights of rates per metre and of changes in time."""
     (part, _, first), *others = parts
     if not others and np.ndim(part) == 0 and part == 1:
         return first
@@ -144,10 +144,10 @@ def _mean_rates(parts: Sequence[tuple[float | Array, float | Array, Rates]]) -> 
 def by_reach(
     speeds: Speeds, reach: Array | None
 ) -> list[tuple[float, float | Array, float | Array]]:
-    """Return speeds, each with what rates per metre and changes in time there count for.
+    """Return speeds, each with the weights of rates per metre and of changes in time there.
 
     A point that slides further, by its part of `reach`, (nx, ny), is faster by as much, and takes
-    the same time; in between speeds what happens is taken to go in straight lines.
+    the same time. Rates between speeds are interpolated linearly.
     """
     if reach is None:
         return [(speed, share, share) for speed, share in speeds]
@@ -269,9 +269,9 @@ def _changes(
     fields: Mapping[str, Mapping[str, Array]],
     depths: Mapping[str, Array],
 ) -> dict[str, Array]:
-    """Return by how much each state of an effect changes per second, in the window.
+    """Return the change of each state of an effect per second, in the window.
 
-    On a body that passes the rest of its track changes as points do that nothing presses.
+    On a moving body the rest of the track changes as points under no pressure.
     """
     changes: dict[str, Array] = {}
 
@@ -308,10 +308,10 @@ def _without_ends(values: Array) -> Array:
 def _with_rest_of_track(
     model: Model, effect: GuardedEffect, rates: dict[str, Array], bare: dict[str, Array]
 ) -> dict[str, Array]:
-    """Return rates of an effect in the window, with what their average over the track lacks.
+    """Return rates of an effect in the window, with the share of the track beyond it.
 
-    Of `bare` the ends of the window, that nothing presses, stand for the rest of the track. Where
-    the body has rows of its own each has its state, so that the rates beyond are not known.
+    The ends of the window in `bare`, under no pressure, stand for the rest of the track. Where the
+    body has rows of its own each has its state, so that the rates beyond are not known.
     """
     assert effect.carrier is not None
     exposure, cells = model.cycle.maps[effect.carrier], model.grid.cells
@@ -325,9 +325,9 @@ def _with_rest_of_track(
             completed[field.name] = rate + (1 / covered - 1) * untouched
         elif exposure.rows > cells[0] and np.any(np.abs(untouched) > SLIGHT * np.max(np.abs(rate))):
             raise CaseError(
-                f"{field.name!r} of {effect} changes on {effect.carrier!r} where nothing presses, "
-                "and positions of a cycle do not tell how it does beyond the window; set "
-                'kinematics.positions = "average" if the motion has that, or let the state lie in '
+                f"{field.name!r} of {effect} changes on {effect.carrier!r} under no pressure, and "
+                "its change beyond the window is unknown at positions of a cycle; set "
+                'kinematics.positions = "average" if the motion has it, or let the state lie in '
                 "the contact",
                 "effects",
             )

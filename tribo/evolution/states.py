@@ -1,4 +1,4 @@
-"""What laws and effects remember, and where it lies."""
+"""The states of laws and effects, and where they lie."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 class Memory:
     """State fields where they lie: of each body's law, by body, and of effects, as in `State`.
 
-    Those of a law that follows the depth worn have it too.
+    The depth worn is among them for a law that depends on it.
     """
 
     laws: Mapping[str, Mapping[str, Array]]
@@ -31,26 +31,26 @@ class Memory:
 
     @cached_property
     def values(self) -> list[Array]:
-        """All of them, in a fixed order: those of the laws first."""
+        """All states, in a fixed order: the laws' first."""
         of_laws = [array for fields in self.laws.values() for array in fields.values()]
         return [*of_laws, *self.between.values()]
 
     @property
     def bodies(self) -> list[str | None]:
-        """The body of each of them whose law remembers it; None of effects."""
+        """The body of each state, for states of laws; None for states of effects."""
         return [
             *(name for name, of in self.laws.items() for _ in of),
             *(None for _ in self.between),
         ]
 
     def with_values(self, values: Iterator[Array]) -> Memory:
-        """Return the same with other arrays, in the order of `values`."""
+        """Return a copy with other arrays, in the order of `values`."""
         laws = {name: {key: next(values) for key in of} for name, of in self.laws.items()}
         return replace(self, laws=laws, between={key: next(values) for key in self.between})
 
 
 class OfLaws(dict[str, Array]):
-    """What laws remember under a name, by body; a body whose law does not raises `CaseError`."""
+    """A state of laws, by body; a body whose law lacks it raises `CaseError`."""
 
     def __init__(self, field: str) -> None:
         super().__init__()
@@ -58,14 +58,14 @@ class OfLaws(dict[str, Array]):
 
     def __missing__(self, body: str) -> Array:
         raise CaseError(
-            f"an effect asks for {self.field!r} of {body!r}, whose wear law does not remember it; "
-            f"that of {', '.join(self)} does. Give {body!r} such a law, or leave out the effect",
+            f"an effect needs the state {self.field!r} of {body!r}, which its wear law lacks; the "
+            f"law of {', '.join(self)} has it. Give {body!r} such a law, or leave out the effect",
             f"bodies.{body}.wear",
         )
 
 
 def remembered(model: Model, state: State) -> Memory:
-    """Return what laws and effects remember at `state`."""
+    """Return the states of laws and effects at `state`."""
     laws = {name: body.law for name, body in state.bodies.items()}
     for name, law in model.laws.wear.items():
         if WORN_DEPTH.name in law.initial_state:
@@ -74,12 +74,12 @@ def remembered(model: Model, state: State) -> Memory:
 
 
 def own(laws: Mapping[str, Array]) -> dict[str, Array]:
-    """Return what a law remembers beside the depth worn."""
+    """Return the state of a law without the depth worn."""
     return {key: values for key, values in laws.items() if key != WORN_DEPTH.name}
 
 
 def first_memory(model: Model) -> dict[str, Array]:
-    """Return the state fields of the effects before anything slides."""
+    """Return the state fields of the effects before any sliding."""
     first = {}
     for key, (effect, field) in model.laws.between.items():
         rows, ny = model.grid.cells
@@ -91,7 +91,7 @@ def first_memory(model: Model) -> dict[str, Array]:
 
 
 def under(model: Model, memory: Memory, position: int) -> Memory:
-    """Return what is remembered where the window is, at a position of the cycle."""
+    """Return the states in the window, at a position of the cycle."""
     laws = {
         name: {key: model.cycle.maps[name].see(values, position) for key, values in of.items()}
         for name, of in memory.laws.items()
@@ -104,7 +104,7 @@ def under(model: Model, memory: Memory, position: int) -> Memory:
 
 
 def filling(model: Model, memory: Memory) -> Array:
-    """Return the height of what fills the gap at each position, (positions, nx, ny), in m."""
+    """Return the height of the filling of the gap at each position, (positions, nx, ny), in m."""
     heights = np.zeros((len(model.cycle), *model.grid.cells))
     for position, height in enumerate(heights if model.laws.filling else ()):
         here = under(model, memory, position)
@@ -114,7 +114,7 @@ def filling(model: Model, memory: Memory) -> Array:
 
 
 def place(model: Model, body: str | None) -> str:
-    """Return the place of a state on a body, or between both: all points that stay share one.
+    """Return the place of a state on a body, or between both; all stationary points share one.
 
     A step of the integrator ends for all states at a place where one reaches a break.
     """
@@ -122,7 +122,7 @@ def place(model: Model, body: str | None) -> str:
 
 
 def laid(model: Model, key: str, rate: Array, position: int) -> Array:
-    """Return what a rate in the window adds, by its share, to that of the state of an effect."""
+    """Return the rate of an effect's state from a rate in the window, by the position's share."""
     effect, field = model.laws.between[key]
     if field.uniform:
         return np.asarray(np.mean(rate, keepdims=True))
@@ -132,10 +132,10 @@ def laid(model: Model, key: str, rate: Array, position: int) -> Array:
 
 
 def fields_of(model: Model, memory: Memory) -> dict[str, dict[str, Array]]:
-    """Return what of it is required, where the window is, by field and body, shape (nx, ny).
+    """Return the required states in the window, by field and body, shape (nx, ny).
 
-    What laws remember is there for the bodies whose law does; what effects do for all, that on
-    a body of its own for each body that has one.
+    A state of laws has the bodies with such a law; a state of effects has all bodies, each with the
+    state on its own surface where the effects of a name lie on bodies.
     """
     fields: dict[str, dict[str, Array]] = {}
     for name, of_law in memory.laws.items():
@@ -152,7 +152,7 @@ def fields_of(model: Model, memory: Memory) -> dict[str, dict[str, Array]]:
 
 
 def own_state(model: Model, effect: GuardedEffect, memory: Memory) -> dict[str, Array]:
-    """Return the state of an effect as it is told of it: (nx, ny), or (1, 1) if uniform."""
+    """Return the state of an effect as its input: (nx, ny), or (1, 1) if uniform."""
     told = {}
     for field in effect.state_fields:
         values = memory.between[effect.key_of(field)]

@@ -1,4 +1,4 @@
-"""What components must answer: the guard in a run, the conformance kit and the docs read it."""
+"""The contract of a component's answers, for the guard in a run, the kit and the docs."""
 
 from __future__ import annotations
 
@@ -130,10 +130,10 @@ def answers_of(component: Component) -> dict[str, Answer]:
 
 
 def initial(name: str) -> str:
-    """Return what the initial value of a state field is called."""
+    """Return the name of the initial value of a state field."""
     return f"initial {name}"
 
 
 def rate_of(name: str) -> str:
-    """Return what the rate of a state field is called."""
+    """Return the name of the rate of a state field."""
     return f"rate of {name}"

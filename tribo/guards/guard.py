@@ -1,4 +1,4 @@
-"""Calls into a component: what goes wrong in one names it, and its answers are checked."""
+"""Calls into a component: errors name it, and its answers are checked."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ T = TypeVar("T")
 
 
 class Guard(Generic[C]):
-    """A component, that of a body if it belongs to one; a subclass a kind checks its answers."""
+    """A component, with its body if it has one; a subclass for each kind checks its answers."""
 
     def __init__(self, component: C, body: str | None = None) -> None:
         self.component = component
@@ -40,13 +40,13 @@ class Guard(Generic[C]):
         return answers_of(self.component)
 
     def __str__(self) -> str:
-        """Return what messages call it, as ``wear law 'archard' of body 'ball'``."""
+        """Return its name in messages, as ``wear law 'archard' of body 'ball'``."""
         kind = type(self.component).kind().replace("_", " ")
         words = f"{kind} {self.component.type!r}"
         return f"{words} of body {self.body!r}" if self.body else words
 
     def ask(self, method: Callable[P, T], *given: P.args, **named: P.kwargs) -> T:
-        """Call a method of the component; what nobody expects becomes a `PluginError`."""
+        """Call a method of the component; unexpected errors become a `PluginError`."""
         check_time()
         try:
             return method(*given, **named)
@@ -103,9 +103,9 @@ class Guard(Generic[C]):
         return array
 
     def bad(self, name: str, fault: str, where: str = "", needed: str = "") -> BadValues:
-        """Return the error of the answer `name`, with what is wrong and what is `needed`.
+        """Return the error of the answer `name`, with the fault and what is `needed`.
 
-        That is what its declaration allows, if left out.
+        By default what its declaration allows is needed.
         """
         needed = needed or self.answers[name].needed
         return BadValues(f"{self} gave {name!r}{where} that is {fault}; {needed}")
@@ -119,7 +119,7 @@ class Guard(Generic[C]):
 
 
 def _plain(value: object) -> NDArray[Any]:
-    """Return `value` as an array; one of no shape that is asked for where it cannot be one."""
+    """Return `value` as an array; an array of a wrong shape where it cannot be converted."""
     try:
         array = np.asarray(value)
     except (TypeError, ValueError):

@@ -1,4 +1,4 @@
-"""The law of a body in layers: that of each layer where it lies at the surface."""
+"""The law of a body in layers: each layer's law where the layer lies at the surface."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from tribo.guards.parts import GuardedLaw
 
 
 class LayeredLaw(GuardedLaw):
-    """Laws of layers, from the top, the last of which is that of the body below.
+    """Laws of layers, from the top; the last is the law of the body below.
 
-    A law whose rate jumps at the depths worn where layers end. What laws remember belongs to the
-    point: it changes by the law of the layer that wears, and a field that two of them have goes on
-    from one to the other. Thicknesses, in m, are of all but the last.
+    A law whose rate jumps at the depths worn where layers end. States belong to the point: they
+    change by the law of the layer that wears, and a field of two laws continues from one to the
+    other. Thicknesses, in m, are given for all but the last.
     """
 
     def __init__(self, laws: Sequence[GuardedLaw], thicknesses: Sequence[float]) -> None:

@@ -24,7 +24,7 @@ SAME = 1e-6
 
 
 class GuardedMotion(Guard[Kinematics]):
-    """A motion of which every answer is checked."""
+    """A motion whose answers are checked."""
 
     def cycle(self, grid: Grid) -> tuple[Position, ...]:
         """Return the positions of a cycle, whose shares add up to 1."""
@@ -173,7 +173,7 @@ class GuardedMotion(Guard[Kinematics]):
     def check_distance(self, end: float) -> None:
         """Refuse a distance that does not grow from 0 to `end` (s), or is not `time_at`'s inverse.
 
-        A few times are tried; a run checks the ones it comes to.
+        A few times are tried; a run checks its own times.
         """
         start, total = self.distance_at(0.0), self.distance_at(end)
         if start != 0 or not total > 0:

@@ -80,7 +80,7 @@ class GuardedLaw(Guard[WearLaw]):
 
     @property
     def own_state(self) -> dict[str, float]:
-        """What it remembers beside the depth worn, and what that begins with."""
+        """Its states without the depth worn, with their initial values."""
         return {n: v for n, v in self.initial_state.items() if n != WORN_DEPTH.name}
 
     def rate(self, local: LocalConditions) -> WearRate:
@@ -142,7 +142,7 @@ class GuardedEffect(Guard[Effect]):
         self.initial_state = _initial_state(self, self.state_fields, given)
 
     def body_of(self, field: Field) -> str | None:
-        """Return the body that a state field lies on; None for the contact, or what is uniform."""
+        """Return the body that a state field lies on; None for the contact, or a uniform field."""
         return None if field.uniform else self.carrier
 
     def key_of(self, field: Field) -> str:
@@ -174,7 +174,7 @@ class GuardedEffect(Guard[Effect]):
         return found
 
     def load_factor(self, snapshot: Snapshot) -> float:
-        """Return what the normal load is multiplied by."""
+        """Return the factor on the normal load."""
         return self.number("load_factor", self.ask(self.component.load_factor, snapshot))
 
     def state_rates(self, contact: ContactConditions) -> dict[str, Array]:

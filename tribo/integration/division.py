@@ -17,22 +17,22 @@ from tribo.integration.step_to_break import places_passing
 ACCURACY = 3e-5
 """Error of an increment, summed over the cells, relative to what it integrates."""
 LOOSER, LOOSEST = 10.0, 3e-3
-"""By how much less accurate rates that jump are integrated, and how far that goes."""
+"""Factor on the accuracy of rates that jump, and the least accuracy that it may lead to."""
 MOST_PARTS = 32
-"""Parts of an increment after which that is done."""
+"""Parts of an increment after which the accuracy is loosened."""
 ROUGHEST = 0.05
-"""Error, in the mean over those parts and in each of all there is, up to which they are taken."""
+"""Largest error, as the mean over those parts and in each part of the whole."""
 MOST_LEAVING = 64
 """Parts of an increment after which a state that leaves its limits is not followed further."""
 JUMP = 0.1
-"""Relative difference from a smooth rate at which one is looked at as one that jumps."""
+"""Relative difference from a smooth rate at which a rate is taken to jump."""
 SAFETY, LEAST = 0.9, 1 / 8
-"""Of the length at which the next part would be as accurate as asked, what is taken; and the least
-that is cut off it."""
+"""Length of the next part over the length of the accuracy asked for; and the least part cut off
+at once."""
 FINEST = 2.0**-30
-"""The smallest part, where a state goes on to leave its limits."""
+"""The smallest part, where a state keeps leaving its limits."""
 FADED = 0.01
-"""Part of the most that a state was, below which its error is relative to that part."""
+"""Part of the largest value of a state, below which its error is relative to that part."""
 
 
 @dataclass(frozen=True)
@@ -42,9 +42,9 @@ class Division:
     Parameters
     ----------
     parts : tuple of (float, bool)
-        Parts of it, in sum 1, each with whether its states relax within it.
+        Parts of it, which add up to 1, each with whether its states relax within it.
     accuracy : float
-        To which it is integrated; infinite to take the parts as they are.
+        Of the integration; infinite to take the parts as they are.
     """
 
     parts: tuple[tuple[float, bool], ...] = ((1.0, False),)
@@ -53,7 +53,7 @@ class Division:
 
 @dataclass(frozen=True)
 class Integral:
-    """States at the end of an increment, what sums come to over it, and how it was divided.
+    """States at the end of an increment, the sums over it, and its division.
 
     `passed` has by state and break, both by number, the first share of the increment at which a
     point rises to the break.
@@ -77,21 +77,21 @@ def integrated(
 
     Each part is solved by Euler steps, extrapolated; where that is not accurate, by exponential
     ones, exact for a state that relaxes linearly; and where that is not either, or leaves the
-    limits of a state, in two halves. States that relax over far less than a part come to rest
-    there. At breaks that a state declares steps end; rates that jump elsewhere would need parts
-    without end, and are integrated less accurately.
+    limits of a state, in two halves. States that relax over far less than a part reach equilibrium
+    there. Steps end at breaks that a state declares; rates that jump elsewhere would need endless
+    parts, and are integrated less accurately.
 
     Parameters
     ----------
     rates : callable
-        The rates of the states, and after them of the sums, at given states and a part of the
-        increment that has passed.
+        The rates of the states, then of the sums, at given states and the part of the increment
+        that has passed.
     start : sequence of ndarray
         The states at the beginning.
     length : float
         The increment, in the unit that rates are per.
     kept : sequence of Kept
-        One for each state: trial values are held to its limits.
+        One for each state; trial values are clipped to its limits.
     sums : sequence of Sum, optional
         One for each sum.
     plan : Division, optional
@@ -132,8 +132,7 @@ def integrated(
         elif left and (part <= FINEST or len(waiting) + len(done) > MOST_LEAVING):
             of = kept[int(np.argmax(trial.beyond))]
             raise PluginError(
-                f"{of} goes on beyond its limits of {of.least:g} to {of.most:g}: "
-                "let its rate vanish there"
+                f"{of} leaves its limits of {of.least:g} to {of.most:g}: let its rate vanish there"
             )
         elif left or (part > FINEST and len(waiting) + len(done) < MOST_PARTS):
             waiting[:1] = [(0.5 * part, True)] * 2
@@ -148,8 +147,8 @@ def integrated(
     if not missed <= ROUGHEST:
         names = ", ".join(map(str, kept))
         raise BadValues(
-            f"what is remembered ({names}) changes too often to be followed over {length:g} (m, or "
-            "s of a rest): shorten the steps"
+            f"states ({names}) change too often to be integrated over {length:g} (m, or s of a "
+            "rest): shorten the steps"
         )
     return Integral(here.values, here.sums, replace(plan, parts=tuple(done)), here.breaks)
 
@@ -158,8 +157,7 @@ def integrated(
 class _Place:
     """A place along an increment: the part passed, states and sums there, and all rates.
 
-    `peaks` are the largest values of the states until there, and `breaks` what `Integral.passed`
-    is.
+    `peaks` are the largest values of the states until there; `breaks` is as `Integral.passed`.
     """
 
     passed: float
@@ -174,8 +172,8 @@ class _Place:
 class _Trial:
     """Where a part of an increment ends, its error, and how far each state leaves its limits.
 
-    The largest error `off` is relative to all that came before, as is what is beyond; `errors` are
-    summed over the cells.
+    The largest error `off` and the distances beyond limits are relative to the integral so far;
+    `errors` are summed over the cells.
     """
 
     end: _Place
@@ -203,7 +201,7 @@ class _Problem:
     def tried(
         self, here: _Place, part: float, relaxes: bool, accuracy: float, *, is_last: bool
     ) -> _Trial:
-        """Return what a part of the increment would end with."""
+        """Return the trial of a part of the increment."""
         values, kept, count = here.values, self.kept, len(here.values)
         span = part * self.length
 
@@ -270,10 +268,10 @@ def _looser(plan: Division) -> Division:
 
 
 def _unseen(part: Part, sums: Sequence[Sum], rates: Rates, last: Values) -> list[float]:
-    """Return how far off states and sums may be where a break is passed, summed over the cells.
+    """Return the error of states and sums where a break is passed, summed over the cells.
 
-    Rates change on the way there and from there, of which a step knows nothing: they are asked
-    on this side of the break, and at the end of the step. `last` are those at the end of all.
+    Rates change before and after the break, while a step evaluates them only before the break and
+    at its end. `last` are the rates at the end of the increment.
     """
     # States lie at their places.
     every = [*(Sum(of.place) for of in part.kept), *sums]
@@ -311,9 +309,9 @@ def _samples(part: Part) -> list[Values]:
 
 
 def _jump(rates: Sequence[Array], span: float, so_far: Array) -> float:
-    """Return what a rate that jumps before or after all samples may hide, relative to all so far.
+    """Return the error of a rate that jumps before or after all samples, relative to all so far.
 
-    It is what the last, at the end of a part, differs by from the cubic through the others.
+    It is the difference of the last sample, at the end of a part, from a cubic through the others.
     """
     first, half, third, two_thirds, last = rates
     off = float(np.sum(np.abs(9 * third - 16 * half + 9 * two_thirds - first - last)))
@@ -322,6 +320,6 @@ def _jump(rates: Sequence[Array], span: float, so_far: Array) -> float:
 
 
 def _beyond(values: Array, size: Array, kept: Kept) -> float:
-    """Return by how much values pass their limits, relative to the largest."""
+    """Return the distance of values beyond their limits, relative to the largest."""
     over = max(kept.least - float(np.min(values)), float(np.max(values)) - kept.most, 0.0)
     return over / float(np.max(size)) if over > 0 else 0.0

@@ -14,9 +14,9 @@ from tribo.integration.kept import Field, Kept, Rates, Sum, Values
 from tribo.integration.step_to_break import Stretch, places_passing, stepped, stepped_back
 
 EXACT = 1e-12
-"""Relative difference, summed over the cells, of what is the same but for rounding."""
+"""Relative difference, summed over the cells, below which arrays are equal but for rounding."""
 NUDGE = 3e-5
-"""Part of a state by which it is moved to find how fast it relaxes."""
+"""Part of a state by which it is moved to determine its relaxation rate."""
 PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
 """Euler steps of the rows of the extrapolation, without and with the relaxation of the states."""
 
@@ -33,19 +33,19 @@ class Part:
     kept : sequence of Kept
         The states.
     relaxing : sequence of ndarray or float
-        How the rate of each state changes with itself, where that is downwards.
+        Derivative of the rate of each state in the state, where negative.
     rows : sequence of Row
         The Euler steps of each row of the extrapolation.
     ends : sequence of Values
         States and sums at the end of each row.
     rough : Values
-        Less accurate ones.
+        Less accurate states and sums at the end.
     beyond : sequence of float
-        By how much trials of each state were beyond its limits, summed over the cells.
+        By how much trials of each state exceeded its limits, summed over the cells.
     last : Values or None
-        Rates at its end, where they are known to be those of all of it.
+        Rates at its end, where they are known to hold over the whole part.
     turned : sequence of (int, Values, ndarray)
-        Of each state that relaxes, its number, rates where it is moved, and by how much.
+        For each state that relaxes, its number, the rates with it moved, and the displacement.
     """
 
     kept: Sequence[Kept]
@@ -64,7 +64,7 @@ class Part:
 
     @property
     def pieces(self) -> list[Stretch]:
-        """Those of all rows."""
+        """The stretches of all rows."""
         return [*chain.from_iterable(chain.from_iterable(self.rows))]
 
     @property
@@ -109,8 +109,8 @@ def solved(
 ) -> Part:
     """Return a part of an increment, solved from its first rates on.
 
-    Rates are asked at states that may lie beyond their limits. Where they stay as they are, but for
-    the breaks that are passed, one step or two are all, if it `shortens`.
+    Rates are evaluated at states that may exceed their limits. Where rates change at breaks alone,
+    one or two steps are enough if it `shortens`.
     """
     slopes: Sequence[Field] = [0.0] * len(start)
     if relaxes:
@@ -151,7 +151,7 @@ def solved(
 
 
 def _ending(kept: Sequence[Kept], pieces: Sequence[Stretch]) -> Values:
-    """Return the rates of states that hold as a step ends."""
+    """Return the rates of states at the end of a step."""
     ending = pieces[0].rates[: len(kept)]
     for piece in pieces[1:]:
         ending = [
@@ -175,10 +175,10 @@ def retraced(
     sums: Sequence[Sum],
     parts: Sequence[tuple[float, bool]],
 ) -> list[Part]:
-    """Return the parts of an increment as it was divided, with what `transposed` needs of them.
+    """Return the parts of an increment as it was divided, with the input of `transposed`.
 
-    `parts` are shares of it, each with whether states relax within. Rates are asked at shares of
-    the increment.
+    `parts` are shares of it, each with whether states relax within. Rates are evaluated at shares
+    of the increment.
     """
     passed, states, done = 0.0, list(start), list[Part]()
     for share, relaxes in parts:
@@ -230,8 +230,8 @@ def transposed(
     sums : sequence of (Sum, ndarray or float)
         Sums that lie where their place does, and derivatives in them.
     behind : callable
-        Returns derivatives in the states that rates were asked at, from those in the rates. What
-        else they follow, it adds up by itself. It is called once for each stage.
+        Returns derivatives in the states of a stage from derivatives in its rates, and itself
+        accumulates derivatives in other inputs. It is called once for each stage.
     """
     after = [*states]
     breaks: dict[int, Array] = {}
@@ -289,7 +289,7 @@ def relaxation(
     length: float,
     kept: Sequence[Kept],
 ) -> list[Field]:
-    """Return how the rate of each state changes with itself, where that is downwards."""
+    """Return the derivative of the rate of each state in the state, where negative."""
     found: list[Field] = []
     for index, (state, rate, of) in enumerate(zip(states, first, kept, strict=False)):
         other = moved(state, rate, length, of)
@@ -302,18 +302,18 @@ def relaxation(
 
 
 def moved(state: Array, rate: Array, length: float, kept: Kept) -> Array:
-    """Return a state moved by a part of the most that it is or becomes, past no break or limit."""
+    """Return a state moved by a part of its largest value, past no break or limit."""
     largest = max(float(np.max(np.abs(state))), length * float(np.max(np.abs(rate))))
     return state if largest == 0 else kept.aside(state, NUDGE * largest)
 
 
 def weight(steps: int, rows: Sequence[int]) -> float:
-    """Return what a row of so many steps counts for in the extrapolation of all rows."""
+    """Return the weight of a row of so many steps in the extrapolation of all rows."""
     return math.prod(steps / (steps - other) for other in rows if other != steps)
 
 
 def apart(one: Array, other: Array) -> float:
-    """Return how far two arrays are apart, summed over the cells."""
+    """Return the absolute difference of two arrays, summed over the cells."""
     return float(np.sum(np.abs(one - other)))
 
 
@@ -327,7 +327,7 @@ def part_of(amount: float, size: Array) -> float:
 
 
 def _extrapolated(ends: Sequence[Values], rows: Sequence[int]) -> Values:
-    """Return the ends of rows of Euler steps, extrapolated to steps without end."""
+    """Return the ends of rows of Euler steps, extrapolated to infinitely many steps."""
     counts = [weight(steps, rows) for steps in rows]
     *rough, last = ends
     total = list(last)
@@ -339,7 +339,7 @@ def _extrapolated(ends: Sequence[Values], rows: Sequence[int]) -> Values:
 
 
 def _join(seeded: list[tuple[Values, list[Field]]], stage: Values, seeds: Sequence[Field]) -> None:
-    """Add derivatives in the rates of a stage, to those in them that there are already."""
+    """Add derivatives in the rates of a stage to the derivatives already listed for it."""
     for at, (other, before) in enumerate(seeded):
         if other is stage:
             seeded[at] = stage, _added(before, seeds)

@@ -17,21 +17,21 @@ Numbers = NDArray[np.intp]
 Field = Array | float
 Values = list[Array]
 Rates = Callable[[Sequence[Array], float], Values]
-"""Rates of states, and after them of sums, at states and at a share of a part."""
+"""Rates of states, then of sums, at states and at a share of a part."""
 
 
 @dataclass(frozen=True)
 class Kept:
-    """What the integrator must know of a state.
+    """The properties of a state that the integrator needs.
 
     Parameters
     ----------
     name, owner : str
-        What messages call it, and whose it is.
+        Its name in messages, and the component that declares it.
     least, most : float
-        Its limits: its rate vanishes where it comes to one.
+        Its limits, at which its rate vanishes.
     breaks : tuple of float
-        Values at which rates jump, rising; at one itself they are those above it.
+        Values at which rates jump, rising; at a break itself the rates above it hold.
     place : str
         States that lie at the same place pass breaks together.
     """
@@ -53,13 +53,13 @@ class Kept:
         return ends if np.any(np.isfinite(ends)) else None
 
     def hold(self, values: Array) -> Array:
-        """Return values held to the limits."""
+        """Return values clipped to the limits."""
         if math.isinf(self.least) and math.isinf(self.most):
             return values
         return np.clip(values, self.least, self.most)
 
     def aside(self, values: Array, nudge: Field) -> Array:
-        """Return values moved up by a nudge, or down where a limit or a break lies between."""
+        """Return values moved up by a nudge, or down where a limit or a break is in the way."""
         if self.ends is None:
             return values + nudge
         above = self.ends[np.searchsorted(self.breaks, values, side="right") + 1]
@@ -80,15 +80,15 @@ class Kept:
         return not np.array_equal(one, other)
 
     def end(self, number: Numbers) -> Array:
-        """Return breaks by their numbers, and the limits by those before and after them."""
+        """Return breaks by their numbers; the limits have the numbers before and after them."""
         assert self.ends is not None
         return self.ends[number + 1]
 
     def next(self, values: Array, rate: Array, slope: Field) -> tuple[Array, Numbers, Array]:
-        """Return the break or limit that each value comes to next, its number, and when.
+        """Return the break or limit that each value reaches next, its number, and when.
 
-        That is never where it comes to none. The rate follows the state by `slope`. Below a break
-        that it comes to from above, a value is the next number below it.
+        The time is infinite where it reaches none. The derivative of the rate in the state is
+        `slope`. A value that reaches a break from above ends at the next float below it.
         """
         number = np.searchsorted(self.breaks, values, side="right") - (rate <= 0)
         end = self.end(number)
@@ -109,10 +109,10 @@ class Kept:
 
 @dataclass(frozen=True)
 class Sum:
-    """What is only integrated, by rates that hold as long as those of states at a place.
+    """A quantity that is only integrated; its rates hold as long as the rates of states at a place.
 
-    `see` takes what is known there to where the sum lies. Without a place they hold for all of a
-    step.
+    `see` maps values at that place to where the sum lies. Without a place its rates hold for the
+    whole step.
     """
 
     place: str | None = None
@@ -126,5 +126,5 @@ class Sum:
         return self.seen(span) if isinstance(span, np.ndarray) else span
 
     def seen(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Return what is known at its place, where it lies."""
+        """Return values at its place, mapped to where the sum lies."""
         return self.see(values) if self.see else values

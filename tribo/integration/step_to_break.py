@@ -1,4 +1,4 @@
-"""An Euler step of states that relax, up to where one comes to a break; and its transpose."""
+"""An Euler step of states that relax, up to where a state reaches a break; and its transpose."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from tribo.core.arrays import Array, Mask
 from tribo.integration.kept import Field, Kept, Numbers, Sum, Values
 
 LEFT = 1e-12
-"""Part of a step below which what is left of it is rounding."""
+"""Part of a step below which its remainder is rounding."""
 SMALL = 1e-4
-"""Rise below which the derivative of its mean is that of its series."""
+"""Rise below which the derivative of its mean is computed by series."""
 
 
 @dataclass(frozen=True)
 class Stretch:
     """States, their rates, and for how long these hold at each place: for a step, or to a break.
 
-    `ended` has where a state, by its number, comes to a break or to a limit, and to which.
+    `ended` has, by the number of a state, the points that reach a break or a limit, and which.
     """
 
     states: Values
@@ -46,11 +46,11 @@ def stepped(
     kept: Sequence[Kept],
     sums: Sequence[Sum],
 ) -> tuple[Values, Values, list[Stretch]]:
-    """Return states after an Euler step, what sums come to over it, and its pieces.
+    """Return states after an Euler step, the sums over it, and its pieces.
 
-    Where a state comes to a break or a limit, the step ends for all states at its place, and a
-    shorter one goes on from there with rates asked anew. What lies elsewhere, for these rates, is
-    as it was at the beginning, as for those of the whole step.
+    Where a state reaches a break or a limit, the step ends for all states at its place, and a
+    shorter step with new rates follows. For the new rates, states at other places have their values
+    from the beginning, as for the rates of the whole step.
     """
     states, found = list(start), first
     totals = [np.zeros_like(rate) for rate in first[len(states) :]]
@@ -106,7 +106,7 @@ def _coming(
     kept: Sequence[Kept],
     left: Mapping[str, Field],
 ) -> list[tuple[int, Array, Numbers, Array]]:
-    """Return of each state that may come to a break or a limit its number, and `Kept.next`."""
+    """Return the number and `Kept.next` of each state that may reach a break or a limit."""
     return [
         (at, *each.next(states[at], rates[at], slopes[at]))
         for at, each in enumerate(kept)
@@ -126,15 +126,15 @@ def stepped_back(
     *,
     is_first: bool,
 ) -> tuple[list[Field], list[Field], dict[str, Field]]:
-    """Return derivatives before a piece: in states, in its rates, and in what was left of a step.
+    """Return derivatives before a piece: in states, in its rates, and in the rest of the step.
 
-    From those in states and in what is left after it, `times`. The span of a piece that ends at a
-    break follows the state that comes to it, its rate, and the break.
+    `seeds` and `times` are the derivatives in states and in the rest of the step after it. The span
+    of a piece that ends at a break depends on the state that reaches it, its rate, and the break.
     """
     rates, own = piece.rates, len(kept)
     states = [*seeds]
     for at, (here, _) in piece.ended.items():
-        # What comes to a break is there, whatever it was before.
+        # A state that reaches a break is at the break, whatever it was before.
         states[at] = np.where(here, 0.0, seeds[at])
     given: list[Field] = []
     left: dict[str, Field] = {}
@@ -176,13 +176,13 @@ def growth(span: Field, slope: Field) -> Field:
 
 
 def relaxed(rise: Field) -> Array:
-    """Return the mean of a rate that changes e-fold exp(rise) over a step: (exp(rise) − 1)/rise."""
+    """Return the mean of a rate that grows by exp(rise) over a step: (exp(rise) − 1)/rise."""
     rise = np.asarray(rise)
     return np.divide(np.expm1(rise), rise, out=np.ones_like(rise), where=rise != 0)
 
 
 def lasting(step: Field, slope: Field) -> Field:
-    """Return how much a step counts for where the rate follows its own state by this slope."""
+    """Return the effective length of a step where the rate has this slope in its own state."""
     return step * relaxed(step * slope) if np.any(slope) else step
 
 

@@ -1,10 +1,10 @@
-"""What a ball and its track have lost, by the size of the scar and the track's section.
+"""The volumes lost by a ball and its track, from the size of the scar and the track's section.
 
 All lengths in m, sections in m², volumes in m³: `radius` R of the ball; `diameter` d of its scar,
 `along` d∥ and `across` d⊥ the sliding direction; `width` d of a track, both at most 2R; `area` W_q
-of its section; `groove` R', the radius of that section. The formulas are those of the standards
-named, derived again from the geometry; ``tribo verify lab_formulas`` integrates the shapes they
-stand for.
+of its section; `groove` R', the radius of the section. The formulas are from the standards named,
+derived again from the geometry; ``tribo verify lab_formulas`` integrates the shapes that they
+assume.
 
 References
 ----------
@@ -30,8 +30,8 @@ def ball_cap_depth(diameter: float, radius: float) -> float:
 def ball_cap_volume(diameter: float, radius: float) -> float:
     """Volume of the cap that a flat scar takes off a ball, exact (ASTM G99).
 
-    V = πh(3d²/4 + h²)/6 with `ball_cap_depth` h. Only right for a flat scar: one
-    that conforms to a groove has lost less, see `conforming_ball_volume`.
+    V = πh(3d²/4 + h²)/6 with `ball_cap_depth` h. Only right for a flat scar: a
+    scar that conforms to a groove has lost less, see `conforming_ball_volume`.
     """
     h = ball_cap_depth(diameter, radius)
     return math.pi * h * (0.75 * diameter**2 + h**2) / 6.0
@@ -60,9 +60,9 @@ def conforming_ball_volume(along: float, across: float, radius: float, groove: f
 
     Notes
     -----
-    The form supposes a scar as long as it is wide. One worn flat along the
+    The form supposes a scar as long as it is wide. A scar worn flat along the
     sliding direction in a parabolic groove obeys d∥² = d⊥² (1 − R/R') and has
-    lost d⊥/d∥ times as much as the formula says: `flat_along_ball_volume`.
+    lost d⊥/d∥ times the volume of the formula: `flat_along_ball_volume`.
     """
     return math.pi / 64.0 * along**2 * across**2 * (1.0 / radius - 1.0 / groove)
 

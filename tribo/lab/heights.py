@@ -62,7 +62,7 @@ class Heights:
         if not np.any(np.isfinite(self.heights)):
             raise CaseError("every height of the map is missing; measure again, or mask less")
         if not min(self.pitch) > 0:
-            raise CaseError(f"a pitch of {self.pitch} m is none; give one above 0")
+            raise CaseError(f"the pitch is {self.pitch} m; give a pitch above 0, in m")
         known, width = self.heights[~np.isnan(self.heights)], max(self.grid.size)
         absurd = known[np.abs(known - np.median(known[np.isfinite(known)])) > width]
         if len(absurd):
@@ -92,10 +92,10 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
     ----------
     path : str or Path
         A NumPy, CSV or HDF5 file with one table of heights in m, a row for each x, NaN or nothing
-        where missing; or a file in a format that a plugin reads, as tribo-topography those of
-        instruments.
+        where missing; or a file in a format that a plugin reads, as tribo-topography reads formats
+        of instruments.
     pitch : tuple of float, optional
-        Distance between pixels along x and y, in m; that of the file if left out.
+        Distance between pixels along x and y, in m; the file's if left out.
 
     Raises
     ------
@@ -164,7 +164,7 @@ def outliers(heights: Array) -> Mask:
 
 
 def smoothed(heights: Array, width: float = BLUR) -> Array:
-    """Return the mean of what is known around each pixel, weighted by a Gaussian; 0 far from it."""
+    """Return the mean of known heights around each pixel, weighted by a Gaussian; 0 if far."""
     known = np.isfinite(heights)
     total, weight = (
         ndimage.gaussian_filter(each, width, mode="constant")
@@ -174,10 +174,10 @@ def smoothed(heights: Array, width: float = BLUR) -> Array:
 
 
 def interpolated(heights: Array, wanted: Mask) -> Array:
-    """Return heights with those wanted from straight lines along x and y between known ones.
+    """Return heights, the wanted ones interpolated linearly along x and y between known ones.
 
-    A line counts by the inverse square of its error in a curved surface. Where known ones lie on
-    one side of both lines at most, as at the map's edge, the nearest is taken.
+    A line is weighted with the inverse square of its error in a curved surface. Where known heights
+    lie on one side of both lines at most, as at the map's edge, the nearest is taken.
     """
     whole = heights.copy()
     if not wanted.any():
@@ -196,7 +196,7 @@ def interpolated(heights: Array, wanted: Mask) -> Array:
 
 
 def _along_rows(heights: Array) -> tuple[Array, Array]:
-    """Return heights on straight lines between known ones of a row, and how much each counts."""
+    """Return heights on straight lines between known ones of a row, and their weights."""
     rows, place = np.indices(heights.shape)
     known, last = np.isfinite(heights), heights.shape[1] - 1
     before = np.maximum.accumulate(np.where(known, place, -1), axis=1)

@@ -32,13 +32,13 @@ class InferredVolume(NamedTuple):
     body : str
         The body.
     method : str
-        What the formula takes the scar for.
+        The shape of the scar that the formula assumes.
     standard : str or None
-        Where the formula is used, as ``"ASTM G99"``; None for one derived here.
+        Where the formula is used, as ``"ASTM G99"``; None for a formula derived here.
     volume_m3 : float
         In m³.
     relative_error : float
-        How far it is off the volume worn.
+        Its relative difference from the volume worn.
     """
 
     body: str
@@ -49,29 +49,29 @@ class InferredVolume(NamedTuple):
 
     @property
     def off(self) -> str:
-        """How far it is off, in %."""
+        """Its relative error, in %."""
         return signed(100 * self.relative_error, 0)
 
 
 def inferred(
     body: str, method: str, standard: str | None, volume: float, worn: float
 ) -> InferredVolume:
-    """Return a volume by a formula beside the one worn."""
+    """Return a volume by a formula with its error relative to the volume worn."""
     return InferredVolume(body, method, standard, volume, volume / worn - 1)
 
 
 def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
     """Return the volumes by the usual formulas for a ball on a flat, at a save.
 
-    Of a stationary ball: that of a flat cap of the scar's mean diameter, that
+    For a stationary ball: the volume of a flat cap of the scar's mean diameter,
     of a scar conforming to the groove, whose section comes from one profile,
-    and that of a scar flat along the sliding direction. Of a flat swept by it:
-    that of a groove as deep as an unworn ball of the track's width would make
-    it. The scars are measured by `scar`, and the lab knows the length of the
-    track. Plastic indentation is left out.
+    and of a scar flat along the sliding direction. For a flat swept by it: the
+    volume of the groove that an unworn ball makes at the track's width. The
+    scars are measured by `scar`, and the lab knows the length of the track.
+    Plastic indentation is left out.
 
-    G99 asks for the first and the last only where the other body hardly wears, and all take the
-    scar to be deep beside the elastic flattening: elsewhere they are far off.
+    G99 asks for the first and the last only where the other body hardly wears, and all assume a
+    scar that is deep beside the elastic flattening: elsewhere they are inaccurate.
 
     Returns
     -------
@@ -99,7 +99,7 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
 def ball_volumes(
     body: str, seen: Scar, radius: float, groove: float | None, worn: float
 ) -> list[InferredVolume]:
-    """Return a ball's volumes by formulas, of its scar, its radius and that of the groove in m."""
+    """Return a ball's volumes by formulas, from its scar, its radius and the groove's in m."""
     cap, along = ball_cap_volume(seen.mean_diameter, radius), flat_along_ball_volume(*seen, radius)
     found = [inferred(body, "flat scar", "ASTM G99", cap, worn)]
     if groove and groove > radius:
@@ -110,7 +110,7 @@ def ball_volumes(
 
 
 def track_section(result: Result, body: BodyResult, save: int = -1) -> float | None:
-    """Return the area of a track's section, in m²; None for a body without a straight one."""
+    """Return the area of a track's section, in m²; None for a body without a straight track."""
     if not (body.swept and body.straight):
         return None
     middle = middle_rows(body.wear_depth[save], 1)[0]

@@ -1,4 +1,4 @@
-"""Fields that effects provide and models keep: at each save, in a table, seen from above."""
+"""Fields of effects and states of models: at each save, in a table, and as maps."""
 
 from __future__ import annotations
 
@@ -50,7 +50,8 @@ def steady(values: Array) -> bool:
 def kept_fields(result: Result) -> list[KeptField]:
     """Return the fields that a result has of its models.
 
-    One that all bodies have alike is there once; one that an effect failed to give is left out.
+    A field that is equal on all bodies is listed once; a field that an effect failed to provide is
+    left out.
     """
     return [each for each in _fields(result) if np.isfinite(each.values).all()]
 

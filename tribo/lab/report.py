@@ -1,4 +1,4 @@
-"""What a laboratory would report of a result: the numbers of the table and of the JSON."""
+"""The laboratory report of a result: the numbers of the table and of the JSON."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from tribo.registry.registry import from_plugins_of, place, process_kept
 from tribo.result.read import Result
 
 HALF_SPACE = "dcfft"
-"""The contact type that Hertz's theory is the smooth limit of."""
+"""The contact type whose smooth limit is Hertz's theory."""
 MEASURES = (
     ("mass", "mg", "mass_kg", 1e6, ".3g"),
     ("specific wear rate", "mm³/(N·m)", "specific_wear_rate_mm3_per_Nm", 1.0, ".3g"),
@@ -32,15 +32,15 @@ MEASURES = (
     ("scar across", "mm", "scar_across_m", 1e3, ".3f"),
     ("section of the track", "mm²", "track_section_m2", 1e6, ".3g"),
 )
-"""Name, unit, key, factor to the unit, and format of what a lab measures of a body."""
+"""Name, unit, key, factor to the unit, and format of a lab's measurements of a body."""
 
 
 class BodyReport(NamedTuple):
-    """What a laboratory would report of one body after a run; its names carry the units.
+    """The laboratory report of one body after a run; its names carry the units.
 
     The specific wear rate is None before any sliding, and the mass without a
-    density. The scar is 0 wide where nothing is worn; that of a swept body is
-    the whole track, which has no extent along the sliding direction, and a
+    density. The scar is 0 wide where nothing is worn; the scar of a swept body
+    is the whole track, which has no extent along the sliding direction, and a
     section instead.
     """
 
@@ -54,9 +54,9 @@ class BodyReport(NamedTuple):
 class FirstContact(NamedTuple):
     """The contact before any sliding.
 
-    The ratio is that of the largest pressure, or the pressure at mid-length of a
-    line contact, to that at which a Hertz contact first yields beneath the
-    surface, and `load_ratio` by Hertz the load to the load of first yield; None
+    The ratio is the largest pressure, or the pressure at mid-length of a line
+    contact, over the pressure at which a Hertz contact first yields beneath the
+    surface, and `load_ratio` the load over Hertz's load of first yield; None
     without a hardness or a Hertz contact.
     """
 
@@ -70,10 +70,10 @@ class FirstContact(NamedTuple):
 class LabReport:
     """The bodies after the last save, by name, and the first contact.
 
-    `first_contact_words` set it against Hertz and the onset of yield. `inferred`
-    are the volumes by a lab's formulas, beside those worn; ``rows`` what the
-    plugins of its models add. `worn_through` says which layers were, and when;
-    `findings` are those of the run, and of rows beyond their limit.
+    `first_contact_words` compare it with Hertz and the onset of yield.
+    `inferred` are the volumes by a lab's formulas, with their errors; ``rows``
+    are from the plugins of its models. `worn_through` lists the layers worn
+    through, and when; `findings` are from the run, and from rows beyond their limit.
     """
 
     bodies: Mapping[str, BodyReport]
@@ -96,7 +96,7 @@ class LabReport:
 
 
 def lab_report(result: Result) -> LabReport:
-    """Return what a laboratory would report of `result` at its last save."""
+    """Return the laboratory report of `result` at its last save."""
     first, words = _first_contact(result)
     rows: list[LabRow] = [*quantity_rows(result), *from_plugins_of(result, "tribo_lab_rows")]
     beyond = (row.finding for row in rows)
@@ -132,7 +132,7 @@ def quantity_rows(result: Result) -> list[LabRow]:
 
 
 def lab_sentences(result: Result, lab: LabReport) -> Iterator[str]:
-    """Yield what stands below the tables: first contact, yield, friction, rows of plugins."""
+    """Yield the sentences below the tables: first contact, yield, friction, rows of plugins."""
     yield lab.first_contact_words
     saves = result.saves()
     last = saves[-1]

@@ -1,4 +1,4 @@
-"""The history of a run in which bodies rest, as lines from row to row show it."""
+"""The history of a run with rests, to be drawn as lines from row to row."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from tribo.result.read import Result
 
 
 def with_rests(result: Result) -> dict[str, Array]:
-    """Return the history with a row more where each step of a rest begins, and where it ends.
+    """Return the history with one more row where each step of a rest begins, and where it ends.
 
     A row has the load and the friction force of the step before it. A line from row to row would
-    creep all along a rest, a long step, to what the load is from its first moment on; only a load
-    that goes in straight lines does so.
+    change all along a rest, a long step, while the load jumps at its beginning unless it changes
+    linearly.
     """
     history = result.table("history")
     stages = (result.case_tables.get("load") or {}).get("normal")

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from tribo.core.arrays import Array
 
 ROUND_OFF = 1e-12
-"""Part of the heights' range below which what a form leaves is 0."""
+"""Part of the heights' range below which the residual of a form is taken as 0."""
 FINE_FORM = 6
-"""Order of the polynomial that leaves nothing of a ball or cylinder in a contact's window."""
+"""Order of the polynomial that removes a ball or cylinder in a contact's window."""
 ROUGH = 1e-5
-"""Part of the heights' range above which what `FINE_FORM` leaves is roughness."""
+"""Part of the heights' range above which the residual of `FINE_FORM` is roughness."""
 
 
 class Roughness(NamedTuple):
@@ -65,8 +65,8 @@ def without_form(height: Array, order: int = 2) -> Array:
     height : ndarray, shape (nx, ny)
         In m; NaN where missing.
     order : int, optional
-        Largest total power. 0 removes the mean, 1 the plane, and 2 the curvature as well: that of
-        a ball or a cylinder, but for the square of the map's half-width over the radius.
+        Largest total power. 0 removes the mean, 1 the plane, and 2 the curvature as well, of a
+        ball or a cylinder up to the square of the map's half-width over the radius.
 
     Returns
     -------
@@ -84,7 +84,7 @@ def without_form(height: Array, order: int = 2) -> Array:
         np.polynomial.legendre.legvander(_scaled(cells), order).T for cells in np.nonzero(known)
     )
     terms = np.stack([along[i] * across[j] for i, j in powers])
-    # By sums, whose bits do not depend on the number of threads as those of a product do.
+    # By sums, whose bits, unlike a product's, do not depend on the number of threads.
     products = np.einsum("kn,ln->kl", terms, terms)
     # A map that is one line wide leaves the powers across it open.
     inverse = np.linalg.pinv(products, hermitian=True)
@@ -147,7 +147,7 @@ def material_ratio(height: Array) -> tuple[Array, Array]:
 
 
 def is_rough(height: Array) -> bool:
-    """Whether a height map is more than a smooth form, as that of a ball, a cylinder or a flat."""
+    """Whether a height map is more than a smooth form, such as a ball, a cylinder or a flat."""
     span = float(np.nanmax(height) - np.nanmin(height))
     # The fit to a flat would take more memory than any other part of its run.
     return span > 0 and areal_parameters(without_form(height, FINE_FORM))[1] > ROUGH * span

@@ -27,10 +27,10 @@ WORN = 0.1
 
 
 class BeforeAndAfter(NamedTuple, Generic[T]):
-    """What is measured of a worn body in three places.
+    """A measurement of a worn body in three places.
 
-    `scar` is of the surface in the scar, or in the contact where nothing is worn; `unworn` of what
-    was there at first; `beside` of the surface outside of all wear.
+    `scar` is taken in the scar, or in the contact where nothing is worn; `unworn` at the same place
+    on the first surface; `beside` on the surface outside of all wear.
     """
 
     scar: T
@@ -60,8 +60,8 @@ def contact_roughness(surface: Array, pressure: Array) -> Roughness:
 def scar_cells(result: Result, body: BodyResult, save: int) -> Mask:
     """Return the scar of a body at a save, shape (nx, ny), its unworn valleys included.
 
-    It is the outline of the cells worn to a tenth of the largest depth; of those in contact, where
-    nothing is worn.
+    It is the outline of the cells worn to a tenth of the largest depth, or of the cells in contact
+    where nothing is worn.
     """
     depth = body.wear_depth[save]
     deepest = float(np.max(depth))
@@ -90,7 +90,7 @@ def rough_bodies(result: Result) -> list[str]:
 
 
 def groove_length(result: Result, name: str) -> float | None:
-    """Return how long a body's groove is on its track at the end, in m; None if all along it."""
+    """Return the length of a body's groove on its track at the end, in m; None if all along it."""
     if TRACK in dir(result):
         depth = np.nan_to_num(result.field(TRACK, len(result.times) - 1, name))
     elif result.case_tables.get("kinematics", {}).get("positions", "average") != "average":
@@ -102,11 +102,11 @@ def groove_length(result: Result, name: str) -> float | None:
 
 
 def worn_surfaces(result: Result, name: str) -> list[dict[str, Any]]:
-    """Return what ``tribo show --json`` tells of a body's surface at each save.
+    """Return the data of ``tribo show --json`` on a body's surface at each save.
 
-    ``roughness`` has the parameters in the scar, and under ``unworn`` and ``beside`` those to
-    compare with. For a body that passes through a resolved cycle ``track_x_m`` and
-    ``track_depth_m`` are the depth at y = 0 along its whole track.
+    ``roughness`` has the parameters in the scar, and under ``unworn`` and ``beside`` parameters to
+    compare with. For the moving body of a resolved cycle ``track_x_m`` and ``track_depth_m`` are
+    the depth at y = 0 along its whole track.
     """
     rows: list[dict[str, Any]] = []
     body = result.body(name)

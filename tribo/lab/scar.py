@@ -14,7 +14,7 @@ from tribo.core.measures import vertex
 from tribo.result.read import Result
 
 VISIBLE = 1e-4
-"""Depth, relative to the largest, from which on a cell is worn."""
+"""Depth, relative to the largest, above which a cell is worn."""
 STEEPEST = 2.0
 """Largest exponent of the depth in the distance from the edge."""
 SHALLOW = 0.05
@@ -57,8 +57,8 @@ def scar(depth: Array, grid: Grid) -> Scar:
 def diameter(depth: Array, axis: int, spacing: float) -> float:
     """Extent of a scar along `axis`, to a fraction of a cell.
 
-    An edge lies where the parabola through the three outermost worn cells comes
-    to 0, as a ball worn flat has lost a paraboloid. Grooves, and scars of elastic
+    An edge lies where the parabola through the three outermost worn cells
+    reaches 0, as a ball worn flat has lost a paraboloid. Grooves, and scars of elastic
     bodies, end in a flat toe: there the parabola goes through a root of the depths,
     whose exponent follows from a fourth cell. The error is a tenth of a cell for a
     scar ten cells wide, and a third of a cell in its first nanometres. A cell is
@@ -85,7 +85,7 @@ def diameter(depth: Array, axis: int, spacing: float) -> float:
 
 
 def removed(result: Result, name: str) -> Array:
-    """Return how far a body's surface lies below its first at each save, in m."""
+    """Return the depth of a body's surface below its first surface at each save, in m."""
     body = result.body(name)
     return np.asarray(body.wear_depth + body.plastic_depth)
 
@@ -102,7 +102,7 @@ def layer_ends(result: Result, name: str, deepest: float) -> dict[str, float]:
 
 
 def scar_mask(depth: Array) -> Mask:
-    """Return where more than a thousandth of the largest depth is gone."""
+    """Return the cells worn deeper than a thousandth of the largest depth."""
     deepest = float(np.max(depth, initial=0.0))
     return np.asarray(depth > 1e-3 * deepest)
 
@@ -110,7 +110,7 @@ def scar_mask(depth: Array) -> Mask:
 def crown(height: Array, depth: Array) -> float:
     """Height of a worn profile over the chord between the edges of its scar.
 
-    The edges are those of `diameter`. A ball worn flat has crown 0 along its
+    The edges are as in `diameter`. A ball worn flat has crown 0 along its
     sliding direction; across it the crown is the depth of the groove the ball
     runs in.
 
@@ -191,7 +191,7 @@ def _extrapolated(cells: Array) -> float | None:
 
 
 def _root(three: Array) -> float:
-    """Return the distance beyond the first of three values at which their parabola comes to 0.
+    """Return the distance beyond the first of three values at which their parabola reaches 0.
 
     It is 3 at most.
     """

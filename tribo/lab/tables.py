@@ -36,7 +36,7 @@ WHERE = {"scar": "scar", "unworn": "at first", "beside": "beside"}
 
 
 def lab_tables(result: Result, lab: LabReport) -> Iterator[DataTable]:
-    """Yield the saves, and what a lab would measure and infer of the worn bodies."""
+    """Yield the saves, and a lab's measurements and inferred volumes of the worn bodies."""
     yield saves_table(result)
     yield wear_table(result, lab.bodies)
     if rough := rough_bodies(result):
@@ -75,7 +75,7 @@ def _shares_along(result: Result) -> list[float]:
 
 
 def wear_table(result: Result, bodies: Mapping[str, BodyReport]) -> DataTable:
-    """Return what a lab would measure of each body at the end."""
+    """Return a lab's measurements of each body at the end."""
     last = result.saves()[-1]
     tracks = [f"{n} (track)" if body.scar_along_m is None else n for n, body in bodies.items()]
     before = ", what it began with included" if result.case_tables.get("begin") else ""
@@ -96,7 +96,7 @@ def wear_table(result: Result, bodies: Mapping[str, BodyReport]) -> DataTable:
 
 
 def _marks(result: Result, name: str, body: BodyReport) -> dict[str, Value]:
-    """Return what a lab measures of a body; of a groove that is resolved, its length too."""
+    """Return a lab's measurements of a body; with the length of a resolved groove."""
     marks: dict[str, Value] = body._asdict()
     if not body.scar_across_m > 0:
         return marks | dict.fromkeys(("scar_along_m", "scar_across_m", "track_section_m2"))
@@ -107,7 +107,7 @@ def _marks(result: Result, name: str, body: BodyReport) -> dict[str, Value]:
 
 
 def roughness_table(result: Result, bodies: Sequence[str]) -> DataTable:
-    """Set the roughness of rough bodies in their scars against what it was, and beside them."""
+    """Compare the roughness of rough bodies in their scars with the first, and beside the scars."""
     rows = []
     for body in bodies:
         for where, values in worn_roughness(result, result.body(body), -1)._asdict().items():
@@ -120,7 +120,7 @@ def roughness_table(result: Result, bodies: Sequence[str]) -> DataTable:
 
 
 def inferred_table(volumes: Sequence[InferredVolume]) -> DataTable:
-    """Set what a lab would infer from the scars against what was worn."""
+    """Compare the volumes that a lab would infer from the scars with the volumes worn."""
     rows = []
     for each in volumes:
         standard = f" ({each.standard})" if each.standard else ""

@@ -38,11 +38,11 @@ NAMES = {
     "grid.cells": "cells along an edge",
     "kinematics.speed": "sliding speed",
 }
-"""What is said of a path of a case or a column, of a body without its name."""
+"""Labels of paths of a case and of columns, without the name of the body."""
 
 
 def size(unit: str) -> float:
-    """Return how large a unit is in SI."""
+    """Return the size of a unit in SI."""
     return float(scale(unit)[0])
 
 
@@ -104,7 +104,7 @@ def time_labels(times: Array) -> list[str]:
 
 
 def column_label(name: str, values: Array) -> tuple[str, str, float]:
-    """Return what is said of a column, the unit for its values, "" for none, and its size."""
+    """Return the label of a column, the unit for its values, "" for none, and its size."""
     end, si = next((each for each in UNITS if name.endswith(each[0])), ("", "1"))
     path, body = name.removesuffix(end), ""
     if path.startswith("bodies."):

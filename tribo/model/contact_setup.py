@@ -1,4 +1,4 @@
-"""The contact of a case before anything is worn: who solves it, of what, under which loads."""
+"""The unworn contact of a case: solver, bodies and loads."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from tribo.guards.parts import GuardedSolver
 
 @dataclass(frozen=True)
 class ContactSetup:
-    """What each contact of a run has in common.
+    """The constants of every contact of a run.
 
     Parameters
     ----------
     solver : GuardedSolver
-        Who solves it.
+        The contact solver.
     system : ContactSystem
         The two bodies, under the load of the first contact.
     loads : Loads
@@ -30,7 +30,7 @@ class ContactSetup:
     plastic_share : Mapping of float
         Part of the plastic overlap that each body takes, by body.
     hardness : Mapping of tuple of float
-        That of layers and of what lies below, in Pa, by body, where it changes with the depth worn.
+        Hardness of layers and of the body below, in Pa, by body, where it changes with the depth.
     """
 
     solver: GuardedSolver

@@ -24,7 +24,7 @@ class Cycle:
     grid : Grid
         The window.
     positions : tuple of Position
-        Those in which the contact is solved.
+        The positions in which the contact is solved.
     maps : Mapping of Exposure
         How the surface of each body meets the window, by its name.
     """
@@ -60,7 +60,7 @@ class Cycle:
 
     @cached_property
     def offsets(self) -> Array:
-        """Where the body that passes is at each position, from the middle one, in cells.
+        """Place of the moving body at each position, from the middle one, in cells.
 
         Shape (positions, 2): along x and y.
         """
@@ -78,7 +78,7 @@ class Cycle:
 
     @cached_property
     def across(self) -> int:
-        """How far the body that passes goes across, in cells."""
+        """Path of the moving body across, in cells."""
         return int(np.ptp(self.offsets[:, 1]))
 
     @cached_property
@@ -88,7 +88,7 @@ class Cycle:
 
     @cached_property
     def missed_shares(self) -> Array | None:
-        """Shares by which rates at the positions add up to what is estimated to lie between them.
+        """Shares by which rates at the positions add up to the estimated wear between them.
 
         None where the cycle is not resolved, or into every cell.
         """
@@ -98,11 +98,11 @@ class Cycle:
 
     @cached_property
     def fields(self) -> list[dict[str, dict[str, Array]]]:
-        """What the motion provides at each position, by field and body, shape (nx, ny).
+        """The fields of the motion at each position, by field and body, shape (nx, ny).
 
-        It is where each body's own surface lies in the window, in m, and which way the other body
-        slides over it. A body of which every point of a track is the same has x = 0, and is slid
-        over along its track.
+        They are the coordinates on each body's own surface, in m, and the direction in which the
+        other body slides over it. A body averaged along its track has x = 0, and the other body
+        slides over it along the track.
         """
         return [self._fields(position) for position in range(len(self))]
 

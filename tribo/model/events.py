@@ -1,4 +1,4 @@
-"""What happens in a step, told as it happens: what a gradient goes through backwards."""
+"""The events of a step, as they happen; a gradient differentiates them in reverse."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 class Worn:
     """The bodies were worn over an interval, under `contacts`.
 
-    It began with a memory, and was divided as in `plan`. `ahead` tells whether the contacts were
-    those before it, solved without its wear. At rest only what lies between the bodies goes on.
+    It began with a memory, and was divided as in `plan`. `ahead` is whether the contacts were
+    solved before it, without its wear. At rest only interfacial effects evolve.
     """
 
     contacts: Sequence[ContactSolution]
@@ -32,14 +32,14 @@ class Worn:
 
 @dataclass(frozen=True)
 class Solved:
-    """The contacts at the positions of a cycle were solved, and nothing was worn."""
+    """The contacts at the positions of a cycle were solved, without wear."""
 
     contacts: Sequence[ContactSolution]
 
 
 @dataclass(frozen=True)
 class Yielded:
-    """What overlapped at some positions became plastic depth."""
+    """The overlap at some positions became plastic depth."""
 
     places: Sequence[int]
 
@@ -56,4 +56,4 @@ Listener = Callable[[Event], None]
 
 
 def unheard(event: Event) -> None:
-    """Forget an event: what a run does."""
+    """Ignore an event, as a run does."""

@@ -19,9 +19,9 @@ class Laws:
     wear : Mapping of GuardedLaw
         The laws of the bodies that wear, by body.
     effects : tuple of GuardedEffect
-        Those between the bodies.
+        The interfacial effects.
     friction_coefficient : float or None
-        That of the case, if it has one.
+        Coefficient of friction of the case, if it has one.
     """
 
     wear: Mapping[str, GuardedLaw]
@@ -35,7 +35,7 @@ class Laws:
 
     @cached_property
     def filling(self) -> tuple[tuple[str | None, str], ...]:
-        """Keys of states that fill the gap, with the body whose law has each; None of effects."""
+        """Keys of states that fill the gap, with the body whose law has each; None for effects."""
         of_laws = [(name, f.name, f) for name, law in self.wear.items() for f in law.state_fields]
         of_effects = [(None, key, field) for key, (_, field) in self.between.items()]
         return tuple((body, key) for body, key, f in (*of_laws, *of_effects) if f.fills)
@@ -47,7 +47,7 @@ class Laws:
         return frozenset((*of_laws, *(n for effect in self.effects for n in effect.requires)))
 
     def kept_on(self, body: str | None) -> tuple[Field, ...]:
-        """Return the state fields on a body's surface; None for those of the contact as a whole."""
+        """Return the state fields on a body's surface, or of the contact as a whole for None."""
         law = self.wear.get(body) if body is not None else None
         carried = (f for effect, f in self.between.values() if effect.body_of(f) == body)
         own = (f for f in (law.state_fields if law else ()) if f.name != WORN_DEPTH.name)
@@ -60,7 +60,7 @@ class Laws:
 
     @cached_property
     def slips_locally(self) -> bool:
-        """Whether an effect provides how far each point slips."""
+        """Whether an effect provides the slip of each point."""
         return LOCAL_SLIP.name in self._provided
 
     @cached_property
@@ -74,7 +74,7 @@ class Laws:
 
     @cached_property
     def friction_remembers(self) -> bool:
-        """Whether the coefficient of friction follows what laws or effects remember."""
+        """Whether the coefficient of friction depends on states of laws or effects."""
         following = {field.name for law in self.wear.values() for field in law.state_fields}
         following.update(field.name for _, field in self.between.values())
         # In the order in which they are asked.

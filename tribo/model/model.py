@@ -1,4 +1,4 @@
-"""What a run needs of a case, derived from it once."""
+"""The data of a run, derived from its case once."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ from tribo.model.laws import Laws
 
 @dataclass(frozen=True)
 class Model:
-    """A case, and what a run derives from it once; made by `assemble`.
+    """A case, and the data that a run derives from it once; made by `assemble`.
 
-    The parts of the case are guarded: what goes wrong in one names it, and what it answers is
-    checked. `chosen` says which positions were taken where the case left them open. `tell` hears
-    what happens in each step, rejected ones too.
+    The parts of the case are guarded: errors name the part, and its answers are checked. `chosen`
+    states the positions chosen where the case left them open. `tell` receives the events of each
+    step, rejected ones too.
     """
 
     case: Case
@@ -58,7 +58,7 @@ class Model:
         return tuple(name for name in self.case.bodies if name in self.cycle.swept & alter)
 
     def loads(self, state: State) -> Loads:
-        """Return the normal loads as they are at a state, and over the step from there."""
+        """Return the normal loads at a state, and over the step from there."""
         loads, by = self.contact.loads, state.load_factor
         return loads if by == 1 else replace(loads, shares=tuple(by * s for s in loads.shares))
 
@@ -68,9 +68,10 @@ class Model:
         return self.case.contact.couples and self.cycle.shares_points
 
     def leaves_window(self, contact: ContactSolution) -> bool:
-        """Whether a contact reaches the border of a window that goes on, or has no room across.
+        """Whether a contact reaches the border of a window, or has no room across.
 
-        The path across has to fit in beside it, as columns of a body are counted round.
+        A window at which a body ends has no such border. The path across must fit next to the
+        contact, as columns of a body are counted round.
         """
         columns = contact.extent[1]
         if self.case.contact.periodic:
@@ -90,7 +91,7 @@ class Model:
         return replace(self, laws=replace(self.laws, wear=wear))
 
     def height(self, name: str) -> Array:
-        """Return what lies in the window of a body's initial height, in the middle of the cycle."""
+        """Return a body's initial height in the window, in the middle of the cycle."""
         return self.cycle.maps[name].see(self.surfaces[name].height, self.cycle.middle)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""What the average over a stroke costs, as a contact moved along the stroke shows it."""
+"""The error of the average over a stroke, relative to a contact moved along the stroke."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def groove_excess(
     volume_ratio: float = 1.0,
     line: bool = False,
 ) -> float:
-    """Return by how much of its depth the stroke average makes a groove too deep at mid-stroke.
+    """Return the relative error of a groove's depth at mid-stroke by the stroke average.
 
     Where the stroke is shorter than the contact, the average spreads all of the wear over the
     stroke, but only a part of the contact, by Hertz's pressure, passes over mid-stroke. Once the
@@ -21,33 +21,33 @@ def groove_excess(
     a fit to runs of a moving contact with strokes of 4 to 20 half-widths and grooves of 0.4 to 10
     times the approach. A groove that is straight across costs exponentially less with the stroke.
 
-    Within a point of the runs where both bodies wear alike, within two where the ball wears ten
-    times faster, half to one and a half times where the flat does; an estimate below 4 half-widths,
-    too much for flat pins, and 0.8 to 3 times what cylinders show.
+    Within a percentage point of the runs where both bodies wear alike, within two where the ball
+    wears ten times faster, and 0.5 to 1.5 times the runs where the flat does; an estimate below 4
+    half-widths, too large for flat pins, and 0.8 to 3 times the error for cylinders.
 
     Parameters
     ----------
     stroke : float
         Stroke S, in m.
     half_width : float
-        Half-width of the contact along the stroke, as the average gives it, in m.
+        Half-width of the contact along the stroke, by the average, in m.
     depth : float
-        Depth of the groove, as the average gives it, in m; may be infinite.
+        Depth of the groove, by the average, in m; may be infinite.
     approach : float
         Elastic approach of the first contact, in m.
     volume_ratio : float, optional
-        Volume lost by the body that stays over that lost by the track.
+        Volume lost by the stationary body over the volume lost by the track.
     line : bool, optional
-        Whether the contact goes all across the window, as that of a cylinder on a flat.
+        Whether the contact spans the window, as for a cylinder on a flat.
 
     Returns
     -------
     float
-        Depth by the average over that of the moving contact, less 1.
+        Depth by the average over the depth by the moving contact, less 1.
 
     References
     ----------
-    The runs: ``benchmarks/moving_contact.py``; of cylinders ``tests/motion/test_averaging.py``.
+    The runs: ``benchmarks/moving_contact.py``; cylinders: ``tests/motion/test_averaging.py``.
     """
     excess = 0.0
     if depth > 0:
@@ -63,5 +63,5 @@ def groove_excess(
 
 
 def too_deep(excess: float) -> str:
-    """Say by how much a groove is too deep; an estimate beyond 100 % deserves no digits."""
+    """Word the error of a groove's depth; an estimate beyond 100 % deserves no digits."""
     return f"about {100 * excess:.2g} % too deep" if excess < 1 else "more than twice too deep"

@@ -44,7 +44,7 @@ def check_axis(radius: float, grid: Grid) -> None:
 
 
 class Steady(Kinematics):
-    """Sliding round a closed path, at one speed or in stages; one body passes."""
+    """Sliding round a closed path, at one speed or in stages, with one moving body."""
 
     speed: Annotated[
         Annotated[
@@ -58,11 +58,11 @@ class Steady(Kinematics):
     """Sliding speed, or how often it goes round, as ``"60 rpm"``: a number, or a list of stages,
     each a table with `until` and `speed`, 0 for a rest."""
     duration: Annotated[float, Quantity("s", above=0)] | None = None
-    """How long it runs."""
+    """Duration of the motion."""
     revolutions: Annotated[float, Quantity("1", above=0, also=("lap",))] | None = None
-    """How many times it goes round."""
+    """Number of revolutions."""
     distance: Annotated[float | str, Quantity("m", above=0, also=("lap",))] | None = None
-    """How far it slides."""
+    """Sliding distance."""
     swept: str | None = None
     """Name of the body whose points pass through the contact; the last body if left out."""
 
@@ -145,18 +145,17 @@ class ClosedTrack(Steady):
 
 
 NEAR_AXIS = 0.1
-"""Half-width of a contact over the track's radius, from which on its curvature is spoken of."""
+"""Half-width of a contact over the track's radius, above which a run warns of its curvature."""
 
 
 class Unidirectional(ClosedTrack):
     """Speed v round a track of length ℓ; one body swept over the track.
 
     The curvature of the track inside the contact is neglected: valid for
-    contacts small beside the track radius. A run says so from a tenth of it on.
+    contacts small beside the track radius. A run warns above a tenth of it.
 
-    Of two bodies that repeat with the window, as nominally flat rough ones do, and so touch all
-    over, the path may be resolved into `positions`: those over the window's length stand for all of
-    it, however long the track is.
+    For two bodies that repeat with the window, such as nominally flat rough ones, the path may be
+    resolved into `positions`: positions over the window's length represent the whole track.
     """
 
     examples = ({"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"},)
@@ -193,7 +192,7 @@ class Unidirectional(ClosedTrack):
         return 2 * math.pi * self.track_radius
 
     def cycle(self, grid: Grid) -> Sequence[Position]:
-        """Return the one position of the average, or those over the window's length."""
+        """Return the one position of the average, or the positions over the window's length."""
         if self.positions == "average":
             return super().cycle(grid)
         return [Position(float(share)) for share in self._stroke(grid).shares]
@@ -245,11 +244,10 @@ class Unidirectional(ClosedTrack):
 class Rotating(ClosedTrack):
     """Speed v round a circle of radius R; one body swept over the track.
 
-    Speed and sliding distance are those in the middle of the window. A point at (x, y) is at the
-    radius ρ = √(x² + (R + y)²) and slides by ρ/R of that distance at as much of that speed. The
-    swept body passes along rows, each a track of length 2π(R + y): its volume is exact, but its
-    groove lies on straight lines in place of arcs, which are x²/2R apart. Valid for contacts short
-    beside R.
+    Speed and sliding distance refer to the middle of the window. A point at (x, y) is at the radius
+    ρ = √(x² + (R + y)²); its distance and speed are ρ/R times as large. The swept body moves along
+    rows, each a track of length 2π(R + y): its volume is exact, but its groove lies on straight
+    lines in place of arcs, which are x²/2R apart. Valid for contacts short beside R.
     """
 
     examples = ({"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"},)

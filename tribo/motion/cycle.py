@@ -1,4 +1,4 @@
-"""The positions that stand for one cycle of a motion."""
+"""The positions that represent one cycle of a motion."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ class Position:
         Part of the path of a cycle that is spent here; the shares of a cycle add up to 1.
     speeds : Speeds or None, optional
         Sliding speeds here, in m/s, each with its share of the path spent here. None: laws and
-        effects are asked at the mean speed over each step.
+        effects are evaluated at the mean speed over each step.
     reach : ndarray, shape (nx, ny), or None, optional
-        Sliding distance and speed of each point of the contact here, relative to those of the
-        motion. None: all slide by those of the motion.
+        Sliding distance and speed of each point of the contact here, relative to the motion's.
+        None: all points slide as the motion does.
     rest : float, optional
-        Time at rest here, in s, for each metre of the path spent here; beside `speeds`.
+        Time at rest here, in s, for each metre of the path spent here; in addition to `speeds`.
     heading : pair of float or of ndarray, shape (nx, ny), optional
-        Which way the body that passes moves here: the x and y of a vector of length 1. Where it
-        moves both ways, as on a stroke, one of them.
+        Direction of the moving body here: the x and y of a vector of length 1. Where it moves both
+        ways, as on a stroke, one of them.
     """
 
     share: float = 1.0
@@ -42,11 +42,11 @@ class Position:
 
 
 def missed_shares(nodes: Array, shares: Array) -> Array:
-    """Return the shares by which values at positions add up to what lies between them unseen.
+    """Return the shares by which values at positions add up to the error of their quadrature.
 
-    The sum is compared with that over every second position, by Richardson's extrapolation: of what
-    varies smoothly, straight lines over the two gaps h and h' beside a position miss (h³ + h'³) /
-    (3 h h' (h + h')) of what they add to one line over both, a third where the gaps are alike.
+    The sum is compared with the sum over every second position, by Richardson's extrapolation: for
+    smooth values, straight lines over the two gaps h and h' beside a position miss (h³ + h'³) /
+    (3 h h' (h + h')) of their difference from one line over both, a third for equal gaps.
     Positions lie at `nodes` along the path, with `shares` of it.
     """
     order = np.argsort(nodes, kind="stable")

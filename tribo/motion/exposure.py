@@ -1,4 +1,4 @@
-"""How a body's points meet the contact: staying in it, or passing through; the track average."""
+"""How a body's points meet the contact: stationary, or moving through it; the track average."""
 
 from __future__ import annotations
 
@@ -25,25 +25,25 @@ class Exposure(ABC):
     """Whether the body's points pass through the contact."""
 
     shape_stays: bool = True
-    """Whether the body's initial shape stands still in the contact frame. It does not where a body
-    passes as a whole, so that its surface must not vary along x; it does for a body that stays, and
-    for one that turns about an axis across the sliding direction."""
+    """Whether the body's initial shape stands still in the contact frame: for a stationary body,
+    and for a body that turns about an axis across the sliding direction. The surface of a body
+    whose shape moves must not vary along x."""
 
     starts: Sequence[int] | None = None
     """The row of the body's own surface at which the window begins, at each position of the cycle;
-    None where the body has no rows but those of the window, or one for all. In a window that
-    repeats, rows are counted round."""
+    None where the body has only the rows of the window, or one for all. In a window that repeats,
+    rows are counted round."""
 
     across: Sequence[int] | None = None
-    """The column at which the window begins, as `starts` has the row; None where that is the first.
-    A body has the columns of the window, which are counted round."""
+    """The column at which the window begins, as `starts` for rows; None if it is the first. A body
+    has the columns of the window, which are counted round."""
 
     rows: int
-    """Cells along x on the body's own surface; 1 where every point of a track sees the same."""
+    """Cells along x on the body's own surface; 1 where all points of a track wear alike."""
 
     @property
     def averaged(self) -> bool:
-        """Whether its points pass and are all taken as one, which has no place along x."""
+        """Whether its points are averaged along a track and have no place along x."""
         return self.swept and self.starts is None
 
     def first_cell(self, position: int) -> Cell:
@@ -52,7 +52,7 @@ class Exposure(ABC):
         return row, 0 if self.across is None else self.across[position]
 
     def track(self, window: Grid) -> float:
-        """Return the mean length of the track that its points pass along, in m; 0 if they stay."""
+        """Return the mean length of the track of its points, in m; 0 if they are stationary."""
         if not self.swept:
             return 0.0
         if self.starts is not None:
@@ -68,23 +68,23 @@ class Exposure(ABC):
         return Grid(size=size, cells=(self.rows, window.cells[1]))
 
     def see(self, field: Array, position: int) -> Array:
-        """Return what lies in the window of a field on the body's own surface, at a position.
+        """Return the part in the window of a field on the body's own surface, at a position.
 
-        Shape (nx, ny), or (1, ny) of a field that is the same all along a track.
+        Shape (nx, ny), or (1, ny) for a field that is uniform along a track.
         """
         return field
 
     def lay(self, field: Array, position: int) -> Array:
-        """Return a field of the window where it lies on the body's own surface, at a position.
+        """Return a field of the window on the body's own surface, at a position.
 
-        Fields of a track that is the same all along stay in the window.
+        Fields of an averaged track stay in the window.
         """
         return field
 
     def gather(
         self, rate: Array, position: int, part: float = 1.0, total: Array | None = None
     ) -> Array:
-        """Return what a part of the path, at a rate in the window, adds up to on the surface.
+        """Return the sum on the surface of a rate in the window over a part of the path.
 
         With a `total`, on the surface, it is added to that: in place if the body has rows of its
         own.
@@ -94,17 +94,17 @@ class Exposure(ABC):
 
     @abstractmethod
     def average(self, rate: Array) -> Array:
-        """Return the rate each point of the body sees per metre of sliding, on its surface.
+        """Return the mean rate at each point of the body per metre of sliding, on its surface.
 
-        It is the mean over a whole motion of a rate in the contact frame, shape (nx, ny). Where
-        `starts` are given: `rate` itself, which is laid on the body at each position of the cycle.
+        It is the mean over a whole motion of a rate in the contact frame, shape (nx, ny). With
+        `starts` it is `rate` itself, which `gather` maps to the body at each position of the cycle.
         """
 
     @abstractmethod
     def envelope(self, field: Array) -> Array:
         """Return the largest value of a field that each point of the body meets, on its surface.
 
-        The field lies there; where every point of a track sees the same, in the contact frame.
+        The field lies there; for an averaged track, in the contact frame.
         """
 
     @abstractmethod
@@ -168,7 +168,7 @@ class Track(Exposure):
     grid : Grid
         The window.
     length : float or ndarray, shape (ny,)
-        Track length ℓ, in m: the stroke, or the circumference, that of each row where they differ.
+        Track length ℓ, in m: the stroke, or the circumference, of each row where they differ.
     shape_stays : bool, optional
         Whether the body turns, so that its shape stands still while its
         points pass: the disks of a twin-disk tester.
@@ -210,13 +210,13 @@ class Track(Exposure):
 class Passing(Stationary):
     """Points pass through the contact, which is solved at positions along their path.
 
-    The body has rows of its own, those of the window at every position. Its wear is r(x) =
-    Σₘ ωₘ Tₘᵀ r(pₘ), with ωₘ the share of the path at position m and Tₘᵀ laying the window on the
-    body where it is then. With all pₘ alike it is the average of `Track` at mid-stroke. On its own
-    rows its points stay, so that averages, envelopes and volumes are those of `Stationary`.
+    The body has rows of its own, which include the window at every position. Its wear is r(x) =
+    Σₘ ωₘ Tₘᵀ r(pₘ), with ωₘ the share of the path at position m and Tₘᵀ mapping the window to the
+    body's place there. With all pₘ equal it is the average of `Track` at mid-stroke. On its own
+    rows its points stay, so that averages, envelopes and volumes are as in `Stationary`.
 
-    In a window that repeats, the body repeats with it: it has the rows of the window, and one that
-    leaves the window comes in again at the other end. So do columns of a body that moves across.
+    In a window that repeats, the body repeats with it: it has the rows of the window, and a row
+    that leaves the window enters again at the other end. So do columns of a body that moves across.
 
     Parameters
     ----------
@@ -273,7 +273,7 @@ class Passing(Stationary):
         return total
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:
-        """Return that of the average, which takes all positions to change alike.
+        """Return the compliance of the average, which takes all positions to change alike.
 
         In the middle of a contact longer than the path, a point meets pressure all along it.
         """

@@ -16,14 +16,14 @@ from tribo.core.rounding import ROUND_OFF
 
 @dataclass(frozen=True)
 class Held:
-    """What goes on at one rate after the other.
+    """A rate that is constant in stages, one after the other.
 
     Parameters
     ----------
     rates : tuple of float
         Per second, 0 for a rest.
     ends : tuple of float, optional
-        Until when each is held, in s; one rate is held for ever.
+        Time at which each ends, in s; a single rate never ends.
     """
 
     rates: tuple[float, ...]
@@ -31,19 +31,19 @@ class Held:
 
     @cached_property
     def _begun(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """When each begins, in s, and how far it has come by then."""
+        """Beginning of each stage, in s, and the amount by then."""
         starts = (0.0, *self.ends[:-1])
         lasted = (end - start for start, end in pairwise(starts))
         return starts, (0.0, *accumulate(r * t for r, t in zip(self.rates, lasted, strict=False)))
 
     def by(self, time: float) -> float:
-        """Return how far it has come by a time, in s."""
+        """Return the amount by a time, in s."""
         starts, amounts = self._begun
         now = max(0, bisect_right(starts, time) - 1)
         return amounts[now] + self.rates[now] * (min(time, self.ends[-1]) - starts[now])
 
     def reached(self, amount: float) -> float:
-        """Return the first time by which it has come so far, in s."""
+        """Return the first time at which an amount is reached, in s."""
         starts, amounts = self._begun
         if amount <= 0:
             return 0.0
@@ -54,9 +54,9 @@ class Held:
         return min(starts[now] + (amount - amounts[now]) / self.rates[now], self.ends[-1])
 
     def end(self, what: str, unit: str, time: float | None, amount: float | None) -> float:
-        """Return when it ends that lasts a time (s) or, without one, until it has come so far.
+        """Return the end of a motion that lasts a time (s) or, without one, up to an amount.
 
-        `CaseError` if the last rate, called `what`, ends before; `unit` is that of the amount.
+        `CaseError` if the last rate, called `what`, ends before; the amount has the `unit`.
         """
         last, most = self.ends[-1], self.by(self.ends[-1])
         if time is None:
@@ -75,7 +75,7 @@ class Held:
 
 @lru_cache(maxsize=32)
 def held(what: str, given: float | tuple[Any, ...]) -> Held:
-    """Return what a case gives: a number, or stages with `until` and a rate by the name `what`.
+    """Return the rate given by a case: a number, or stages with `until` and a rate called `what`.
 
     ValueError if the times do not increase, or all are rests.
     """
@@ -84,5 +84,5 @@ def held(what: str, given: float | tuple[Any, ...]) -> Held:
     ends, rates = [stage.until for stage in given], [getattr(stage, what) for stage in given]
     check_times(ends, what)
     if not any(rates):
-        raise ValueError("every stage is a rest; give one that slides")
+        raise ValueError("every stage is a rest; give a stage with sliding")
     return Held(tuple(rates), tuple(ends))

@@ -1,4 +1,4 @@
-"""The interface of motions: how far it has slid at a time, and which points see the contact."""
+"""The interface of motions: sliding distance over time, and the points that meet the contact."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Kinematics(Component):
     def track_extent(self) -> float:
         """Length of the track, in m: the stroke, or once round.
 
-        Infinite, unless overridden: points that pass do not come back.
+        Infinite, unless overridden: moving points do not return.
         """
         return math.inf
 
@@ -80,23 +80,23 @@ class Kinematics(Component):
         return ()
 
     def effects(self) -> Sequence[Effect]:
-        """Return effects that the motion brings along, before those of the case.
+        """Return effects of the motion, which precede the effects of the case.
 
-        So its numbers stand once in a case: the slip of a fretting contact follows the amplitude.
+        So its numbers are given once in a case: the slip of a fretting contact uses the amplitude.
         """
         return ()
 
     def speeds(self) -> Sequence[tuple[float, float]] | None:
         """Return the sliding speeds of a cycle, each with its share of the distance.
 
-        Effects and wear laws are asked at each of these speeds, and their rates
-        averaged over the distance, however long a step is.
+        Effects and wear laws are evaluated at each of these speeds, and their rates
+        averaged over the distance, whatever the length of a step.
 
         Returns
         -------
         sequence of (float, float) or None
             Speeds in m/s, and shares that add up to 1. None, unless overridden:
-            then they are asked at the mean speed over each step.
+            then they are evaluated at the mean speed over each step.
         """
         return None
 
@@ -104,7 +104,7 @@ class Kinematics(Component):
         """Return the positions of a cycle in which the contact is solved.
 
         One, unless overridden, with the `speeds` of the motion: the average over the cycle is left
-        to the exposures. The middle one is that which a result shows.
+        to the exposures. A result shows the middle one.
 
         Parameters
         ----------
@@ -114,9 +114,9 @@ class Kinematics(Component):
         return [Position(speeds=self.speeds())]
 
     def coarsened(self, half_width_x: float) -> Kinematics:
-        """Return the motion to estimate with: few positions, or an average in place of them.
+        """Return the motion for an estimate: few positions, or an average in place of them.
 
-        Itself, unless overridden. `half_width_x` is that of the first contact, in m.
+        Itself, unless overridden. `half_width_x` is the half-width of the first contact, in m.
         """
         return self
 
@@ -144,9 +144,9 @@ class Kinematics(Component):
         approach : float
             Elastic approach of the first contact, in m.
         volume_ratio : float
-            Volume lost by the bodies that stay over that lost by the swept ones.
+            Volume lost by the stationary bodies over the volume lost by the swept ones.
         line : bool
-            Whether the contact goes all across the window, as that of a cylinder on a flat.
+            Whether the contact spans the window, as for a cylinder on a flat.
         """
         return None
 

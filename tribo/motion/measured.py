@@ -1,4 +1,4 @@
-"""Back and forth as it was measured: positions over time, from a file or from Python."""
+"""Measured motion back and forth: positions over time, from a file or from Python."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ Sample = tuple[Annotated[float, Quantity("s")], Annotated[float, Quantity("m")]]
 
 
 class Measured(Kinematics):
-    """A measured path: where the swept body is along x, over time, with rests and reversals.
+    """A measured path: position of the swept body along x, over time, with rests and reversals.
 
     Between two samples it moves at constant speed. The sliding distance is the total variation of
     the position: noise of the sensor counts as sliding, so smooth it before. The cycle is resolved
-    into positions, each with the share of the whole path that is slid near it, the mean speed
-    of that and the time at rest; in which order they come is not kept.
+    into positions, each with the share of the whole path near it, the mean speed there and the
+    time at rest; their order is not kept.
     """
 
     examples = ({"path": [[0, 0], [1, 1e-3], [2, 1e-3], [4, 0]], "cycles": 100},)
@@ -44,12 +44,12 @@ class Measured(Kinematics):
     """Pairs of time and position, or the name of a CSV or .npy file with these two columns, in s
     and m; a relative name starts at the current directory."""
     duration: Annotated[float, Quantity("s", above=0)] | None = None
-    """How long it runs, the path repeated; once through the path if left out."""
+    """Duration, with the path repeated; once through the path if left out."""
     cycles: Annotated[float, Quantity("1", above=0, also=("lap",))] | None = None
-    """How many times it runs through the path."""
+    """Number of repetitions of the path."""
     positions: Annotated[int, Field(ge=3)] | Literal["cells"] = 33
-    """In how many positions the contact is solved, an odd number, or ``"cells"`` for every cell
-    along the path."""
+    """Number of positions in which the contact is solved, odd, or ``"cells"`` for every cell along
+    the path."""
     swept: str | None = None
     """Name of the body whose points pass through the contact; the last body if left out."""
 

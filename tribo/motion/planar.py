@@ -1,4 +1,4 @@
-"""Round a closed path in the plane, as on a tester whose pin is led along x and y."""
+"""Motion round a closed path in the plane, as on a tester whose pin is led along x and y."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ class Planar(Steady):
 
     The path is a circle, a square or an eight, each stretched to its extents along x and y, or the
     points of a file. It is divided into stretches of like length, a path of few points side by
-    side; the contact is solved in the middle of each. What a body loses is laid where it is then.
-    A point of either body meets the other at each of these places, sliding the way that the path
-    goes there (the fields `heading_x` and `heading_y`).
+    side; the contact is solved in the middle of each, and the bodies wear at their place there.
+    The sliding direction is the direction of the path there (the fields `heading_x` and
+    `heading_y`).
 
-    A body has the columns of the window, which are counted round: the window is as broad as the
-    contact and the path together, or broader. Valid for gross sliding without spin.
+    A body has the columns of the window, which are counted round: the window must be at least as
+    broad as the contact and the path together. Valid for gross sliding without spin.
     """
 
     examples = (
@@ -54,9 +54,9 @@ class Planar(Steady):
         tuple[Annotated[float, Quantity("m", above=0)], Annotated[float, Quantity("m", above=0)]]
         | None
     ) = None
-    """How far a path from a formula goes along x and along y: of a circle, its diameter twice."""
+    """Extents of a path from a formula along x and along y; for a circle, its diameter twice."""
     positions: Annotated[int, Field(ge=8)] | Literal["cells"] = 48
-    """In how many positions the contact is solved, at least; ``"cells"`` is one for each cell's
+    """Least number of positions in which the contact is solved; ``"cells"`` is one for each cell's
     length of the path."""
 
     @field_validator("path", mode="before")
@@ -71,7 +71,7 @@ class Planar(Steady):
         if isinstance(self.path, str) != (self.extent is not None):
             raise ValueError("give extent with a path from a formula, and with no other")
         if self.extent is None and not self.track_extent > 0:
-            raise ValueError("the path never leaves its first point; give one that slides")
+            raise ValueError("the path never leaves its first point; give more than one point")
         return self
 
     def _place(self, mark: Array) -> Array:
@@ -108,7 +108,7 @@ class Planar(Steady):
         return float(self._slid[-1])
 
     def cycle(self, grid: Grid) -> Sequence[Position]:
-        """Return a position for each stretch, with the way that the path goes there."""
+        """Return a position for each stretch, with the direction of the path there."""
         ends = self._ends(grid)
         chords, middles = np.diff(self._at(ends), axis=0), self._middles(ends)
         # A path that turns back within a stretch leaves no chord.
@@ -141,7 +141,7 @@ class Planar(Steady):
         check_spacing(self.track_extent, self.positions, half_width_x)
 
     def _at(self, slid: Array) -> Array:
-        """Return where the path is, once it has slid so far (m), shape (…, 2), in m."""
+        """Return the point of the path at a sliding distance (m), shape (…, 2), in m."""
         return self._place(np.interp(slid, self._slid, self._marks))
 
     def _middles(self, ends: Array) -> Array:

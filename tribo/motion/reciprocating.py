@@ -68,11 +68,11 @@ class Reciprocating(Kinematics):
     """Full cycles, back and forth, per second: a number or, at a constant speed along the stroke, a
     list of stages, each a table with `until` and `frequency`, 0 for a rest."""
     duration: Annotated[float, Quantity("s", above=0)] | None = None
-    """How long it runs."""
+    """Duration of the motion."""
     cycles: Annotated[float, Quantity("1", above=0, also=("lap",))] | None = None
     """How many full cycles it runs."""
     distance: Annotated[float | str, Quantity("m", above=0, also=("lap",))] | None = None
-    """How far it slides."""
+    """Sliding distance."""
     waveform: Literal["constant_speed", "sinusoidal"] = "constant_speed"
     """How the speed varies along the stroke."""
     positions: Annotated[int, Field(ge=3)] | Literal["cells", "average", "auto"] = "auto"

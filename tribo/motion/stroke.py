@@ -23,9 +23,9 @@ WHOLE = 1e-6
 class Stroke:
     """Positions along a stroke, at whole cells and alike to both sides of its middle.
 
-    Integrals over the stroke are those of straight lines between the positions: exact to second
-    order in their spacing, and in all for a path that is spent evenly. A stroke as long as the
-    period of what repeats, or longer, has its positions over one period, which the path goes round.
+    Integrals over the stroke use straight lines between the positions: exact to second order in
+    their spacing, and exact in total for an evenly spent path. A stroke at least as long as the
+    period of the contact has its positions over one period, which the path goes round.
 
     Parameters
     ----------
@@ -204,12 +204,12 @@ def spacing_for(pressure: Array, error: float, *, repeats: bool = False) -> int:
 
 
 def near(nodes: Array, path: Array, weights: Array | float = 1.0) -> Array:
-    """Return the length of a path that falls to each node, shape (nodes,).
+    """Return the length of a path that belongs to each node, shape (nodes,).
 
-    A node's part falls in a straight line from the node to the next ones, so that the sum of what a
-    field is at the nodes, times these lengths, is the integral along the path of straight lines
-    between them. The nodes increase, and the path goes between the first and the last of them, in
-    m; `weights` are those of the parts of the path between two samples.
+    The weight of a node falls linearly from the node to its neighbours, so that the sum of a field
+    at the nodes, times these lengths, is the integral along the path of straight lines between
+    them. The nodes increase, and the path lies between the first and the last of them, in m;
+    `weights` are the weights of the parts of the path between two samples.
     """
     lengths = np.zeros_like(nodes)
     low, high = np.minimum(path[:-1], path[1:]), np.maximum(path[:-1], path[1:])

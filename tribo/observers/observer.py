@@ -7,10 +7,10 @@ from tribo.core.state import RunInfo, Snapshot
 
 
 class Observer(Component):
-    """Watches a run through read-only views; it has no say in the answer.
+    """Watches a run through read-only views, without influence on the answer.
 
-    An exception that an observer raises stops the run; one raised in `on_finish`
-    is only warned of where the run did not come to its end.
+    An exception that an observer raises stops the run; in `on_finish` it is
+    only a warning where the run did not finish.
     """
 
     def on_start(self, run: RunInfo) -> None:

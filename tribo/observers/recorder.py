@@ -70,13 +70,13 @@ class Recorder(Observer):
         """Return the last good state of the stopped run of a case, and the time spent, in s.
 
         Where the newest checkpoint is damaged, it is the state of the one before; a warning says
-        so, and the run goes on as if the newest had not been written. `CaseError` if another
+        so, and the run continues as if the newest had not been written. `CaseError` if another
         process is writing the file, or no good checkpoint is of this case.
         """
         folder = self._folder
         assert folder is not None
         if folder.path.is_dir():
-            # What a run that goes on has saved changes as it is read.
+            # The saved data of a run in progress change as they are read.
             folder.lock()
         try:
             kept, damage = folder.read_checkpoint(case)
@@ -164,7 +164,7 @@ class Recorder(Observer):
         return self.path if self._begun else None
 
     def result(self) -> Result:
-        """Return what was recorded, for reading."""
+        """Return the recorded result, for reading."""
         folder = self._folder
         return Result(self._image, "the result") if folder is None else Result.open(folder.result)
 
@@ -235,7 +235,7 @@ class Recorder(Observer):
 
 
 def _gone_on_with(stopped: Result, run: RunInfo) -> dict[str, Any]:
-    """Return the provenance of a stopped run, with what it goes on with."""
+    """Return the provenance of a stopped run, with the provenance of its continuation."""
     provided = {field.name for field in run.effect_fields} | {c.name for c in run.columns}
     kept = {f.name for kind in (EFFECT, *SAVED) for f in stopped.fields_of(kind).values()}
     if kept != provided:

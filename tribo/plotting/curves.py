@@ -1,4 +1,4 @@
-"""Curves of what a person asks for: columns of a history, runs of a sweep, a fit and its data."""
+"""Curves on request: columns of a history, runs of a sweep, a fit and its data."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def sweep_curves(
     """Draw a measure `y` of a sweep's runs over what varies, a panel for each column in `x`.
 
     `runs` has a row for each run, as ``runs.csv``; columns `by` part the runs into curves, one for
-    each combination of their values, and a line joins those of a curve if they are `joined`.
+    each combination of their values, and a line joins the runs of a curve if they are `joined`.
 
     Raises
     ------

@@ -56,7 +56,7 @@ def _fields(result: Result) -> list[str]:
 
 @dataclass(frozen=True)
 class PictureKind:
-    """A kind of picture: how it is drawn, its file, and what there is one of, if not the result."""
+    """A kind of picture: its drawing function, its file, and its subjects, if not the result."""
 
     draw: Callable[..., Picture]
     file: str
@@ -65,7 +65,7 @@ class PictureKind:
     there: Callable[[Result], object] = lambda result: True
 
     def each(self, result: Result) -> list[tuple[str, ...]]:
-        """Return what a result has this picture of, () for the result; none if it has none."""
+        """Return the subjects of this picture in a result, () for the result; else none."""
         if self.of is not None:
             return [(name,) for name in self.of(result)]
         return [()] if self.there(result) else []
@@ -138,7 +138,7 @@ class Plot:
 
 
 def unknown(what: str, name: str, there: Sequence[str]) -> str:
-    """Return that there is none of a name, and which there are."""
+    """Return a message that a name is unknown, with the known names."""
     meant = suggestion(did_you_mean(name, there))
     return f"there is no {what} {name!r}{meant} There are {', '.join(there) or 'none'}"
 

@@ -72,7 +72,7 @@ def _grids(results: Results) -> str:
 
 
 def _field(result: Result, time: float, name: str) -> tuple[Grid, Array, Mask]:
-    """Return how far a body's surface lies below its first, or for "" the pressure."""
+    """Return the depth of a body's surface below its first, or for "" the pressure."""
     save = result.save_at(time)
     field = removed(result, name)[save] if name else result.field("pressure", save)
     return result.grid, field, scar_mask(field)
@@ -85,11 +85,11 @@ def _surface(result: Result, time: float, name: str) -> tuple[Grid, Array, Mask]
 
 
 def difference_map(results: Results, label: str, time: float) -> Figure:
-    """Draw how far a result is from the first: pressure, and depth of bodies that stay.
+    """Draw the difference of a result from the first: pressure, and depth of stationary bodies.
 
-    `results` are by label; `label` is the one to draw, `time` that of a save of both, in s. What
-    varies along one axis only is left out: `comparison_picture` shows it. CaseError if the two have
-    different grids, or `NothingToDraw` if they differ along one axis at most.
+    `results` are by label; `label` is the result to draw, `time` a saved time of both, in s. Fields
+    that vary along one axis only are left out: `comparison_picture` shows them. CaseError if the
+    two have different grids, or `NothingToDraw` if they differ along one axis at most.
     """
     return _difference(results, label, time).figure()
 

@@ -19,7 +19,7 @@ Panel = Callable[[Axes], Sequence[Artist]]
 
 
 class NothingToDraw(CaseError):
-    """What was to be drawn is uniform; the message is the sentence that says all of it."""
+    """The field to draw is uniform; the message is a sentence that replaces the picture."""
 
 
 @dataclass(frozen=True)

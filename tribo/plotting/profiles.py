@@ -44,7 +44,7 @@ BESIDE: Look = {"color": "#b05a00", "linewidth": 1.2, "linestyle": (0.0, (1.2, 1
 
 
 def scar_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
-    """Draw from above how much of a body is gone at a save: worn off and displaced.
+    """Draw from above the depth of a body at a save: worn off and displaced.
 
     For a body that passes through a resolved cycle it is the groove along the whole track. What
     varies along one axis only is drawn as its profile.
@@ -86,7 +86,7 @@ def body_profiles(
 
 
 def _gone(result: Result, name: str, saves: Sequence[int]) -> tuple[Grid, list[Array]]:
-    """Return how much of a body is gone at saves, along the whole track where it is known."""
+    """Return the depth of a body at saves, along the whole track where it is known."""
     grid = result.grid
     if not (result.body(name).swept and result.has("track_depth")):
         return grid, list(removed(result, name)[list(saves)])
@@ -190,7 +190,7 @@ def height_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Pictu
 def material_ratio_curves(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
     """Draw the material ratio (Abbott) curves of a body, form removed.
 
-    That of its scar at a save, of what was there at first, and of the surface beside.
+    The curves are for its scar at a save, the first surface there, and the surface beside.
     """
     worn = reliefs(result, result.body(name), saves[-1] % len(result.times))
     labels = f"scar, {time_labels(result.times)[saves[-1]]}", "unworn", "beside"

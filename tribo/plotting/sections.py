@@ -1,4 +1,4 @@
-"""What is to be seen of fields: the axes along which they vary, limits, and sections."""
+"""Views of fields: the axes along which they vary, limits, and sections."""
 
 from __future__ import annotations
 
@@ -96,11 +96,11 @@ def through_centre(
     reach: Sequence[float] = (0.0, 0.0),
     ends: bool = False,
 ) -> list[Section]:
-    """Return sections of fields, each on its grid, and limits around what is marked of each.
+    """Return sections of fields, each on its grid, and limits around the marked cells of each.
 
     They run along `axes`: 0 is the sliding direction, and 1 across it. `reach` along both is a
     distance from the centre to be shown as well, in m. Where the bodies end at the window, `ends`,
-    and what is marked reaches its edge, the axis goes on beyond it and the curves do not.
+    and marked cells reach its edge, the axis extends beyond it and the curves do not.
     """
     windows, cores = (
         [
@@ -136,7 +136,7 @@ def limits(
 ) -> Limits:
     """Return limits in m that show all marked cells, a margin, and no more.
 
-    They are those of the window if nothing is marked. `marked` has shape
+    They are the limits of the window if nothing is marked. `marked` has shape
     (nx, ny) or (1, ny); `reach` and `ends` are as in `through_centre`.
     """
     edge = 0.5 * grid.size[axis]

@@ -45,7 +45,7 @@ OVER: Look = {"color": "#202020", "linewidth": 1.1, "linestyle": (0.0, (3.0, 1.6
 PRESSURES = "viridis"
 """Colours of pressures: higher is lighter."""
 DEPTHS = "Blues"
-"""Colours of what is gone: deeper is darker."""
+"""Colours of depths: deeper is darker."""
 SIGNIFICANT = 3.0
 """Residual, in standard deviations, that is outlined where its sign should be seen in grey too; and
 the least range of a colour scale of residuals."""
@@ -96,7 +96,7 @@ def save_looks(count: int) -> list[Look]:
 
 
 def overlay_looks(count: int) -> list[Look]:
-    """Return a look for each of several results; the first shows below one that coincides."""
+    """Return a look for each of several results; the first shows below a coinciding curve."""
     return [{"color": "#a8a8a8", "linewidth": 3.0}, *save_looks(count - 1)][:count]
 
 

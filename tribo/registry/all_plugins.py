@@ -15,8 +15,8 @@ from tribo.registry.registry import Registry, default_registry
 def choose(hook: str, name: str, words: str, own: Mapping[str, str] | None = None) -> Any:
     """Return the format or template of this name that a plugin offers by `hook`.
 
-    `words` is what it is, for the message: ``"format"`` or ``"template"``; `own` are those of tribo
-    itself, none of them called so, with what each is.
+    `words` names its sort in messages: ``"format"`` or ``"template"``; `own` are tribo's own names,
+    which do not include this one, with their descriptions.
     """
     known = {each.name: each for each in from_all_plugins(hook)}
     if name not in known:
@@ -30,7 +30,7 @@ def choose(hook: str, name: str, words: str, own: Mapping[str, str] | None = Non
 def from_all_plugins(hook: str, own: object = None) -> list[Any]:
     """Return the items that `own` and all installed plugins answer to a hook; see `Registry.ask`.
 
-    One that is broken is named.
+    A warning names broken plugins.
     """
     registry = default_registry()
     import_all(registry)
@@ -40,7 +40,7 @@ def from_all_plugins(hook: str, own: object = None) -> list[Any]:
 def import_all(registry: Registry) -> None:
     """Import every plugin that can be imported, and warn of each that cannot be used.
 
-    A child process imports them first, and what ends it is not imported here.
+    A child process imports them first; a plugin that ends it is not imported here.
     """
     usable = [plugin for plugin in registry.plugins if plugin.usable]
     # Where no process can be started, as in a browser, they are imported untried.

@@ -25,19 +25,19 @@ FACTS = {
     "material_properties": "Needs of materials",
     "accepts_wear_compliance": "Takes a wear compliance (implicit steps)",
     "honours_cap": "Limits the pressure to a hardness",
-    "takes_cap_map": "Limits it to that of the layer at the surface",
+    "takes_cap_map": "Limits it to the hardness of the layer at the surface",
     "takes_coatings": "Takes elastic layers on the bodies",
     "periodic": "Repeats with the window",
 }
-"""Words for the attributes of a class that its description tells."""
+"""Labels of the attributes in the description of a class."""
 
 
 def catalogue(registry: Registry) -> list[dict[str, str]]:
     """Return a row for every component, and for every plugin that cannot be used.
 
-    No plugin is imported: for a component of one not imported yet, the kind is empty and the
-    summary is that of its distribution. A name that several plugins claim has a row for each, with
-    the status ``conflict``.
+    No plugin is imported: for a component of a plugin not imported yet, the kind is empty and the
+    summary is its distribution's. A name that several plugins claim has a row for each, with the
+    status ``conflict``.
     """
     known = registry.components
     names = [name for kind in KINDS for name in registry.names(kind)] + registry.waiting
@@ -51,7 +51,7 @@ def catalogue(registry: Registry) -> list[dict[str, str]]:
 
 
 def matching(registry: Registry, name: str) -> list[str]:
-    """Return the names of the component called `name`, or of those of the distribution.
+    """Return the names of the component called `name`, or of the components of the distribution.
 
     Names in conflict come last.
     """
@@ -108,7 +108,7 @@ def _row(name: str, plugin: Plugin, cls: type[Component] | None = None) -> dict[
 
 
 def _parameters(table: type[BaseModel], within: tuple[type[BaseModel], ...] = ()) -> Iterator[str]:
-    """Yield a line for each key of a table; those of tables inside follow, indented."""
+    """Yield a line for each key of a table; keys of tables inside follow, indented."""
     within = (*within, table)
     texts = descriptions(table)
     for name, field in table.model_fields.items():

@@ -49,7 +49,7 @@ class LabRow(NamedTuple):
 
     @property
     def finding(self) -> Finding | None:
-        """What is to be known of a value beyond its limit; None within."""
+        """A finding on a value beyond its limit; None within."""
         if self.limit is None or self.value <= self.limit:
             return None
         return beyond(self.label, self.value, self.limit, self.unit)
@@ -153,7 +153,7 @@ def tribo_cases() -> Iterable[Path]:
 
 @hookspec
 def tribo_findings(model: Model, half_width_x: float) -> Iterable[Finding]:
-    """Return what is to be known of a case, given half the length (m) of its first contact."""
+    """Return findings on a case, given half the length (m) of its first contact."""
     return ()
 
 

@@ -94,9 +94,9 @@ def installed() -> list[Plugin]:
     """Return the plugins of installed distributions, sorted; imports none.
 
     An entry point ``acme.fretting = "acme_tribo"`` in the group ``tribo.2`` declares that the
-    module ``acme_tribo`` offers a component of that name; one that is named after its distribution,
-    as ``acme-tribo = "acme_tribo.hooks"``, that it has hooks and no component. The number is that
-    of the contract: a distribution that has groups of others alone is ``incompatible``. The
+    module ``acme_tribo`` offers a component of that name; an entry point named after its
+    distribution, as ``acme-tribo = "acme_tribo.hooks"``, that it has hooks and no component. The
+    number is the contract's: a distribution that has only other groups is ``incompatible``. The
     environment variable TRIBO_DISABLE_PLUGINS lists distributions, or names or prefixes of
     components, to leave out, ``*`` for all; TRIBO_PLUGINS the only ones that may take part.
     """
@@ -115,8 +115,8 @@ def installed() -> list[Plugin]:
         if point.group != GROUP:
             plugin.status = "incompatible"
             plugin.reason = (
-                f"its entry points are in the group {point.group!r}, and those of this tribo, of "
-                f"contract {api_version}, in {GROUP!r}; see docs/reference/contract.md"
+                f"its entry points are in the group {point.group!r}; this tribo, of contract "
+                f"{api_version}, needs them in {GROUP!r}; see docs/reference/contract.md"
             )
         if point.name == distribution.name:
             continue

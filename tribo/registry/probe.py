@@ -21,9 +21,9 @@ from tribo.registry.plugins import Plugin, Status, installed
 from tribo.registry.registry import Registry
 
 TIMES = 30
-"""CPU time of a plugin's import over that of tribo's own, which takes 0.6 s: SciPy takes 1 time."""
+"""CPU time of a plugin's import over the import of tribo, which takes 0.6 s: SciPy takes 1 time."""
 WAIT = 200.0
-"""Time (s) after which an import that waits is ended: thirty imports of tribo, ten beside it."""
+"""Time (s) after which a waiting import is ended: thirty imports of tribo, ten beside it."""
 LIMIT = "TRIBO_PLUGIN_TIME_LIMIT"
 
 _LATE = -getattr(signal, "SIGPROF", 0) or None
@@ -33,10 +33,10 @@ _CHILD = "import sys; from tribo.registry.probe import answer; answer(*sys.argv[
 def probe_all(plugins: Iterable[Plugin], time_limit: float | None = None) -> list[Plugin]:
     """Return the records of installed plugins after their import in one child process.
 
-    Where that does not come to its end, each plugin has a process of its own. One is ``not ready``
-    if it takes more than `time_limit` seconds of CPU time, or waits ten times as long; those of the
-    environment variable TRIBO_PLUGIN_TIME_LIMIT, or 30 times tribo's own import, if left out. A
-    plugin that is not ``available`` is returned unchanged.
+    If that process does not finish, each plugin has a process of its own. A plugin is ``not ready``
+    if it takes more than `time_limit` seconds of CPU time, or waits ten times as long; by default
+    the environment variable TRIBO_PLUGIN_TIME_LIMIT, or 30 times tribo's own import. A plugin that
+    is not ``available`` is returned unchanged.
     """
     limit = time_limit_of_plugins(time_limit)
     plugins = list(plugins)
@@ -66,7 +66,7 @@ def time_limit_of_plugins(given: float | None = None) -> float | None:
 
 
 def how_it_ended(code: int) -> str:
-    """Return what a child process did that ended with an exit code."""
+    """Word how a child process with an exit code ended."""
     if code < 0:
         known = {number.value: number.name for number in signal.Signals}
         return f"crashed the process ({known.get(-code, f'signal {-code}')})"
@@ -76,7 +76,7 @@ def how_it_ended(code: int) -> str:
 def _imported(plugins: Sequence[Plugin], limit: float | None) -> list[Plugin]:
     """Return the records of plugins after their import in one child process.
 
-    If it does not come to its end, none is returned but that of a plugin which was alone.
+    If the process does not finish, only the record of a plugin that was alone is returned.
     """
     names = [name for each in plugins for name in (each.distribution, each.entry_point)]
     # The child finds what this process would find.

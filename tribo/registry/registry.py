@@ -46,7 +46,7 @@ class Registry:
     Raises
     ------
     TypeError, ValueError
-        If one that was given as an object breaks the contract.
+        If a plugin given as an object breaks the contract.
     """
 
     def __init__(self, plugins: Iterable[Plugin]) -> None:
@@ -73,8 +73,8 @@ class Registry:
         name = cls.type
         if (other := self.find(name)) and not self.is_own(other) and other is not cls:
             raise CaseError(
-                f"the class {cls.__qualname__} has the type {name!r}, which is that of "
-                f"{other.__module__}.{other.__qualname__}; give it one of its own, as 'my.{name}'"
+                f"the class {cls.__qualname__} has the type {name!r} of {other.__module__}."
+                f"{other.__qualname__}; give it a type of its own, as 'my.{name}'"
             )
         if other is None or self.is_own(other):
             self._own[name] = cls
@@ -90,7 +90,7 @@ class Registry:
 
     @classmethod
     def with_plugins(cls, *plugins: object) -> Registry:
-        """Return a registry of the built-in components and those of `plugins` only.
+        """Return a registry of the built-in components and the components of `plugins` only.
 
         Parameters
         ----------
@@ -147,8 +147,8 @@ class Registry:
         Raises
         ------
         CaseError
-            If no plugin, or more than one, offers `name`, the one that does
-            cannot be used, or it is of another kind.
+            If no plugin, or more than one, offers `name`, its plugin cannot be
+            used, or it is of another kind.
         """
         words = kind.replace("_", " ")
         cls = self.find(name, words)
@@ -295,7 +295,7 @@ def _item(hook: str, item: object) -> object:
 
 
 def from_packages(hook: str, own: object = None, **asked: Any) -> list[Any]:
-    """Return what `own`, the imported plugins and plugins with hooks alone answer; see `ask`."""
+    """Return answers of `own`, of imported plugins and of plugins with hooks alone; see `ask`."""
     registry = default_registry()
     for plugin in registry.plugins:
         if plugin.usable and not plugin.names:
@@ -304,9 +304,9 @@ def from_packages(hook: str, own: object = None, **asked: Any) -> list[Any]:
 
 
 def from_plugins_of(result: Result, hook: str) -> list[Any]:
-    """Return what the plugins of a result's models and plugins with hooks alone answer; see `ask`.
+    """Return answers of the plugins of a result's models and of plugins with hooks alone.
 
-    Those that are not installed are left out.
+    Plugins that are not installed are left out; see `ask`.
     """
     types = {str(made["type"]) for made in result.provenance["components"].values()}
     for name in sorted(types):

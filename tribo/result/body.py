@@ -1,4 +1,4 @@
-"""What a result keeps of one body."""
+"""The data of one body in a result."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tribo.core.errors import CaseError
 
 @dataclass(frozen=True)
 class BodyResult:
-    """What a result keeps of one body.
+    """The data of one body in a result.
 
     Parameters
     ----------

@@ -41,10 +41,10 @@ _WHOLE = ConfigDict(arbitrary_types_allowed=True, extra="forbid", defer_build=Tr
 
 @dataclass(frozen=True, config=_WHOLE)
 class Checkpoint:
-    """Where a run can go on: its state, with the `fingerprint` of its case.
+    """A state from which a run can continue, with the `fingerprint` of its case.
 
-    `wall_time` is the time spent until then, in s; `parts` belong to it, with so many `saves` and
-    `rows` of the history in them.
+    `wall_time` is the time spent until then, in s; `parts` is the number of its parts, with their
+    numbers of `saves` and of `rows` of the history.
     """
 
     case: str
@@ -68,7 +68,7 @@ class RunFolder:
     def lock(self) -> None:
         """Make the folder, and keep other processes from writing.
 
-        `CaseError` if one is, or what has the folder's name was not made by a run.
+        `CaseError` if one is, or the folder was not made by a run.
         """
         if not os.path.lexists(self.path):
             make_folder(self.path)
@@ -95,8 +95,8 @@ class RunFolder:
     def set_aside(self) -> Path | None:
         """Give a run that was stopped another name, free until now, under which it can be resumed.
 
-        Return the new name of the result; None where there is nothing to go on from, or a process
-        is writing it.
+        Return the new name of the result; None without a checkpoint, or while a process is writing
+        it.
         """
         stopped = self.checkpoint.exists() and (self.path / "lock").exists()
         if not (stopped and self.result.is_file()) or self.busy():
@@ -166,10 +166,10 @@ class RunFolder:
         move(self.previous, self.checkpoint)
 
     def read_checkpoint(self, case: Mapping[str, object]) -> tuple[Checkpoint, str]:
-        """Return the newest sound checkpoint of a case, and what is damaged of a newer one.
+        """Return the newest sound checkpoint of a case, and the damage of a newer one.
 
-        It is whole, as all its parts are. `CaseError` if there is none of this case; it says what
-        to do where no process is writing the result.
+        It and all its parts are whole. `CaseError` if there is none of this case; it names the fix
+        where no process is writing the result.
         """
         if not self.path.is_dir():
             raise CaseError(
@@ -226,7 +226,7 @@ def hold(path: Path) -> IO[bytes]:
 
 
 def fingerprint(case: Mapping[str, object]) -> str:
-    """Return what tells the checkpoint of one case from that of another."""
+    """Return the hash of a case."""
     return sha256(json.dumps(case, sort_keys=True).encode()).hexdigest()
 
 

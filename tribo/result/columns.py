@@ -42,18 +42,18 @@ INVARIANTS = (
     _measured(
         "volume_error",
         "1",
-        "Volume worn in the step against that of the laws, relative",
+        "Relative error of the volume worn in the step, against the laws",
         "invariants.volume",
     ),
     _measured("regrowth", "m", "Depth that grew back in the step", "invariants.regrowth"),
     _measured(
         "chattering",
         "1",
-        "Share of the load that goes back and forth between steps",
+        "Share of the load that moves back and forth between steps",
         "invariants.chattering",
     ),
 )
-"""What holds in a run up to these errors."""
+"""Errors of the invariants of a run."""
 
 COLUMNS = (
     _measured("time", "s", "Time"),
@@ -100,4 +100,4 @@ ROUGHNESS_COLUMNS = tuple(
         ("Rq_across", "m", "Root mean square height of profiles along y"),
     )
 )
-"""The columns that the history has besides, where a body is rough; NaN for one that is not."""
+"""Further columns of the history where a body is rough; NaN for a smooth body."""

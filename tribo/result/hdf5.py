@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 _ROWS = 256
 _MOST = 2**31 - 1
-"""Saves or steps that a file may come to hold. Without an end, h5netcdf and with it xarray take
-four times as long to open it."""
+"""Largest number of saves or steps of a file. Without a limit, h5netcdf and so xarray take four
+times as long to open it."""
 
 
 def empty_image(
@@ -44,7 +44,7 @@ def empty_image(
 def _without_values(
     table: tuple[tuple[str, Variable], ...], sizes_of: tuple[tuple[str, int], ...]
 ) -> bytes:
-    """Return a file with no values, kept: to make it takes as long as a short run."""
+    """Return a file with no values, cached: making it takes as long as a short run."""
     image, sizes = BytesIO(), dict(sizes_of)
     with open_hdf5(image, "w") as file:
         file["body"] = [""] * sizes["body"]
@@ -68,8 +68,8 @@ def filled_image(
 ) -> BytesIO:
     """Return a whole file in memory: HDF5 may crash where it meets a full disk.
 
-    Into the file that `empty_image` returned goes what the run has added, in order, as
-    `tribo.result.layout.part_of` makes it, of so many saves and steps in all; attributes change.
+    The parts of the run, made by `tribo.result.layout.part_of`, are written in order into the file
+    that `empty_image` returned, with these numbers of saves and steps; attributes change.
     """
     image = BytesIO(empty)
     with open_hdf5(image, "r+") as file:

@@ -20,7 +20,7 @@ HISTORY = "history_"
 TRACK, TRACK_PLASTIC = "track_depth", "track_plastic"
 
 Rows = dict[str, Any]
-"""What is added, by variable: numbers, or for a field an array."""
+"""Added values, by variable: numbers, or for a field an array."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Variable:
     A field of a model has a `kind`, the name that it has in the model, and the bodies that have it
     (NaN for the others): ``"state"`` is kept on a body, ``"track_state"`` along its whole track,
     ``"effect"`` provided by an effect, ``"between"`` kept by one. A column of a model is of a kind
-    in `SAVED` and, where it is one of the history, in `STEPPED`; the second is that of the bodies.
+    in `SAVED` and, if it is in the history, in `STEPPED`; the second kind is for bodies.
     """
 
     dims: tuple[str, ...]
@@ -52,7 +52,7 @@ DIMS: Mapping[str, tuple[str, ...]] = {
     **dict(zip(SAVED, (("time",), ("time", "body")), strict=True)),
     **dict(zip(STEPPED, (("step",), ("step", "body")), strict=True)),
 }
-"""Dimensions of a field of a model by its kind; one that is uniform has the time alone."""
+"""Dimensions of a field of a model by its kind; a uniform field has the time alone."""
 
 
 FIXED = {
@@ -78,7 +78,7 @@ FIXED = {
     )
     for column in columns
 }
-"""What every result has by name, but for those of a track, and no fields of models."""
+"""Variables of every result by name, except of a track, and without fields of models."""
 ROUGHNESS = tuple(HISTORY + part.name for part in ROUGHNESS_COLUMNS)
 """The variables of `FIXED` that a result has only where a body is rough."""
 
@@ -86,8 +86,8 @@ ROUGHNESS = tuple(HISTORY + part.name for part in ROUGHNESS_COLUMNS)
 def variables(run: RunInfo) -> dict[str, Variable]:
     """Return the variables of a run by name, the fields of its models among them.
 
-    A field whose name is taken has ``effect_`` or ``state_`` before it; one along the whole track
-    has ``track_state_``.
+    A field whose name is taken has ``effect_`` or ``state_`` before it; a field along the whole
+    track has ``track_state_``.
     """
     bodies, rows = run.bodies, _rows(run)
     left_out = set() if any(body.rough for body in bodies) else {*ROUGHNESS}
@@ -145,7 +145,7 @@ def _owners(run: RunInfo) -> dict[tuple[str, Field], tuple[str, ...]]:
 
 
 def step_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
-    """Return what a step adds to the history."""
+    """Return the row of a step in the history."""
     row = {HISTORY + name: value for name, value in _scalars(snapshot).items()}
     bodies = snapshot.measures.bodies
     if any(body.roughness for body in bodies.values()):
@@ -155,7 +155,7 @@ def step_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
 
 
 def save_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
-    """Return what a save adds."""
+    """Return the row of a save."""
     state, shape = snapshot.state, snapshot.state.contact.pressure.shape
     row: Rows = {**_scalars(snapshot), "pressure": state.contact.pressure}
     row |= _of_models(snapshot, table, SAVED)
@@ -206,7 +206,7 @@ def _stacked(
 
 
 def _on_track(state: State, of_bodies: Mapping[str, Array]) -> Array:
-    """Return fields on bodies' own surfaces, NaN but for those that are longer than the window."""
+    """Return fields on bodies' own surfaces, NaN for surfaces no longer than the window."""
     nx, ny = state.contact.pressure.shape
     rows = max(len(body.wear) for body in state.bodies.values())
     stacked = np.full((len(state.bodies), rows, ny), np.nan)

@@ -1,4 +1,4 @@
-"""Open a result file, that of a run which goes on or was killed too."""
+"""Open a result file, also of a run that is in progress or was killed."""
 
 from __future__ import annotations
 
@@ -47,12 +47,12 @@ def source_of(path: Path) -> Path | BytesIO:
             # The run may have ended since, and taken its folder with it.
             if not is_unfinished(path):
                 return path
-            reason = "its run goes on, and what it saved cannot be read yet; try again"
+            reason = "its run is in progress and cannot be read yet; try again"
             raise CaseError(f"{path}: {reason if folder.busy() else error}") from error
 
 
 def is_unfinished(path: Path) -> bool:
-    """Whether a result file is that of a run that goes on, or was killed."""
+    """Whether a result file belongs to a run that is in progress, or was killed."""
     if not os.path.isfile(path):
         if RunFolder(path.resolve()).path.is_dir():
             raise CaseError(
@@ -80,7 +80,7 @@ def is_unfinished(path: Path) -> bool:
 
 
 def _saved_so_far(path: Path, folder: RunFolder) -> BytesIO:
-    """Return the file that the run would write now, with who writes it as its status."""
+    """Return the file that the run would write now, with its status: running or killed."""
     status = "running" if folder.busy() else "killed"
     empty = path.read_bytes()
     with open_hdf5(BytesIO(empty)) as file:

@@ -45,11 +45,10 @@ def environment() -> dict[str, object]:
 def changed_components(
     before: Mapping[str, Any], now: Mapping[str, Any]
 ) -> list[tuple[str, str, str]]:
-    """Return the components that are not what they were: place, before, now.
+    """Return the components that have changed: place, before, now.
 
-    `before` and `now` are what `provenance` returned. A component is what its class, distribution,
-    version and source code make of it, and the facts it states; its configuration, which is
-    compared with the whole case, does not count.
+    `before` and `now` are from `provenance`. A component is compared by its class, distribution,
+    version, source code and stated facts; its configuration is compared with the whole case.
     """
     old, new = before["components"], now["components"]
     changes = []
@@ -72,7 +71,7 @@ def plugin_files(made: Mapping[str, Any]) -> dict[str, str]:
 
 
 def stated_facts(component: Component) -> dict[str, str]:
-    """Return what a component states of itself; `PluginError` if not text by text."""
+    """Return the facts of a component; `PluginError` if they are not text by text."""
     facts = component.facts()
     if not isinstance(facts, Mapping) or not all(
         isinstance(text, str) for pair in facts.items() for text in pair
@@ -82,7 +81,7 @@ def stated_facts(component: Component) -> dict[str, str]:
 
 
 def _words(origin: Mapping[str, Any], differing: Sequence[str]) -> str:
-    """Return which class of which version it is, and of the rest what makes the difference."""
+    """Return the class and version of a component, and its other differing facts."""
     if not origin:
         return "not there"
     words = f"{origin['class']} of {origin['distribution'] or 'no distribution'}"
@@ -167,7 +166,7 @@ def _packages() -> Mapping[str, list[str]]:
 
 def _distribution(module: str) -> metadata.Distribution | None:
     # An editable installation lists no packages, but its entry points name modules. Of
-    # distributions that share a namespace, that of the longest common path is meant.
+    # distributions that share a namespace, the longest common path is meant.
     parts = module.split(".")
     named = [each for each in _named_modules() if each[0][0] == parts[0]]
     if named:

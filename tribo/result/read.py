@@ -1,4 +1,4 @@
-"""A result: a dataset, and the questions that a tribologist asks of it."""
+"""A result: a dataset, and methods for the questions of a tribologist."""
 
 from __future__ import annotations
 
@@ -75,8 +75,8 @@ class Result:
     def open(cls, path: str | Path) -> Result:
         """Open a result file.
 
-        The whole file is compared with its checksum. That of a run which goes
-        on, or was killed, is put together from what the run has saved so far.
+        The whole file is compared with its checksum. The file of a run in progress,
+        or of a killed run, is assembled from its parts.
 
         Raises
         ------
@@ -146,7 +146,7 @@ class Result:
 
     @property
     def wall_time(self) -> float | None:
-        """Time the run took, in s; None of one that is still running, or was killed."""
+        """Duration of the run, in s; None for a run that is in progress, or was killed."""
         return self._header.wall_time
 
     @property
@@ -167,7 +167,7 @@ class Result:
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """What is to be known of the run: warnings, what it began with and why it ended."""
+        """The findings of the run: warnings, its beginning and the reason of its end."""
         return self._header.findings
 
     @property
@@ -266,7 +266,7 @@ class Result:
         raise CaseError(f"{self.name} has no save at {time:g} s; its saves are at {listed} s")
 
     def body(self, name: str) -> BodyResult:
-        """Return what is kept of a body.
+        """Return the data of a body.
 
         Raises
         ------
@@ -295,8 +295,8 @@ class Result:
     def table(self, name: str) -> dict[str, Array]:
         """Return ``"saves"`` or ``"history"`` as columns, named with their units.
 
-        A body's are called ``bodies.NAME.max_wear_depth_m``; the history has a rough one's Sa too.
-        Those of models follow.
+        A body's are called ``bodies.NAME.max_wear_depth_m``; the history has Sa of rough bodies
+        too. Columns of models follow.
         """
         dim = "time" if name == "saves" else "step"
         columns, of_bodies = {}, {}
@@ -312,7 +312,7 @@ class Result:
         return columns
 
     def saves(self) -> list[dict[str, Any]]:
-        """Return the scalars of each save that it has, those of the bodies under ``bodies``."""
+        """Return the scalars of each of its saves, with the bodies' scalars under ``bodies``."""
         table, rows = self.table("saves"), []
         for i in range(len(self.times)):
             row = {label: float(v[i]) for label, v in table.items() if not np.isnan(v[i])}
@@ -324,7 +324,7 @@ class Result:
         return rows
 
     def report(self) -> LabReport:
-        """Return what a laboratory would measure of the result."""
+        """Return the laboratory report of the result."""
         report: LabReport = call("report", self)
         return report
 
@@ -354,7 +354,7 @@ class Result:
         return page
 
     def totals(self) -> Mapping[str, Any]:
-        """Return what the run cost: solves, iterations, steps and `wall_time`."""
+        """Return the cost of the run: solves, iterations, steps and `wall_time`."""
         history = self.table("history")
         steps = len(history["time_s"])
         last = -1 if steps else slice(0)

@@ -13,7 +13,7 @@ from tribo.result.read import Result
 
 
 def summary(result: Result) -> dict[str, Any]:
-    """Return what is known of a result, with the scalars of each save."""
+    """Return the summary of a result, with the scalars of each save."""
     rows = result.saves()
     for save, row in enumerate(rows):
         for body in result.body_names:

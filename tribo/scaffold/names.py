@@ -1,4 +1,4 @@
-"""The names of a plugin, all of which follow from that of its distribution."""
+"""The names of a plugin, all of which follow from the name of its distribution."""
 
 from __future__ import annotations
 
@@ -39,8 +39,8 @@ def plugin_names(distribution: str) -> dict[str, str]:
     """
     if not _FORM.fullmatch(distribution):
         raise CaseError(
-            f"{distribution!r} is no good as a plugin's name; give one as 'acme-fretting': whose "
-            "it is and what it is, in lower-case words joined by hyphens"
+            f"{distribution!r} is not allowed as a plugin's name; give its owner and subject in "
+            "lower-case words joined by hyphens, as 'acme-fretting'"
         )
     if len(distribution) > _LONGEST:
         raise CaseError(
@@ -55,7 +55,7 @@ def plugin_names(distribution: str) -> dict[str, str]:
         if taken:
             raise CaseError(
                 f"a plugin {distribution!r} would need the name {name!r}, which is {whose}; "
-                "let its name say more, as in 'acme-fretting'"
+                "give a longer name, as 'acme-fretting'"
             )
     return {
         "distribution": distribution,

@@ -72,7 +72,7 @@ def write_plugin(name: str, kind: str, folder: Path) -> list[Path]:
 
 
 def _words(distribution: str, given: str) -> dict[str, str]:
-    """Return what the templates are filled with."""
+    """Return the values of the placeholders in templates."""
     kind = given.replace("-", "_")
     if kind not in KINDS:
         known = [known.replace("_", "-") for known in KINDS]

@@ -1,4 +1,4 @@
-"""Check that the parts of a case fit together, and derive what a run needs; nothing is solved."""
+"""Check that the parts of a case fit together, and derive the model of a run; no solves."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ SAME_RADIUS = 1e-2
 
 
 def assemble(case: Case) -> Model:
-    """Check that the parts of a case fit together, guard them, and derive what a run needs."""
+    """Check that the parts of a case fit together, guard them, and derive the model of a run."""
     grid, bodies = case.grid, case.bodies
     motion, solver = GuardedMotion(case.kinematics), GuardedSolver(case.contact)
     with located("kinematics"):
@@ -69,9 +69,9 @@ def assemble(case: Case) -> Model:
     if case.load.along:
         if case.contact.periodic:
             raise CaseError(
-                f"contact.type = {case.contact.type!r} repeats with the window, so that it is at "
-                "many places of the stroke at once; leave it out, or take a contact that does not "
-                "repeat",
+                f"contact.type = {case.contact.type!r} repeats with the window and has many places "
+                "along the stroke at once; leave load.along out, or use a contact that does not "
+                "repeat, as 'dcfft'",
                 "load.along",
             )
         dx = grid.spacing[0]
@@ -121,7 +121,7 @@ def assemble(case: Case) -> Model:
 
 
 def as_it_repeats(grid: Grid, contact: ContactSolver) -> Grid:
-    """Return the window as motions are told of it: as one that repeats if the contact does."""
+    """Return the window for motions; it repeats if the contact does."""
     return RepeatingGrid(size=grid.size, cells=grid.cells) if contact.periodic else grid
 
 
@@ -131,7 +131,7 @@ def varied(case: Case, **changes: Any) -> Case:
 
 
 def _law(body: Body, name: str, grid: Grid, exposure: Exposure) -> GuardedLaw:
-    """Return the law of a body that wears, or those of its layers."""
+    """Return the law of a body that wears, or the laws of its layers."""
     laws = []
     own = [f"layers.{i}.wear" if each.wear else "wear" for i, each in enumerate(body.layers)]
     places = (*own, "wear")
@@ -205,7 +205,7 @@ def _gaps(cycle: Cycle, surfaces: Mapping[str, GuardedSurface]) -> tuple[Array, 
 
 
 def _check_sliding(surface: GuardedSurface, exposure: Exposure) -> None:
-    """Raise `CaseError` if the motion moves a shape that would not stay as it is."""
+    """Raise `CaseError` if the motion changes the shape of a moving body in the window."""
     if not exposure.shape_stays and _varies_along_x(surface.height):
         raise CaseError(
             f"body {surface.body!r} is swept along x, so its surface must not vary along x, as "
@@ -234,7 +234,7 @@ def _check_ring(surface: GuardedSurface, exposure: Exposure, lap: float, grid: G
     if abs(radius * curvature - 1) > SAME_RADIUS:
         raise CaseError(
             f"body {surface.body!r} turns, so that its track is its rim: its radius is "
-            f"{1e3 / curvature:.4g} mm, but that of the track {1e3 * radius:.4g} mm; give "
+            f"{1e3 / curvature:.4g} mm, the track's {1e3 * radius:.4g} mm; give "
             f"kinematics.track_radius = {1 / curvature:.6g}",
         )
 
@@ -244,7 +244,7 @@ def _varies_along_x(height: Array) -> bool:
 
 
 def _varies(height: Array, exposure: Exposure) -> bool:
-    """Whether a height that passes is not the same at each position."""
+    """Whether the height of a moving body differs between positions."""
     breadth = exposure.across is not None and np.any(height != height[:, :1])
     return bool(breadth or _varies_along_x(height))
 

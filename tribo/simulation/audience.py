@@ -1,7 +1,7 @@
-"""Tell the observers of a run what happens, in read-only views.
+"""Call the observers of a run with read-only views.
 
-That does not stop an observer that means to change the run: numpy gives access to
-the array behind a view, as its `base`, and a plugin runs in this very process.
+A malicious observer can still change the run: numpy gives access to the array
+behind a view, as its `base`, and a plugin runs in this very process.
 """
 
 from __future__ import annotations
@@ -18,20 +18,20 @@ from tribo.observers.observer import Observer
 
 
 class Audience:
-    """The observers of a run, in the order in which they are told, the recorder first."""
+    """The observers of a run, in the order of their calls, the recorder first."""
 
     def __init__(self, observers: Sequence[Observer]) -> None:
         self._observers = tuple(observers)
         self._started: list[Observer] = []
 
     def start(self, run: RunInfo) -> None:
-        """Tell that the run begins or goes on; each gets a copy of its own."""
+        """Report that the run begins or continues; each observer gets its own copy."""
         for observer in self._observers:
             Guard(observer).ask(observer.on_start, deepcopy(run))
             self._started.append(observer)
 
     def step(self, snapshot: Snapshot, *, save: bool) -> None:
-        """Tell of an accepted step, and of the save that it may be; all get the same view."""
+        """Report an accepted step, which may be saved; all observers get the same view."""
         shown = view(snapshot)
         for observer in self._observers:
             guard = Guard(observer)
@@ -40,9 +40,9 @@ class Audience:
                 guard.ask(observer.on_save, shown)
 
     def finish(self, snapshot: Snapshot, reason: str) -> None:
-        """Tell those that were started of the end.
+        """Report the end to the observers that were started.
 
-        Where the run itself did not come to its end, what one raises is only warned of.
+        Where the run itself did not finish, an error of an observer is only a warning.
         """
         # The recorder comes last, so that nothing another one raises costs a result.
         with ExitStack() as finishing:

@@ -28,9 +28,9 @@ SAME = 1e-6
 def first_state(model: Model) -> State:
     """Return the state before any sliding: the first contact, of worn bodies if the case says so.
 
-    Wear, load times distance and what laws and effects remember go on from the result that the
-    case begins with; time and distance begin anew. `CaseError` if the contact does not fit the
-    window, or the result the case.
+    Wear, load times distance and states of laws and effects continue from the result that the case
+    begins with; time and distance start at 0. `CaseError` if the contact does not fit the window,
+    or the result the case.
     """
     begin = model.case.begin
     if begin is None:
@@ -60,7 +60,7 @@ def first_state(model: Model) -> State:
 
 
 def checksum(begin: Begin) -> str:
-    """Return what tells the file of a result from any other."""
+    """Return the checksum of the file of a result."""
     return sha256(Path(begin.result).read_bytes()).hexdigest()
 
 
@@ -100,13 +100,13 @@ def _check_alike(model: Model, result: Result) -> None:
         if was != model.data["bodies"][body]["surface"] or off > SAME * np.ptp(height):
             raise CaseError(
                 f"{name} begins with another surface of {body} than the case does; give the case "
-                "the same surfaces: what is worn is a depth below them",
+                "the same surfaces, from which wear depths count",
                 PLACE,
             )
 
 
 def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
-    """Return what a result has of a body, on the rows that the body has in the case."""
+    """Return the state of a body in a result, on the rows of the body in the case."""
     nx, rows = model.grid.cells[0], model.cycle.maps[name].rows
     body, track = result.body(name), _along_track(result, TRACK, name, save)
     if body.swept != (name in model.cycle.swept):
@@ -134,10 +134,10 @@ def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
 def _remembered(
     model: Model, result: Result, save: int
 ) -> tuple[dict[tuple[str | None, str], Array], list[str], list[str]]:
-    """Return what the case goes on with of what laws and effects remember, by body and field.
+    """Return the states of laws and effects with which the case continues, by body and field.
 
-    The body is None for the contact as a whole. A field goes on where the result has one of its
-    name and unit at the same place; the lists name those that begin afresh or are left out.
+    The body is None for the contact as a whole. A field continues where the result has a field of
+    its name and unit at the same place; the lists name fields that start afresh or are left out.
     """
     found: dict[tuple[str | None, str], Array] = {}
     afresh, left = [], []
@@ -194,7 +194,7 @@ def _on_rows(field: Array, rows: int, window: int) -> Array | None:
 
 
 def _path(worn: Array, window: int, dx: float) -> str:
-    """Say how a body with these rows has passed through a window of so many cells."""
+    """Word how a body with these rows has moved through a window of so many cells."""
     if len(worn) == 1 or (len(worn) == window and np.all(worn == worn[:1])):
         return "averaged"
     return f"resolved along {1e3 * (len(worn) - window) * dx:.4g} mm"

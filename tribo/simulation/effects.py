@@ -11,19 +11,17 @@ from tribo.guards.parts import GuardedEffect
 
 
 def in_order(case: Case, effects: Sequence[GuardedEffect]) -> tuple[GuardedEffect, ...]:
-    """Return effects so that each comes after those that provide what it requires.
+    """Return the effects of a case and its motion, each after the providers of its fields.
 
-    They are those of a case and of its motion.
-
-    `CaseError` if an effect or a wear law requires what nothing provides, or a field but the share
-    of the load is provided twice, or has the name of what a wear law remembers. Effects may keep
-    one of the same name on each body.
+    `CaseError` if nothing provides a field that an effect or a wear law requires, if a field other
+    than the share of the load is provided twice, or if it has the name of a state of a wear law.
+    Effects may keep a state of the same name on each body.
     """
     of_laws = {f.name for b in case.bodies.values() if b.wear for f in b.wear.state_fields}
     known = {*OF_MOTION}
     if case.friction is not None:
         known.add(FRICTION_COEFFICIENT.name)
-    # By name the bodies that have a state; what lies in the contact is that of all.
+    # By name the bodies that have a state; a state in the contact belongs to all.
     kept: dict[str, set[str]] = {}
     for effect in effects:
         for field in effect.state_fields:

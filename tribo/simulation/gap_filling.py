@@ -1,4 +1,4 @@
-"""What fills the gap, held against how fast that opens."""
+"""The rate of filling of the gap, compared with the rate of its opening."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from tribo.model.model import Model
 
 PARTS = np.logspace(-6, 0, 7)
-"""Parts of the path over which it is held against it."""
+"""Parts of the path over which filling and opening are compared."""
 MOST = 10.0
-"""Powers of e by which what is uneven may grow over the path."""
+"""Powers of e by which an unevenness may grow over the path."""
 
 
 def check_filling(model: Model, state: State) -> None:
@@ -54,14 +54,14 @@ def check_filling(model: Model, state: State) -> None:
     where = f"let it lie on the body that passes ({passing}), " if passing else ""
     raise CaseError(
         f"{states} fills the gap faster than wear opens it where the pressure is higher, so that "
-        f"the load would draw together on ever fewer points; {where}let less of what is worn stay, "
-        "or let it not fill the gap (fills = false)",
+        f"the load would concentrate on ever fewer points; {where}let less of the worn material "
+        "stay, or set fills = false",
         "effects",
     )
 
 
 def _lost(model: Model, state: State, contacts: Sequence[ContactSolution], part: float) -> Array:
-    """Return by how much the gap fills more than it opens over a part of the path, in m."""
+    """Return the filling of the gap less its opening over a part of the path, in m."""
     increment, time = part * model.end_distance, part * model.end_time
     interval = interval_from(state, increment, state.time + time)
     slid = course(model, remembered(model, state), contacts, interval)

@@ -11,7 +11,7 @@ from types import FrameType
 
 @contextmanager
 def interrupts_held() -> Iterator[threading.Event]:
-    """Yield what SIGINT and SIGTERM only set meanwhile; a second one is not held back."""
+    """Yield an event that SIGINT and SIGTERM set meanwhile; a second signal is not held back."""
     requested = threading.Event()
 
     def request(number: int, frame: FrameType | None) -> None:

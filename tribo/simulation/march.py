@@ -62,7 +62,7 @@ def begin(model: Model) -> State:
 
 
 def _stops(model: Model) -> list[float]:
-    """Return the times (s) that steps end at: saves, and where the load or the speed jumps."""
+    """Return the times (s) at which steps end: saves, and jumps of the load or the speed."""
     edges = (*model.contact.loads.edges, *model.motion.edges())
     return sorted(model.saves | {time for time in edges if 0 < time < model.end_time})
 
@@ -166,7 +166,7 @@ def _limit(model: Model) -> float:
 
 
 def _stopped(model: Model, state: State) -> State:
-    """Say whether the depth at which a run is to end has ended it."""
+    """Add the finding on whether stop.depth has ended the run."""
     limit, depth = _limit(model), _depth(model, state)
     if limit == np.inf or (depth >= limit and state.time >= model.end_time):
         return state
@@ -204,7 +204,7 @@ def _with_findings(model: Model, state: State) -> State:
 
 
 def _concluded(model: Model, state: State) -> State:
-    """Say what the averaging has come to by the end, in place of what it began with."""
+    """Replace the finding on averaging at the beginning by the finding at the end."""
     if finding := coarse_cycle(model, state):
         state = state.with_findings(finding)
     if not state.has_finding("chattering") and (finding := peak_at_the_edge(state)):

@@ -1,4 +1,4 @@
-"""How much memory a case takes, and how much there is."""
+"""The memory that a case needs, and the memory available."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ FIELDS = 88
 83 were measured, where a ball's contact grows until it fills the window: 768² cells.
 """
 FIELDS_IF_PLASTIC = 16
-"""What yielding takes besides; 14 were measured."""
+"""Further arrays for yielding; 14 were measured."""
 FIELDS_PER_FIELD = 8
-"""What each state field of a law, or each field of an effect, takes besides; 7 were measured."""
+"""Further arrays for each state field of a law or field of an effect; 7 were measured."""
 FIELDS_PER_POSITION = 40
-"""What each position of a resolved cycle takes; 38 were measured, of a body in layers."""
+"""Further arrays for each position of a resolved cycle; 38 were measured, with layers."""
 BESIDES = 24 * 2.0**20
-"""What does not grow with the grid, in bytes; 18 MiB were measured."""
+"""Memory independent of the grid, in bytes; 18 MiB were measured."""
 
 
 def memory_needed(

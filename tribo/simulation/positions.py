@@ -25,14 +25,14 @@ from tribo.stepping.explicit import Explicit
 from tribo.stepping.first_contact import first_contact
 
 LENGTHS = 20.0
-"""Lengths of the first contact from which on a stroke is averaged.
+"""Lengths of the first contact above which a stroke is averaged.
 
-That makes the groove of the paper's load and path 3 % too deep, beside 97 positions.
+The average makes the groove of the paper's load and path 3 % deeper than 97 positions.
 """
 NEARLY = 2 / 3
-"""Of the cells of a stroke, from which on all of them are taken."""
+"""Part of the cells of a stroke above which positions are at all of them."""
 SPARE = 0.85
-"""Of half a half-width, between two positions: coarser grids still take as many."""
+"""Distance of positions over half a half-width, so that coarser grids take as many."""
 MUST = "the load changes along the stroke"
 UNEVEN = "what passes is not the same all along"
 FEWEST, MOST = 9, 1001
@@ -104,11 +104,10 @@ def chosen(case: Case, model: Model) -> dict[str, Any]:
 
 
 def alike(cases: Mapping[str, Case]) -> dict[str, Case]:
-    """Return cases of which those that leave their positions open have them chosen alike.
+    """Return cases with open positions chosen alike.
 
-    Those that are resolved take as many as the one that needs most; those of long strokes stay
-    averaged. If one cannot be resolved all take the average; the other of the two if that is
-    refused.
+    Resolved cases take the largest number that any of them needs; long strokes stay averaged. If a
+    case cannot be resolved all take the average; the other choice if the average is refused.
     """
     left = {label: case for label, case in cases.items() if is_open(case)}
     models = {label: composed(case) for label, case in left.items()}
@@ -167,7 +166,7 @@ def _cells(case: Case, stroke: float) -> int:
 def _first_half_width(model: Model) -> float | None:
     """Return half the length along x of the first contact, in m; None where it cannot be solved.
 
-    That of Hertz where the bodies have one, so that it does not follow the grid.
+    By Hertz where the bodies have such a contact, so that it does not depend on the grid.
     """
     try:
         hertz = hertz_half_width(model.contact.system)
@@ -177,7 +176,7 @@ def _first_half_width(model: Model) -> float | None:
 
 
 def _spacing(model: Model, stroke: float, half_width: float) -> float:
-    """Return the most distance (m) between positions: for the form, as asperities wear off."""
+    """Return the largest distance (m) between positions, for the form without asperities."""
     apart, dx = 0.5 * SPARE * half_width, model.grid.spacing[0]
     if _goes_round(model, stroke, half_width):
         return 0.5 * dx

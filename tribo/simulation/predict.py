@@ -45,13 +45,13 @@ from tribo.stepping.step import start_sliding
 from tribo.wear.law import WearLaw
 
 MARGINS = (1.5, 1.0)
-"""Edges of the windows to try, in those of the case: the contact may outgrow its own."""
+"""Edges of the windows to try, relative to the case's: the contact may outgrow its window."""
 LOOSE = Implicit(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
 COARSE = 72
 LONGER, FINER, SHARED = 6.5, 0.25, 0.7
-"""Time of a run over its coarse trial's, what more cells add, and the power of more positions.
+"""Time of a run over its coarse trial's, the addition by more cells, and the power of positions.
 
-Ten templates and the resolved hour take 0.6 to 1.5 times what this says.
+Ten templates and the resolved hour take 0.6 to 1.5 times this estimate.
 """
 BARE_FILE = 1e6
 
@@ -61,14 +61,14 @@ class Prediction:
     """An estimate of a run before it is made.
 
     `first` is the first contact, `hertz` the same by Hertz's theory, `last` the end of a run on a
-    coarse grid in a wider window, good to some percent. `problems` says what will go wrong, each
-    with its remedy, `exit_code` with which `tribo run` would end. What is not known is None.
+    coarse grid in a wider window, good to some percent. `problems` are expected failures, each with
+    its remedy, `exit_code` is the code of `tribo run`. Unknown values are None.
     """
 
     first: Measures
     hertz: HertzContact | None
     hertz_bounds: tuple[HertzContact, HertzContact] | None
-    """Of coated bodies: those without the layer, and those of the layer throughout."""
+    """For coated bodies: contacts without the layer, and of the layer throughout."""
     cells_across: tuple[float, float] | None
     last: Measures | None
     worn_through: tuple[Mapping[str, Any], ...]
@@ -76,18 +76,18 @@ class Prediction:
     positions: int
     """Of a cycle in which the contact is solved; 1 for an average."""
     positions_for_1_percent: int | None
-    """Those that wear the groove of the first contact evenly to 1 % of its depth."""
+    """Positions that wear the groove of the first contact evenly to 1 % of its depth."""
     memory: float
     file_size: float
     """In bytes, as the memory; upper estimates."""
     run_time: float | None
     """In s on this machine, to a factor of about 3; of implicit steps alone."""
     facts: Mapping[str, Mapping[str, str]]
-    """What components state of themselves, by their place in the case."""
+    """The facts of components, by their place in the case."""
     problems: tuple[Finding, ...]
     exit_code: int
     stops: str | None
-    """What is doubted, and then what the run stops on, as in its message."""
+    """Warnings, and then the error that stops the run, as in its message."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ class CoarseRun:
     """The end of a coarse run, why its average fails then, and why it has no end.
 
     Its contact outgrew the case's window at `outgrown`, in s; None if it did not. An error
-    `on_any_cells` is one of the case or of a component.
+    `on_any_cells` is due to the case or a component.
     """
 
     last: Measures | None
@@ -165,9 +165,9 @@ def predict(model: Model) -> Prediction:
 def _stopping(
     model: Model, state: State, coarse: CoarseRun, *, window_holds: bool | None
 ) -> tuple[list[tuple[int, Finding]], Finding | None]:
-    """Return what would end a run, with its exit codes, and a warning of its steps.
+    """Return the findings that would end a run, with exit codes, and a warning of its steps.
 
-    In the order in which a run would come upon them.
+    They are in the order in which a run would reach them.
     """
     stopping, warned, end = list[tuple[int, Finding]](), None, model.end_time
     try:
@@ -207,7 +207,7 @@ def _worn(model: Model, coarse: Model, state: State, watch: Watch) -> tuple[Stat
 
 
 def _run_time(model: Model, coarse: Model, took: float) -> float:
-    """Return how long a run will take, from its coarse trial."""
+    """Return the duration of a run, from its coarse trial."""
     # Of neighbouring positions some are solved at once, or hardly change.
     longer: float = (len(model.cycle) / len(coarse.cycle)) ** SHARED
     cells, fewer = (nx * ny for nx, ny in (model.grid.cells, coarse.grid.cells))
@@ -230,7 +230,7 @@ def _inside(model: Model, measures: Measures) -> bool:
 
 
 def _coarse_run(model: Model, first: Measures) -> CoarseRun:
-    # What has worn on one grid is not known on another.
+    # The wear on one grid is unknown on another.
     if not model.case.contact.accepts_wear_compliance or model.case.begin is not None:
         return CoarseRun(None)
     failed: CaseError | NumericalError | None = None

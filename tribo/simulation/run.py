@@ -102,7 +102,7 @@ class Simulation:
         output : str or Path, optional
             Result file to write; in memory if left out.
         observers : sequence of Observer, optional
-            Watchers besides those of the case.
+            Watchers besides the observers of the case.
         overwrite : bool, optional
             Whether an existing file may be replaced.
 
@@ -131,25 +131,25 @@ class Simulation:
         observers: Sequence[Observer] = (),
         allow_changed: bool = False,
     ) -> Result:
-        """Go on with a run that was stopped, from its checkpoint.
+        """Continue a run that was stopped, from its checkpoint.
 
-        The result has the same bits as that of an uninterrupted run.
+        The result has the same bits as the result of an uninterrupted run.
 
         Parameters
         ----------
         output : str or Path
             The result file of the stopped run.
         observers : sequence of Observer, optional
-            Watchers besides those of the case.
+            Watchers besides the observers of the case.
         allow_changed : bool, optional
-            Go on although a component's class or version is not that of the
-            stopped run, and say so in the result.
+            Whether to continue with a component of another class or version
+            than in the stopped run; the result reports it.
 
         Raises
         ------
         CaseError
-            If the file is not that of a stopped run of this case, or a
-            component has changed; and what `run` raises.
+            If the file is not from a stopped run of this case, or a component
+            has changed; and the errors of `run`.
         """
         return self.reopen(output, observers=observers, allow_changed=allow_changed)()
 
@@ -160,10 +160,10 @@ class Simulation:
         observers: Sequence[Observer] = (),
         allow_changed: bool = False,
     ) -> Callable[[], Result]:
-        """Read the checkpoint of a stopped run, and return what goes on from it.
+        """Read the checkpoint of a stopped run, and return a function that continues it.
 
-        Parameters and errors are those of `resume`; what is returned raises
-        those of the run itself.
+        Parameters and errors are as in `resume`; the function raises the errors of
+        the run itself.
         """
         path = Path(output)
         with Result.open(path) as result:
@@ -208,10 +208,9 @@ class Simulation:
         )
 
     def changed_since(self, result: Result) -> list[tuple[str, str, str]]:
-        """Return the place of each component that is not the one a result was made with.
+        """Return the place of each component that has changed since a result.
 
-        With it, in words, which it was and which it is now; the result that a run begins with
-        counts too.
+        With it, in words, the component then and now; the result that a run begins with counts too.
         """
         changes = changed_components(result.provenance, self._provenance())
         begun, begin = result.provenance.get("begun_with"), self.model.case.begin
@@ -331,13 +330,13 @@ def _announce(before: Sequence[Finding], after: Sequence[Finding]) -> None:
 
 
 def _held(path: Path) -> str:
-    """Return what an existing file is, as the end of a sentence."""
+    """Return a description of an existing file, as the end of a sentence."""
     with suppress(CaseError), Result.open(path) as result:
         if result.status == "running":
-            return "is written by a run that goes on"
+            return "is written by a run in progress"
         if result.status != "done":
             rest = RunFolder(path.resolve()).path
-            how = f"tribo resume {path} goes on with it" if rest.is_dir() else f"without {rest}"
+            how = f"tribo resume {path} continues it" if rest.is_dir() else f"without {rest}"
             return f"holds a run that is {result.status} ({how})"
     return "exists"
 

@@ -34,7 +34,7 @@ SEAM = 4
 
 
 def unusual(case: Case) -> list[Finding]:
-    """Return a question about each quantity of a case that is out of its usual range."""
+    """Return a finding for each quantity of a case that is out of its usual range."""
     found: dict[str, Finding] = {}
     for place, value, mark in leaves(case):
         if not (mark and mark.usual and isinstance(value, float)):
@@ -77,14 +77,14 @@ def few_cells(model: Model, first: ContactSolution) -> Finding | None:
 
 @hookimpl(trylast=True)
 def tribo_findings(model: Model) -> list[Finding]:
-    """Say where surfaces do not repeat with the window, and of a path that is no whole track."""
+    """Report surfaces that do not repeat with the window, and a path that is no whole track."""
     return [each for each in (broken_period(model), short_of_a_lap(model)) if each]
 
 
 def findings_of(model: Model, half_width_x: float) -> list[Finding]:
-    """Return what the kernel and packages have to say of a case.
+    """Return the findings of the kernel and of packages on a case.
 
-    It is given with half the length of its first contact, in m.
+    `half_width_x` is half the length of its first contact, in m.
     """
     own, types = sys.modules[__name__], {each.type for _, each in components(model.case)}
     given = {"model": model, "half_width_x": half_width_x}
@@ -104,7 +104,7 @@ def broken_period(model: Model) -> Finding | None:
 
 
 def _jump(height: Array) -> float:
-    """Return the height by which the last row misses the first one as next; 0 if it goes on."""
+    """Return the jump of the height from the last row to the first; 0 if it is periodic."""
     steps = np.diff(height, axis=0, append=height[:1])
     bends = steps - 0.5 * (np.roll(steps, 1, axis=0) + np.roll(steps, -1, axis=0))
     # Those beside the last step have it in them.
@@ -116,7 +116,7 @@ def _jump(height: Array) -> float:
 
 
 def too_wide(model: Model, measures: Measures) -> list[Finding]:
-    """Return a finding for each body of which the contact is too wide for a half-space."""
+    """Return a finding for each body whose contact is too wide for a half-space."""
     widths = (measures.half_width_x, measures.half_width_y)
     found = []
     for name, surface in model.surfaces.items():
@@ -190,12 +190,12 @@ def track_average(model: Model, state: State) -> tuple[float, float, float, floa
 
 
 def is_endless(model: Model, half_width: float) -> bool:
-    """Whether the contact goes on into the next period of what repeats along x."""
+    """Whether the contact extends into the next period along x."""
     return model.case.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - ROUND_OFF)
 
 
 def coarse_cycle(model: Model, state: State) -> Finding | None:
-    """Return a finding if the positions of the cycle are so few that the depths are 5 % off."""
+    """Return a finding if the positions of the cycle are too few for depths within 5 %."""
     error = cycle_error(model, state)
     if error <= findings.COARSE:
         return None

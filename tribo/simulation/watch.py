@@ -1,4 +1,4 @@
-"""What models and observers add to a state: numbers, warnings, a reason to stop."""
+"""Numbers, warnings and reasons to stop, from models and observers at a state."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ OWN = {column.name for column in (*COLUMNS, *BODY_COLUMNS, *ROUGHNESS_COLUMNS)}
 
 
 class Watch:
-    """The models and observers that have columns or findings, and what they have said so far.
+    """The models and observers that have columns or findings, and their findings so far.
 
-    Besides those of the case, they are what a motion brings along, and `observers`. `CaseError` if
-    a column has the name of another, or of one that every result has.
+    They come from the case, from its motion, and from `observers`. `CaseError` if a column has the
+    name of another column, or of a column of every result.
     """
 
     def __init__(self, model: Model, observers: Sequence[Observer] = ()) -> None:
@@ -59,7 +59,7 @@ class Watch:
         self._asked |= dict.fromkeys(keys, (guard, column))
 
     def snapshot(self, state: State) -> Snapshot:
-        """Return a state with its measures; where any is asked, with fields and columns too."""
+        """Return a state with its measures; with fields and columns too where any is read."""
         last = self._last
         if last is not None and _is_same(last.state, state):
             return replace(last, state=state)
@@ -82,7 +82,7 @@ class Watch:
         return snapshot
 
     def told(self, state: State) -> State:
-        """Return the state with what there is to say of it, each kind once at a place."""
+        """Return the state with its findings, each kind once at a place."""
         for finding in self._findings(state):
             if (finding.kind, finding.place) not in {(f.kind, f.place) for f in state.findings}:
                 state = state.from_here(finding)
@@ -94,7 +94,7 @@ class Watch:
         return any(finding.kind == "stop" for finding in self._findings(state))
 
     def _findings(self, state: State) -> Iterator[Finding]:
-        """Yield what there is to say of a state, with its place."""
+        """Yield the findings on a state, with their places."""
         for place, component in self._speakers:
             guard, seen = Guard(component), view(self.snapshot(state))
             for answer in guard.ask(_said, component, seen):
@@ -103,7 +103,7 @@ class Watch:
 
 
 def _is_same(one: State, other: State) -> bool:
-    """Whether two states differ in what is said of them alone."""
+    """Whether two states differ in their findings alone."""
     parts = one.bodies is other.bodies and one.contacts is other.contacts
     return parts and one.time == other.time
 

@@ -53,7 +53,7 @@ def solve_cycle(
 
 
 def extrapolated(state: State) -> Sequence[ContactSolution]:
-    """Return contacts to start from, with pressures that change as in the last step."""
+    """Return contacts to start solves from, with pressures that change as in the last step."""
     if not state.previous:
         return state.contacts
     starts = []
@@ -90,7 +90,7 @@ def counted(state: State, contacts: Sequence[ContactSolution]) -> State:
 
 
 def solved_anew(model: Model, state: State, loads: ByPosition) -> State:
-    """Return `state` with its contacts solved under other loads (N), and nothing worn."""
+    """Return `state` with its contacts solved under other loads (N), without wear."""
     gaps = undeformed(model, state)
     contacts = solve_cycle(model, gaps, loads, state.contacts, state.bodies)
     model.tell(Solved(contacts))
@@ -147,7 +147,7 @@ def _mirrored(contact: ContactSolution) -> ContactSolution:
 
 
 def _symmetric(contact: ContactSolution) -> ContactSolution:
-    """Return the mean of a contact and its mirror image: what rounding made of it goes."""
+    """Return the mean of a contact and its mirror image, which removes rounding errors."""
     pressure = 0.5 * (contact.pressure + contact.pressure[::-1])
     overlap = 0.5 * (contact.overlap + contact.overlap[::-1])
     return replace(contact, pressure=readonly(pressure), overlap=readonly(overlap))

@@ -45,7 +45,7 @@ class Explicit(Scheme):
     time_step: Annotated[float, Quantity("s", above=0)]
     """Length of a step."""
     allow_unstable: bool = False
-    """Go on beyond the stability limit, at your own risk."""
+    """Whether steps may exceed the stability limit, at your own risk."""
 
     @property
     def may_oscillate(self) -> bool:
@@ -55,7 +55,7 @@ class Explicit(Scheme):
     def check(self, model: Model, state: State) -> Finding | None:
         """Check the first step; see `Scheme.check`.
 
-        `CaseError` if steps are too short to come to an end, or the first is not stable.
+        `CaseError` if steps are too short for the run to end, or the first step is unstable.
         """
         steps = model.end_time / self.time_step
         if steps > MOST_STEPS:
@@ -77,7 +77,7 @@ class Explicit(Scheme):
     def slide(self, model: Model, state: State, target: float, until: float) -> State:
         """Return the state at `target` (m); see `Scheme.slide`.
 
-        `CaseError` if the step is beyond the stability limit, and the case does not allow it.
+        `CaseError` if the step exceeds the stability limit and the case does not allow it.
         """
         increment = target - state.distance
         moment = interval_from(state, increment, until).end
@@ -115,7 +115,7 @@ class Explicit(Scheme):
             raise CaseError(
                 f"contact.type = {model.case.contact.type!r} does not state its smallest "
                 "compliance, so the stability of explicit steps cannot be checked; set "
-                "stepping.allow_unstable = true to go on without",
+                "stepping.allow_unstable = true to run without the check",
                 PLACE,
             )
         increment, dt = moment.distance - state.distance, moment.time - state.time
@@ -132,7 +132,7 @@ class Explicit(Scheme):
 
 
 def rated(model: Model, state: State, moment: Moment) -> State:
-    """Return `state` with the rates of its contact, asked for unless it has them."""
+    """Return `state` with the rates of its contact, computed unless it has them."""
     if state.rates:
         return state
     return replace(state, rates=wear_rates(model, state.contacts, remembered(model, state), moment))
@@ -142,11 +142,11 @@ def largest_stable_increment(model: Model, state: State, moment: Moment) -> floa
     """Return the increment below which forward Euler is stable, in m.
 
     Δs λ < 2, with λ bounded from above by the largest derivative of the wear
-    rate (local, plus that of a swept body times the part of the track that is
-    in contact) over the smallest compliance. The derivative is that of the
-    law, or what is found by difference, if more: only so does it hold what
-    comes through fields that follow the pressure. None where the contact solver
-    does not state its smallest compliance; infinity where nothing wears.
+    rate (local, plus the derivative of a swept body times the part of the track
+    in contact) over the smallest compliance. The derivative is the larger of the
+    law's and a difference, which includes fields that follow the pressure.
+    None where the contact solver does not state its smallest compliance;
+    infinity where nothing wears.
     """
     smallest = model.contact.solver.smallest_compliance(model.contact.system)
     if smallest is None:
@@ -168,7 +168,7 @@ def _steepest(model: Model, rates: Mapping[str, WearRate], contact: ContactSolut
 
 
 def _steepened(model: Model, state: State, rates: CycleRates, moment: Moment) -> CycleRates:
-    """Return `rates` with the derivative in all, where laws follow the fields of effects."""
+    """Return `rates` with the total derivative where laws follow the fields of effects."""
     shared = model.laws.slips_locally or model.laws.shares_load
     following = [name for name, law in model.laws.wear.items() if shared or law.requires]
     if not model.laws.effects or not following:
@@ -185,7 +185,7 @@ def _steepened(model: Model, state: State, rates: CycleRates, moment: Moment) ->
 
 
 def _extrapolated(state: State) -> Sequence[ContactSolution]:
-    """Return the contacts as if they went on to change by as much as in the last step."""
+    """Return the contacts after another change as large as in the last step."""
     if not state.previous:
         return state.contacts
     return [

@@ -1,4 +1,4 @@
-"""The contact before anything slides."""
+"""The contact before any sliding."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def first_contact(
 
 
 def _solved(model: Model, state: State, gaps: Sequence[Array]) -> State:
-    """Return `state` in contact, with what yields then, from gaps (m) before."""
+    """Return `state` in contact and yielded, from the gaps (m) before contact."""
     solutions: dict[tuple[int, float], ContactSolution] = {}
     loads = model.loads(state).after(0.0)
     asked = [(id(gap), load) for gap, load in zip(gaps, loads, strict=True)]
@@ -115,6 +115,6 @@ def _unworn(model: Model) -> dict[str, BodyState]:
 
 
 def first_law_state(model: Model, name: str, wear: Array) -> dict[str, Array]:
-    """Return what the law of a body remembers before anything slides, shaped as its `wear`."""
+    """Return the state of a body's law before any sliding, shaped as its `wear`."""
     first = model.laws.wear[name].own_state if name in model.laws.wear else {}
     return {field: np.full_like(wear, value) for field, value in first.items()}

@@ -44,30 +44,30 @@ VOLUME = 5.0
 """Error of the volume that a step wears, in depth tolerances: a body ends with 0.1 to 0.4 % too
 little at the default."""
 LATE = 0.003
-"""Depth of a step, of the depth worn so far, below which its volume need not be as exact."""
+"""Depth of a step over the depth worn so far, below which its volume need not be as exact."""
 SAFETY = 0.9
 SHRINK, GROW = 0.2, 2.5
 MAX_REJECTIONS = 40
 AT_REST, FEW = 1e-9, 3
-"""Of the distance until the next stop, what a step slides that is one over a rest; and the steps
-rejected in a row, while the load changes, after which one is looked for."""
+"""Sliding distance of a step over a rest, over the distance until the next stop; and the steps
+rejected in a row, while the load changes, after which such a step is tried."""
 LEFT_OVER = 0.02
-"""What passes may leave over of the gap, in pressure tolerances, of what the bodies give way."""
+"""Change of the gap that passes may leave, in pressure tolerances times the deformation."""
 ROUND, ALIKE = 3, 1e-3
-"""Mismatches in a row that are each as large as two passes before, to this part, where passes go
-round and will not converge."""
+"""Mismatches in a row, each as large as two passes before to this relative difference, after
+which passes circle and will not converge."""
 
 
 class StepRejected(NumericalError):
-    """A step was too long to be carried out; a shorter one may do."""
+    """A step was too long; a shorter step may succeed."""
 
 
 @dataclass(frozen=True)
 class Trial:
     """The state after a backward Euler step, and what forward Euler would have worn.
 
-    `forward` has the depth by body, on the body's surface, in m; `contacts` are those that the
-    bodies wore under in their `course`.
+    `forward` has the depth by body, on the body's surface, in m; `contacts` are the contacts under
+    which the bodies wore in their `course`.
     """
 
     state: State
@@ -82,10 +82,10 @@ class Trial:
 
 @dataclass(frozen=True)
 class Guess:
-    """What a step would wear if its contacts were these.
+    """The wear of a step under given contacts.
 
-    `worn` has the depth by body, on the body's surface; `depths` what it adds to the gap at each
-    position, and `filled` what fills it, of the shape (positions, nx, ny), in m.
+    `worn` has the depth by body, on the body's surface; `depths` the depth added to the gap at each
+    position, and `filled` the height that fills it, of the shape (positions, nx, ny), in m.
     """
 
     contacts: Sequence[ContactSolution]
@@ -112,7 +112,7 @@ class Implicit(Scheme):
     """How exactly it does over the positions of a resolved cycle: the mean error of the depth,
     weighted with the load, relative to the largest depth that it wears."""
     max_passes: Annotated[int, Field(ge=1, le=1000)] = 60
-    """Solves a step may take to do so; more rejects it."""
+    """Largest number of solves in a step; a step that needs more is rejected."""
 
     needs_wear_compliance: ClassVar[bool] = True
 
@@ -137,7 +137,7 @@ class Implicit(Scheme):
                     break
                 changes = load_changes(model, state, trial.state)
                 if changes and increment < AT_REST * target and depth <= 1:
-                    # The load goes on to change over a rest, however short the step.
+                    # The load changes over a rest, however short the step.
                     return replace(
                         trial.ended(model, state),
                         increment=0.0,
@@ -172,10 +172,10 @@ class Implicit(Scheme):
         The step's wear enters the contact problem as compliance; where that is
         not the law's exact wear (a law not linear in pressure, a field that
         depends on it), the remainder is put into the gap and the solve repeated
-        until it is. It is that under the mean load of the step, so that the volume
-        is that of a load which changes along it; the contact it ends with is
-        solved anew under the load at its end. `StepRejected` if the passes or a
-        solve do not converge.
+        until they agree. The step wears under its mean load, so that the volume is
+        right for a load that changes along it; the contact at its end is solved
+        again under the load there. `StepRejected` if the passes or a solve do not
+        converge.
         """
         interval = interval_from(state, increment, time)
         resolved = len(model.cycle) > 1
@@ -242,18 +242,18 @@ class Implicit(Scheme):
     def _errors(self, model: Model, before: State, trial: Trial) -> tuple[float, float, float]:
         """Return the step's depth, pressure and volume errors as multiples of their tolerances.
 
-        The local error of backward Euler in depth is half of what its wear
-        differs from forward Euler's. It is weighted with the load, since the
+        The local error of backward Euler in depth is half the difference between
+        its wear and forward Euler's. It is weighted with the load, since the
         largest difference is always at newly touched edge cells, and compared
         with the depth worn so far (and a part of the first approach, below which
         wear does not alter the contact). The pressure lags by about a quarter of
         the relative increment of distance, so its load-weighted relative change
         Σ|Δp|/Σp is limited too.
 
-        Where a body wore too little in depth, the load goes elsewhere and mends
-        it: errors of depth do not add up. Those of volume do, for a law that is
-        not linear in pressure or that remembers, and all have one sign. So the
-        volume's is compared with what the step itself wears.
+        Where a body wore too little in depth, the load shifts there and corrects
+        it: errors of depth do not add up. Errors of volume add up, with one sign,
+        for a law that is not linear in pressure or has a state. So the error of
+        the volume is compared with the volume that the step itself wears.
         """
         after, contacts = trial.state, trial.state.contacts
         shares = [position.share for position in model.cycle]
@@ -288,7 +288,7 @@ class Implicit(Scheme):
 
 
 def _factor(depth: float, pressure: float, volume: float) -> float:
-    """Return by how much the next increment may differ, by the errors of a step."""
+    """Return the factor for the next increment, by the errors of a step."""
     # The depth error of a step grows as its square, the two others in proportion.
     wanted = SAFETY * min(
         1 / math.sqrt(depth) if depth > 0 else math.inf,
@@ -299,7 +299,7 @@ def _factor(depth: float, pressure: float, volume: float) -> float:
 
 
 def _deformed(contacts: Sequence[ContactSolution], gaps: Array) -> float:
-    """Return by how much the bodies give way where they touch most, in m."""
+    """Return the largest deformation of the bodies, in m."""
     return _largest(
         np.where(contact.pressure > 0, contact.approach - gap, 0.0)
         for contact, gap in zip(contacts, gaps, strict=True)
@@ -307,16 +307,16 @@ def _deformed(contacts: Sequence[ContactSolution], gaps: Array) -> float:
 
 
 def _circles(mismatches: Sequence[float]) -> bool:
-    """Whether passes go to and fro between two guesses, as at kinks of the wear over pressure."""
+    """Whether passes alternate between two guesses, as at kinks of the wear over pressure."""
     latest, before = mismatches[-ROUND:], mismatches[-ROUND - 2 : -2]
     pairs = list(zip(before, latest, strict=False))
     return len(pairs) == ROUND and all(abs(b - a) <= ALIKE * a for a, b in pairs)
 
 
 def _fitted(natural: float, remaining: float, last: float) -> float:
-    """Return the increment to take with `remaining` metres to go.
+    """Return the next increment with `remaining` metres to go.
 
-    They are halved down to `last` metres, which lets the pressure catch up with the wear.
+    Increments are halved down to `last` metres, which lets the pressure catch up with the wear.
     """
     increment = min(natural, max(0.5 * remaining, last)) if last else natural
     if remaining <= increment * (1 + ROUND_OFF):
@@ -332,7 +332,7 @@ def _guess(
     slid: Course,
     increment: float,
 ) -> Guess:
-    """Return what a step comes to under `contacts`; `height` (m) is what filled the gap before."""
+    """Return the wear of a step under `contacts`; `height` (m) filled the gap before it."""
     worn = worn_depths(model, slid.rates, increment)
     depths = np.zeros((len(contacts), *model.grid.cells))
     for position, depth in enumerate(depths):
@@ -343,7 +343,7 @@ def _guess(
 
 
 def _first_increment(model: Model, state: State, remaining: float) -> float:
-    """Return a first increment that wears a small part of the elastic approach, in m."""
+    """Return a first increment, in m, that wears a small part of the elastic approach."""
     moment = Moment(state.time, state.distance, remaining / (model.end_time - state.time))
     rates = wear_rates(model, state.contacts, remembered(model, state), moment)
     fastest = _largest(rate.depth_rate for of_bodies in rates for rate in of_bodies.values())

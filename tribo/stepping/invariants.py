@@ -26,12 +26,12 @@ if TYPE_CHECKING:
 
 LOAD = 1e-6
 CONDITIONS = 1e-2
-"""Looser than any tolerance that a solver of tribo can be given."""
+"""Largest residual of the contact conditions: looser than any solver's tolerance."""
 VOLUME = 1e-6
 SMALL = 1e-9
-"""Part of the volume worn so far below which that of a step drowns in rounding."""
+"""Volume of a step over the volume worn so far, below which rounding dominates it."""
 ONE_LOAD = 1e-3
-"""Relative change of the load from which on it, and not chattering, moves the pressure."""
+"""Relative change of the load above which the load, not chattering, moves the pressure."""
 
 _SOLVER = "tighten the tolerance of the contact solver, or choose another (contact.type)"
 _MOTION = "that is a fault of the kinematics; 'tribo plugins check' tests it"
@@ -44,10 +44,10 @@ def wear_balance(
     increment: float,
     before: State,
 ) -> Invariants:
-    """Hold what a step wears away against what the laws ask for.
+    """Compare the volume worn in a step with the volume by the laws.
 
-    The volume that a body loses, of which `worn` has the depth by body in m, is the integral over
-    the contact of the depth per metre times the increment, however the body meets the contact.
+    The volume that a body loses must be the integral over the contact of the depth per metre times
+    the increment, however the body meets the contact. `worn` has its depth by body, in m.
     """
     volumes, regrowths = [0.0], [0.0]
     for name, depth in worn.items():
@@ -60,18 +60,18 @@ def wear_balance(
             asked = max(asked, SMALL * exposure.volume(before.bodies[name].wear))
         volumes.append(error / asked if asked != 0 else error)
         regrowths.append(0.0 - float(np.min(depth)))
-    # Unlike that of Python, the maximum of numpy is NaN if a value is.
+    # Unlike Python's, the maximum of numpy is NaN if a value is.
     return Invariants(volume=float(np.max(volumes)), regrowth=float(np.max(regrowths)))
 
 
 def hold(model: Model, before: State | None, after: State) -> State:
-    """Return `after` with how well the invariants hold; there is no `before` of the first contact.
+    """Return `after` with its invariants; `before` is None for the first contact.
 
     Raises
     ------
     NumericalError
-        If one does not hold, with the step, by how much, and a remedy. That the pressure chatters
-        is a finding only where the case allows unstable steps.
+        If one does not hold, with the step, the deviation and a remedy. Chattering pressure is a
+        finding instead where the case allows unstable steps.
     """
     if before is not None:
         after = replace(after, previous=tuple(each.pressure for each in before.contacts))
@@ -89,7 +89,7 @@ def hold(model: Model, before: State | None, after: State) -> State:
 
 
 def broken_by(state: State) -> str | None:
-    """Say what does not hold in `state`, by how much, and what to do; chattering apart."""
+    """Name the broken invariant of `state`, its deviation and a remedy; chattering apart."""
     lost = _not_finite(state)
     if lost is not None:
         return f"the {lost} is not finite; find what diverges: a wear law, or the kinematics"
@@ -115,7 +115,7 @@ def handed_back(first: Array, second: Array, third: Array) -> float:
     """Return the share of the load that goes to other cells in one step and back in the next.
 
     The pressures are one step apart, under one load. An unstable mode changes its sign at every
-    step; roughness, however fine, wears off one way.
+    step; the pressure on fine roughness changes monotonically.
     """
     low, high = np.minimum(first, third), np.maximum(first, third)
     # What `second` lies outside the range of the two others; each share leaves one cell for
@@ -137,7 +137,7 @@ def _one_load(previous: Sequence[Array], before: State, after: State) -> bool:
 
 
 def _chattering(before: Array, between: ContactSolution, after: ContactSolution) -> float:
-    """Return what is handed back at a position, with the pressure (nx, ny) two steps ago."""
+    """Return `handed_back` at a position, with the pressure (nx, ny) two steps ago."""
     # Where neither of the last two presses, nothing comes back.
     near = union(between.extent, after.extent)
     return handed_back(before[near], between.pressure[near], after.pressure[near])

@@ -25,9 +25,9 @@ class LinearWear:
     Parameters
     ----------
     alone : sequence of WearCompliance or None
-        By position, what its own pressure wears; where the positions are coupled, none.
+        The wear by the position's own pressure, by position; None where positions are coupled.
     coupling : CycleCompliance or None
-        What the pressures of all positions wear at each.
+        The wear at each position by the pressures of all.
     """
 
     alone: Sequence[WearCompliance | None]
@@ -50,7 +50,7 @@ class LinearWear:
 def linear_wear(
     model: Model, rates: CycleRates, contacts: Sequence[ContactSolution], increment: float
 ) -> LinearWear:
-    """Return the wear over `increment` (m), linear in the pressures about those of `contacts`."""
+    """Return the wear over `increment` (m), linearised about the pressures of `contacts`."""
     if model.couples:
         return LinearWear([None] * len(contacts), _coupling(model, rates, contacts, increment))
     return LinearWear(

@@ -70,7 +70,7 @@ def measure(model: Model, state: State) -> Measures:
 
 
 def _roughness(model: Model, name: str, state: State) -> dict[str, float]:
-    """Return the roughness of a body within the contact; empty of one that is smooth at first."""
+    """Return the roughness of a body within the contact; empty if it is smooth at first."""
     if name not in model.rough:
         return {}
     body, middle = state.bodies[name], len(model.cycle) // 2
@@ -80,10 +80,10 @@ def _roughness(model: Model, name: str, state: State) -> dict[str, float]:
 
 
 def cycle_error(model: Model, state: State) -> float:
-    """Return the estimated error of the depths, as the cycle has no more positions than it has.
+    """Return the estimated error of the depths due to the number of positions of the cycle.
 
-    It is the mean over the contact, weighted with the load, relative to the body's deepest wear, of
-    the body where that is most; 0 where the cycle has every cell, or is not resolved.
+    It is the load-weighted mean over the contact, relative to the body's deepest wear, for the body
+    with the largest error; 0 where the cycle has every cell, or is not resolved.
     """
     worst = 0.0
     for name, body in state.bodies.items():

@@ -1,4 +1,4 @@
-"""Plastic depth: what yields in contact, and the groove that it leaves along a track."""
+"""Plastic depth: the yielding in contact, and the groove that it leaves along a track."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def yielded(
     contacts: Sequence[ContactSolution],
     places: Sequence[int],
 ) -> dict[str, BodyState]:
-    """Return the bodies with what yields at some positions, once where these overlap."""
+    """Return the bodies after yielding at some positions, counted once where these overlap."""
     if not yields(contacts):
         return dict(bodies)
     model.tell(Yielded(places))
@@ -76,7 +76,7 @@ def settled(model: Model, state: State, loads: ByPosition) -> State:
         state = replace(state, bodies=yielded(model, drawn, state.contacts, everywhere))
     raise NumericalError(
         f"at {state.distance:.6g} m the groove still yields after {SETTLE_PASSES} passes of the "
-        f"contact, by {still:.2g} m a pass: sliding under {max(loads):g} N does not come to rest "
-        f"at a hardness of {1e-9 * (model.contact.system.cap or 0):g} GPa; lower load.normal, or "
-        "set contact.plasticity = false"
+        f"contact, by {still:.2g} m a pass, under {max(loads):g} N at a hardness of "
+        f"{1e-9 * (model.contact.system.cap or 0):g} GPa; lower load.normal, or set "
+        "contact.plasticity = false"
     )

@@ -1,4 +1,4 @@
-"""How a run moves on in time: what both ways have in common."""
+"""The scheme of integration in time: what both schemes share."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Scheme(Table, ABC):
         return False
 
     def check(self, model: Model, state: State) -> Finding | None:
-        """Return what is wrong with the first step from `state`; `CaseError` if it is refused."""
+        """Return a finding on the first step from `state`; `CaseError` if it is refused."""
         return None
 
     def advance(self, model: Model, state: State, until: float) -> State:
@@ -53,7 +53,7 @@ class Scheme(Table, ABC):
         return self.slide(model, start_sliding(model, state), target, time)
 
     def next_time(self, state: State, until: float) -> float:
-        """Return the time (s) up to which it may slide or rest, `until` (s) at the latest."""
+        """Return the time (s) at which the step must end, `until` (s) at the latest."""
         return until
 
     @abstractmethod

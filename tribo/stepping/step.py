@@ -33,13 +33,13 @@ if TYPE_CHECKING:
     from tribo.model.model import Model
 
 SMALLEST = 1e-12
-"""Of the distance until the next stop: a shorter step would drown in rounding."""
+"""Shortest step over the distance until the next stop: rounding dominates shorter steps."""
 
 
 def distance_until(model: Model, state: State, time: float) -> float | None:
     """Return the sliding distance at a later time (s), in m; None if the motion rests until then.
 
-    It must have grown, but for rounding.
+    The distance must have grown, but for rounding.
     """
     distance = model.motion.distance_at(time)
     # A distance that has turned back by then has grown before.
@@ -49,14 +49,14 @@ def distance_until(model: Model, state: State, time: float) -> float | None:
             return None
     if not state.distance < distance < np.inf:
         raise PluginError(
-            f"{model.motion} does not slide on: {state.distance:g} m "
+            f"{model.motion} has a distance that does not grow: {state.distance:g} m "
             f"at {state.time:g} s, {distance:g} m at {time:g} s"
         )
     return distance
 
 
 def time_at(model: Model, state: State, distance: float, until: float) -> float:
-    """Return the time at which it has slid `distance` (m), between now and `until` (s)."""
+    """Return the time at which the run has slid `distance` (m), between now and `until` (s)."""
     time = model.motion.time_at(distance)
     if not state.time < time <= until * (1 + ROUND_OFF):
         raise PluginError(
@@ -67,14 +67,14 @@ def time_at(model: Model, state: State, distance: float, until: float) -> float:
 
 
 def load_changes(model: Model, before: State, after: State) -> bool:
-    """Whether the load changes between two states, so that the pressure does."""
+    """Whether the load, and so the pressure, changes between two states."""
     loads = model.loads(before).after(before.time), model.loads(after).before(after.time)
     pairs = zip(*loads, strict=True)
     return any(abs(last - first) > ONE_LOAD * first for first, last in pairs)
 
 
 def rested(model: Model, state: State, time: float) -> State:
-    """Return `state` at a later time (s), under the load of then."""
+    """Return `state` after a rest until a later time (s), under the load at that time."""
     memory = remembered(model, state)
     if memory.between:
         rest = interval_from(state, 0.0, time)
@@ -96,8 +96,8 @@ def start_sliding(model: Model, state: State) -> State:
     """Return `state` as a step begins: under the load after a jump, its indentation drawn out.
 
     At s = 0 plastic displacement is local; once a body slides, its groove is
-    the envelope along the track, and the contact in it is solved anew. So is one in which points
-    have been worn down to a softer layer.
+    the envelope along the track, and the contact in it is solved again. A contact with points worn
+    down to a softer layer is solved again as well.
     """
     known = model.loads(state)
     loads = known.after(state.time)
@@ -110,7 +110,7 @@ def start_sliding(model: Model, state: State) -> State:
 
 
 def _too_soft(model: Model, state: State) -> bool:
-    """Whether points bear more than the layer that they have been worn down to does."""
+    """Whether the pressure at a point exceeds the hardness of the layer it is worn down to."""
     return any(
         cap is not None and np.any(contact.pressure > cap * (1 + ROUND_OFF))
         for contact, cap in zip(state.contacts, caps(model, state.bodies), strict=True)
@@ -122,7 +122,7 @@ def worn_depths(
 ) -> dict[str, Array]:
     """Return the depth that each body loses over `increment` (m), on its own surface, in m.
 
-    `shares` are taken in place of the positions' own shares of the path.
+    `shares` replace the positions' own shares of the path.
     """
     worn: dict[str, Array] = {}
     for position, of_bodies in enumerate(rates):
@@ -143,7 +143,7 @@ def worn_by(
 ) -> State:
     """Return the state after an interval, its contacts yet to be solved.
 
-    `depths` has what each body loses on it, on its own surface, in m.
+    `depths` has the depth that each body loses over it, on its own surface, in m.
     """
     shares = model.cycle.missed_shares
     between = {} if shares is None else worn_depths(model, slid.rates, interval.slides, shares)
@@ -199,9 +199,9 @@ def accepted(
     *,
     exact: bool = True,
 ) -> State:
-    """Return `after`, the worn bodies, in contact, with what yields at rest and effects load.
+    """Return `after`, the worn bodies, in contact, with yielding done and the load of effects.
 
-    The contacts carry `loads`, in N; they are solved anew where those at the end are others, or
+    The contacts carry `loads`, in N; they are solved again where the loads at the end differ, or
     where they do not belong to the bodies `exact`ly.
     """
     after = replace(after, contacts=tuple(contacts))
@@ -212,7 +212,7 @@ def accepted(
 
 
 def reloaded(model: Model, state: State) -> State:
-    """Return `state` under the load that effects make of it, which is held over the next step."""
+    """Return `state` under its load with effects, which is held over the next step."""
     factor = load_factor(model, state)
     if factor == state.load_factor:
         return state
@@ -221,7 +221,7 @@ def reloaded(model: Model, state: State) -> State:
 
 
 def load_factor(model: Model, state: State) -> float:
-    """Return what effects make of the load at `state`."""
+    """Return the load factor by effects at `state`."""
     effects = [effect for effect in model.laws.effects if effect.changes_load]
     if not effects:
         return state.load_factor
@@ -230,12 +230,12 @@ def load_factor(model: Model, state: State) -> float:
 
 
 def _under(model: Model, state: State, loads: ByPosition) -> State:
-    """Return `state` with its contacts solved anew under other loads (N), and nothing worn."""
+    """Return `state` with its contacts solved under other loads (N), without wear."""
     return _at_rest(model, solved_anew(model, state, loads), loads)
 
 
 def _at_rest(model: Model, state: State, loads: ByPosition) -> State:
-    """Return `state` after what yields in its contacts, under `loads`, has come to rest."""
+    """Return `state` after its contacts have yielded under `loads`."""
     if not yields(state.contacts):
         return state
     # Before it slides the load stands in the middle alone.

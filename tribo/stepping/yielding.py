@@ -1,4 +1,4 @@
-"""The hardness of what is at the surface of bodies, and who of them yields."""
+"""The hardness at the surface of bodies, and which of them yields."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def caps(model: Model, bodies: Mapping[str, BodyState]) -> Sequence[Array | None
 def plastic_share(
     model: Model, bodies: Mapping[str, BodyState], name: str, position: int
 ) -> Array | float:
-    """Return a body's part of what yields at a position: all where it is the softer one."""
+    """Return a body's part of the plastic overlap at a position: all where it is softer."""
     if not model.contact.hardness:
         return model.contact.plastic_share[name]
     found = _hardness(model, bodies, position)
@@ -35,7 +35,7 @@ def plastic_share(
 
 
 def _hardness(model: Model, bodies: Mapping[str, BodyState], position: int) -> dict[str, Array]:
-    """Return the hardness of what is at each body's surface, shape (nx, ny), in Pa."""
+    """Return the hardness at each body's surface, shape (nx, ny), in Pa."""
     found = {}
     for name, hardness in model.contact.hardness.items():
         bottoms = model.laws.wear[name].bottoms if name in model.laws.wear else ()

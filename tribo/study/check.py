@@ -1,4 +1,4 @@
-"""What is known of a case before it runs, as `tribo check` prints it."""
+"""The prediction of a case before it runs, as `tribo check` prints it."""
 
 from __future__ import annotations
 
@@ -38,18 +38,18 @@ Waiting = Callable[[str], AbstractContextManager[Any]]
 
 @dataclass(frozen=True)
 class Check:
-    """What is known of a case before it runs: printed, it reads as `tribo check` does.
+    """The prediction of a case before it runs: printed, it reads as `tribo check` does.
 
     Parameters
     ----------
     problems : tuple of Finding
-        What would go wrong, or is doubted, with its remedy.
+        Expected failures and warnings, each with its remedy.
     facts : tuple of Finding
-        What packages have to say.
+        Findings of packages.
     rows : tuple of (str, str)
         The first contact, the end of a run on a coarse grid, time, memory and file, in words.
     data : Mapping
-        The same as plain data, in SI units; what is not known is None.
+        The same as plain data, in SI units; unknown values are None.
     """
 
     problems: tuple[Finding, ...]
@@ -59,7 +59,7 @@ class Check:
 
     @property
     def exit_code(self) -> int:
-        """With which a run would end; 0 where nothing is found on which it must stop."""
+        """Exit code of a run; 0 unless a finding must stop it."""
         return int(self.data["exit_code"])
 
     @property
@@ -70,7 +70,7 @@ class Check:
         return "is valid, but:" if self.problems else "is valid."
 
     def blocks(self) -> Iterator[tuple[str, list[tuple[str, str]]]]:
-        """Yield headings and what stands below each: names and texts, by the line."""
+        """Yield headings, each with its lines of names and texts."""
         yield "", [("  -", problem.words) for problem in self.problems]
         yield "", [(f"  {name}", text) for name, text in self.rows]
         for kind, group in groupby(self.facts, key=lambda finding: finding.kind):
@@ -107,9 +107,9 @@ class Check:
 
 
 def check_case(case: Case, waiting: Waiting = lambda what: nullcontext()) -> Check:
-    """Predict what a case will do, from its first contact and a trial run.
+    """Predict a run of a case, from its first contact and a trial run.
 
-    `waiting` is entered with what takes a while. `CaseError` if the case cannot be run.
+    `waiting` is entered with the name of a slow task. `CaseError` if the case cannot be run.
     """
     with waiting("composing the case"):
         model = Simulation(case).model

@@ -41,12 +41,12 @@ class Comparison:
     Parameters
     ----------
     results : Mapping
-        The open results by their labels; bodies go by their names in the first.
+        The open results by their labels; bodies have their names in the first.
     settings : Mapping, optional
         The settings of each, by label: values by path.
     own_names : Mapping, optional
-        What the bodies of each result are called in its file, by label: names
-        by those that they go by. The same if left out.
+        Names of the bodies of each result in its file, by label and by their
+        names here. The same if left out.
     """
 
     results: Mapping[str, Result]
@@ -98,7 +98,7 @@ class Comparison:
 
     @property
     def bodies(self) -> list[str]:
-        """Names that the bodies go by: those of the first result."""
+        """Names of the bodies, as in the first result."""
         return list(self.results[self.reference].body_names)
 
     @property
@@ -113,7 +113,7 @@ class Comparison:
 
     @property
     def findings(self) -> list[Finding]:
-        """What is to be known: other grids, matched bodies, what the runs have to say."""
+        """Findings on other grids and matched bodies, and findings of the runs."""
         first, last = self.results[self.reference], self.times[-1]
         apart = [label for label, result in self.results.items() if result.grid != first.grid]
         found = [findings.other_grid(apart, self.reference)] if apart else []
@@ -131,7 +131,7 @@ class Comparison:
         return found + [findings.of_runs(each, labels) for each, labels in of_runs.values()]
 
     def chosen_times(self, times: Sequence[float] = ()) -> list[float]:
-        """Return the times to show: those given, else the first and the last common one.
+        """Return the times to show: the times given, else the first and the last common one.
 
         Raises
         ------
@@ -149,7 +149,7 @@ class Comparison:
         return result.saves()[result.save_at(time)]
 
     def cell_error(self, label: str) -> dict[str, float]:
-        """Return by how much counting cells leaves each half-width of a result uncertain, in m.
+        """Return the uncertainty of each half-width of a result by its cells, in m.
 
         The two ends of a width lie within half a cell each.
         """
@@ -224,7 +224,7 @@ def compare(
     what : Case, Mapping, str, Path, or a sequence of Case, Result, str or Path
         A case that varies: itself, its tables, or its TOML file. Without
         `vary` a list of results, of result files and of cases, which are run
-        first. The first is what the others are compared with.
+        first. The others are compared with the first.
     vary : Mapping or sequence of Mapping, optional
         Values by path, every combination of which is a variant; or the settings
         of each variant, values by path.
@@ -232,8 +232,8 @@ def compare(
         Folder of the result files of variants; finished results in it are
         reused. In memory if left out.
     labels : sequence of str, optional
-        Names of the variants or of the list's; if left out the values that
-        differ, or stems of files, or whole names where stems are alike.
+        Names of the variants or of the items of the list; if left out the values
+        that differ, or stems of files, or whole names where stems are alike.
     times : sequence of float, optional
         Times, in s, at which all variants must save, so that they can be shown.
     match : Mapping, optional
@@ -246,7 +246,7 @@ def compare(
     tell : callable, optional
         Gets a line on each run before it starts.
     overwrite : bool, optional
-        Whether to run all anew, whatever is in the folder.
+        Whether to run all again, whatever is in the folder.
 
     Returns
     -------
@@ -258,9 +258,9 @@ def compare(
     CaseError
         If a variant is not valid or does not save at `times`, before any is
         run; if a file is not a result, or damaged, or the results have no save
-        in common; or if `match` names a body that there is not.
+        in common; or if `match` names a body that does not exist.
     TriboError
-        What a run raises; the message names the variant.
+        If a run fails; the message names the variant.
 
     Examples
     --------
@@ -350,7 +350,7 @@ def _matched(
     match: Mapping[str, str],
     settings: Mapping[str, Mapping[str, Any]] = MappingProxyType({}),
 ) -> Comparison:
-    """Return the comparison of results, whose bodies then go by their names in the first."""
+    """Return the comparison of results, whose bodies then have their names in the first."""
     found, own_names = dict(results), {}
     first, *others = results.values()
     check_match(match, first, others)

@@ -13,12 +13,12 @@ from tribo.result.read import Result
 
 
 class Difference(NamedTuple):
-    """Difference of a field f from that of the reference, f₀, relative to the latter."""
+    """Difference of a field f from the reference's field f₀, relative to f₀."""
 
     l2: float
     """√(Σ(f − f₀)²/Σf₀²)."""
     largest: float
-    """Largest magnitude of f − f₀ over that of f₀."""
+    """Largest magnitude of f − f₀ over the largest magnitude of f₀."""
 
 
 def differences(result: Result, reference: Result, time: float) -> dict[str, Difference]:
@@ -26,8 +26,8 @@ def differences(result: Result, reference: Result, time: float) -> dict[str, Dif
 
     Fields are ``"pressure"`` and ``"bodies.NAME.wear_depth"``, without those that are zero in the
     reference. On the same grid the norms run over all cells; else over the sections along and
-    across sliding through the centre, at those of the reference's positions that lie in both
-    windows. Values there are interpolated linearly, and extrapolated over the last half cell.
+    across sliding through the centre, at the reference's positions in both windows. Values there
+    are interpolated linearly, and extrapolated over the last half cell.
     """
     saves = [(each, each.save_at(time)) for each in (result, reference)]
     pairs = {"pressure": [each.field("pressure", save) for each, save in saves]}

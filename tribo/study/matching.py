@@ -17,16 +17,16 @@ def check_match(match: Mapping[str, str], first: Result, others: Sequence[Result
         given = ", ".join(f"{name}={own}" for name, own in match.items())
         raise CaseError(
             f"{given} does not pair bodies of the first result, {', '.join(first.body_names)}, "
-            f"with those of others, {', '.join(theirs)}, each at most once",
+            f"with bodies of others, {', '.join(theirs)}, each at most once",
             "match",
         )
 
 
 def pairs(first: Result, other: Result, match: Mapping[str, str]) -> dict[str, str]:
-    """Return the names of another result's bodies by those of the first that they match.
+    """Return the names of another result's bodies by the names of their matches in the first.
 
-    A body matches that which `match` says, else that of the same name, else
-    that of the same role, swept or not, else the next in order.
+    A body matches the body that `match` states, else the body of the same name,
+    else of the same role, swept or not, else the next in order.
     """
 
     def likeness(names: dict[str, str]) -> tuple[int, ...]:

@@ -17,12 +17,12 @@ from tribo.simulation.run import Simulation
 
 _LONGEST_NAME = 100
 _OTHERWISE = (
-    "choose another folder with -o, or run all anew with --force (in Python overwrite=True)"
+    "choose another folder with -o, or run all again with --force (in Python overwrite=True)"
 )
 
 
 def is_done(path: Path, simulation: Simulation) -> bool:
-    """Return whether a file is the sound, finished result of a simulation as it is now."""
+    """Return whether a file is the sound, finished result of a simulation with these components."""
     if not os.path.exists(path):
         return False
     try:
@@ -37,16 +37,16 @@ def is_done(path: Path, simulation: Simulation) -> bool:
 
 
 def complete(simulation: Simulation, path: Path, observers: Sequence[Observer]) -> Result:
-    """Continue the stopped run of a file, or else run the case anew into it.
+    """Continue the stopped run of a file, or else run the case from its beginning.
 
-    A file that cannot be resumed is replaced, with a warning that says why.
+    A file that cannot be resumed is replaced, with a warning that names the reason.
     """
     if os.path.exists(path):
         try:
             go_on = simulation.reopen(path, observers=observers)
         except CaseError as error:
             # There is no sound checkpoint, or components have changed.
-            warn(f"{path} is begun anew: {error}")
+            warn(f"{path} is started again: {error}")
         else:
             return go_on()
     return simulation.run(path, observers=observers, overwrite=True)
@@ -98,7 +98,7 @@ def file_names(labels: Sequence[str]) -> list[str]:
 
 
 def _check_own(folder: Path, simulations: Mapping[str, Simulation]) -> None:
-    """Check that a folder holds no results but those of these simulations, by file name."""
+    """Check that a folder holds only results of these simulations, by file name."""
     for path in sorted(folder.glob("*.h5")):
         if path.name not in simulations:
             raise CaseError(f"{folder} holds another comparison, {path.name}; {_OTHERWISE}")

@@ -87,7 +87,7 @@ def _at(comparison: Comparison, time: float) -> Iterator[TableRow]:
 def _off(
     values: Mapping[str, float], errors: Mapping[str, float], label: str, reference: str
 ) -> str:
-    """Return how far a value is off the reference's, ± what the errors of both add up to."""
+    """Return the difference of a value from the reference's, ± the sum of both errors."""
     if values[reference] == 0:
         return ""
     ratio = values[label] / values[reference]

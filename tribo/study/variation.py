@@ -53,9 +53,9 @@ def variants(
 ) -> dict[str, Case]:
     """Return the cases that follow from `data` with each of the points, by their labels.
 
-    All are validated and composed first, so that wrong input costs no run. Those that leave the
-    positions of their cycle open take the same, as many as the one that needs most. CaseError says
-    which variants are not valid, or the same case, and why.
+    All are validated and composed first, so that wrong input costs no run. Cases with open
+    positions of their cycle take the largest number that any of them needs. CaseError names the
+    variants that are not valid, or the same case, and the reason.
     """
     cases: list[tuple[str, Case]] = []
     reasons: dict[str, list[str]] = {}

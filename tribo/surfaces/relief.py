@@ -37,7 +37,7 @@ class Laid(Surface):
 
     @abstractmethod
     def relief(self, grid: Grid) -> Array:
-        """Return what is added to the height of `on`, shape (nx, ny), in m."""
+        """Return the relief added to the height of `on`, shape (nx, ny), in m."""
 
 
 def check_resolved(shortest: float, spacing: float, field: str) -> None:

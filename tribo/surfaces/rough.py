@@ -83,7 +83,7 @@ class Rough(Laid):
         amplitudes *= self.sq * math.sqrt(2 / float(np.sum(amplitudes**2)))
         waves = amplitudes * np.exp(1j * phases)
         x, y = grid.mesh
-        # By sums, whose bits do not depend on the number of threads as those of a product do.
+        # By sums, whose bits, unlike a product's, do not depend on the number of threads.
         lines = np.einsum("xi,ij->xj", np.exp(2j * math.pi * x * along.T), waves)
         relief = np.einsum("xj,jy->xy", lines, np.exp(2j * math.pi * across[:, None] * y))
         heights = np.array(relief.real)

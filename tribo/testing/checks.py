@@ -1,4 +1,4 @@
-"""What every component must fulfil, of whatever kind."""
+"""The contract of components of every kind."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ FieldValue = float | Callable[[Array], Array]
 
 
 def needed_by(*models: object) -> list[Field]:
-    """Return what components, and those within them, need of materials."""
+    """Return the properties of materials that components, and components within, need."""
     outer = [("", model) for model in models if isinstance(model, Component)]
     inner = [pair for _, model in outer for pair in components(model)]
     return [field for _, model in (*outer, *inner) for field in model.material_properties]
@@ -204,9 +204,9 @@ class Checks(ABC):
             first = deepcopy(self._call(self._make(), given))
             answers.append((first, self._call(used, given)))
             for when, component in (
-                ("asked of one that was asked others before", used),
-                ("asked again", used),
-                ("asked of a new object", self._make()),
+                ("an object was called with other inputs before", used),
+                ("called again", used),
+                ("called on a new object", self._make()),
             ):
                 where = first_difference(first, self._call(component, given))
                 require(where is None, f"{where} differs when {when}; keep nothing that evolves")
@@ -241,8 +241,8 @@ class Checks(ABC):
             answer = in_other_units(deepcopy(self._call(component, given)), units)
             found = self._call(other, locked(in_other_units(given, units)))
             expect_close(
-                "in other units (a number in the code has a unit, or the answer has not the one "
-                "that is declared)",
+                "in other units (a number in the code has a unit, or the answer has another unit "
+                "than declared)",
                 found,
                 answer,
                 self._exactness,
@@ -250,7 +250,7 @@ class Checks(ABC):
 
 
 def _properties(cls: type[Component]) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    """Yield every field with its schema, those of nested tables too, but not `type`."""
+    """Yield every field with its schema, also of nested tables, but not `type`."""
     schema = cls.model_json_schema()
     for table, inner in {"": schema, **schema.get("$defs", {})}.items():
         for name, part in inner.get("properties", {}).items():

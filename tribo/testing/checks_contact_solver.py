@@ -127,8 +127,8 @@ class ContactSolverChecks(Checks):
         """From whatever solution it starts, a solve ends at the same one."""
         for what, start in (
             ("its own solution", self._plain),
-            ("that of a heavier load", self._solve(load=2 * LOAD)),
-            ("that of another place", self._solve(gap=ball(GRID, (3, 2)), load=0.3 * LOAD)),
+            ("the solution of a heavier load", self._solve(load=2 * LOAD)),
+            ("the solution at another place", self._solve(gap=ball(GRID, (3, 2)), load=0.3 * LOAD)),
         ):
             self._expect_pressure(f"from {what}", self._plain.pressure, start=start)
 
@@ -205,7 +205,7 @@ class ContactSolverChecks(Checks):
         other = self._solve(gap=ball(GRID) + change)
         both = (plain.pressure > 0) & (other.pressure > 0)
         response = np.where(both, other.pressure - plain.pressure, 0.0)
-        # Where both touch, K (p2 - p1) is the change of the approach less that of the gap.
+        # Where both touch, K (p2 - p1) is the change of the approach less the change of the gap.
         work = float(np.sum(response * (other.approach - plain.approach - change)))
         shown = work / float(np.sum(response**2))
         require(

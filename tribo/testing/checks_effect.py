@@ -55,7 +55,7 @@ class EffectChecks(LocalChecks):
         return super()._old(given, part) if apart else given
 
     def _inputs(self, component: Any, number: int) -> ContactConditions:
-        """Return conditions by number, with a state of some age at each point; 3: come to rest."""
+        """Return conditions by number, with a state of some age at each point; 3: at rest."""
         fresh = samples.contact_conditions(component, self._fields, number % 3, self._bodies)
         at: ContactConditions = self._remembering(
             fresh, _LONGEST * samples.pattern(GRID.cells) ** 3
@@ -212,14 +212,14 @@ class EffectChecks(LocalChecks):
 
 
 def _beside(value: Any, by: float) -> Any:
-    """Return by how much a number is varied, each cell of an array by a part of its own."""
+    """Return the variation of a number, or of each cell of an array, as a part of itself."""
     return by * value * (0.5 + samples.pattern(np.shape(value))) if np.ndim(value) else by * value
 
 
 def _varied(
     given: ContactConditions, whole: bool
 ) -> Iterator[tuple[str, list[Cell], ContactConditions]]:
-    """Yield what is varied, at which cells, and the conditions with it.
+    """Yield the varied input, its cells, and the conditions with it.
 
     One cell is varied; of a pressure that acts as a whole, two are exchanged, so that sums stay.
     """

@@ -65,9 +65,9 @@ class KinematicsChecks(Checks):
         return motion.exposures(grid, BODIES, len(motion.cycle(grid)))
 
     def answers_fit_a_run(self) -> None:
-        """It slides on from 0 to an end, and each body lies below the window at each position.
+        """It slides from 0 to an end, and each body lies below the window at each position.
 
-        Where the window repeats, a body with rows of its own has those of the window.
+        Where the window repeats, a body with rows of its own has the rows of the window.
         """
         motion = GuardedMotion(self._make())
         end = motion.end_time(None)
@@ -147,7 +147,7 @@ class KinematicsChecks(Checks):
             what = f"{name!r}: average in a larger window"
             expect_close(what, samples.inside(rimmed), needed, 1e-9)
             split = finer[name].average(rate.repeat(2, axis=0).repeat(2, axis=1))
-            # Where tracks differ in length, the mean of two is near that of one in the middle.
+            # Where tracks differ in length, the mean of two is near the value of a middle one.
             four = np.broadcast_to(split, fine.cells).reshape(nx, 2, ny, 2).mean(axis=(1, 3))
             expect_close(f"{name!r}: average on cells of half the size", four, needed, 1e-6)
 

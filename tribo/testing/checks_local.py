@@ -1,4 +1,4 @@
-"""What wear laws and effects must fulfil alike: they read fields, and may remember."""
+"""The common contract of wear laws and effects, which read fields and may have states."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class LocalChecks(Checks):
     """Checks of what answers at each point, from fields and from a state of its own."""
 
     _longest_run: ClassVar[float]
-    """How far a state goes in the longest runs: in m for a law, in s for an effect."""
+    """Length of the longest runs: in m for a law, in s for an effect."""
 
     def _units(self, component: Any) -> Mapping[str, float]:
         known = {name: samples.declared(name) for name in names_of(component.requires)}
@@ -88,7 +88,7 @@ class LocalChecks(Checks):
         return self._remembering(given, np.full(given.pressure.shape, part * self._longest_run))
 
     def _state_answers(self, component: Any, rates: Mapping[str, Array]) -> dict[str, Any]:
-        """Return what a component answers of its state, by what that is called."""
+        """Return the answers of a component on its state, by name."""
         starts = component.initial_state().items()
         return {rate_of(name): values for name, values in rates.items()} | {
             initial(name): value for name, value in starts
@@ -188,7 +188,7 @@ class LocalChecks(Checks):
 
 
 class Asked(UserDict[str, Any]):
-    """A mapping that remembers which names it was asked for in vain."""
+    """A mapping that records the names of failed look-ups."""
 
     def __init__(self, values: Mapping[str, Any]) -> None:
         super().__init__(values)

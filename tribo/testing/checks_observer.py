@@ -29,7 +29,7 @@ class Keeps(Observer):
     _seen: list[Any] = PrivateAttr(default_factory=list)
 
     def on_start(self, run: RunInfo) -> None:
-        """Keep what is told at the start."""
+        """Keep the information at the start."""
         self._seen.append(run)
 
     def on_step(self, snapshot: Snapshot) -> None:
@@ -72,7 +72,7 @@ class ObserverChecks(Checks):
 
 @cache
 def _watched(*observers: Observer) -> list[Any]:
-    """Return what a small run tells at its start and in each step, with `observers` too."""
+    """Return the inputs of an observer in a small run, which has the `observers` too."""
     keeps = Keeps()
     case = samples.small_case({}, observers=observers, output=Output(save_times=(5.0,)))
     with TemporaryDirectory() as folder, chdir(folder):

@@ -87,8 +87,8 @@ class SurfaceChecks(Checks):
             allowed = 0.02 * max(*map(abs, stated), *map(abs, found)) + 1e-6
             require(
                 abs(one - other) <= allowed,
-                f"the curvature along {axis} is stated as {one:.6g} 1/m, but that of the heights "
-                f"is {other:.6g} 1/m{hint}",
+                f"the curvature along {axis} is stated as {one:.6g} 1/m, but the heights have "
+                f"{other:.6g} 1/m{hint}",
             )
 
 

@@ -1,4 +1,4 @@
-"""A process of its own for what might end it, or never end."""
+"""A child process for calls that might end it, or never end."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Child:
         self._process: subprocess.Popen[bytes] | None = None
 
     def call(self, function: Callable[..., Any], *given: Any) -> Any:
-        """Return what a function returns there; `Unknown` or `Lost` if it does not get so far."""
+        """Return the result of a function there; `Unknown` or `Lost` if it fails to return."""
         try:
             sent = pickle.dumps((function, given))
         except Exception as error:
@@ -100,7 +100,7 @@ def _begin() -> subprocess.Popen[bytes]:
 
 
 def serve() -> None:
-    """Make the calls that are asked for on the standard input, until that ends."""
+    """Make the calls received on the standard input, until it ends."""
     # Whoever began it ends it, on Ctrl-C too.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     # What a model prints goes elsewhere.

@@ -104,7 +104,7 @@ class Report:
             for outcome in outcomes:
                 message = outcome.message
                 if outcome.status == "failed":
-                    # What spoils many checks is told with the first of them.
+                    # A failure of many checks is reported with the first of them.
                     count = spoiled.pop(message, 0)
                     if count == 0:
                         continue
@@ -131,13 +131,13 @@ def check(
         subclasses.
     configs : sequence of Component or Mapping, optional
         Valid configurations, as objects or as in a case; ``type`` may be left
-        out. Those of `example_configs` unless given.
+        out. By default `example_configs`.
     fields : Mapping[str, float or callable], optional
-        Typical values, in SI, of the local fields that the class requires. One
-        that follows the pressure is given as a function of it, and belongs to
-        what the law's derivative is compared with. Unless given, a field has the
-        typical value of its declaration; one without, whose ``NAME_slope`` is
-        required too, is that slope times the pressure, and any other is 1.
+        Typical values, in SI, of the local fields that the class requires. A
+        field that depends on the pressure is a function of it, and enters the
+        total derivative that the law's derivative is compared with. By default a
+        field has the typical value of its declaration; without it, the required
+        ``NAME_slope`` times the pressure if there is one, else 1.
 
     Returns
     -------
@@ -179,7 +179,7 @@ def parametrize_checks(
     cls, configs, fields
         As in `check`.
     expected_failures : Mapping[str, str], optional
-        Why a check, by name, cannot be passed. One that passes all the same
+        The reason why a check, by name, cannot pass. If it passes, the test
         fails.
 
     Returns

@@ -17,7 +17,7 @@ _legacy: Any = np.random
 
 
 def process_state() -> dict[str, Any]:
-    """Return what a call must leave as it is."""
+    """Return the state of the process that a call must not change."""
     return {
         "random": random.getstate(),
         "numpy.random": _legacy.get_state(),

@@ -88,7 +88,7 @@ def _rescaled(annotation: Any, value: Any) -> Any:
 
 
 def _inside(annotation: Any, count: int) -> list[Any]:
-    """Return what annotates each of the values of a sequence."""
+    """Return the annotation of each value of a sequence."""
     for part in parts(annotation):
         inner = [a for a in get_args(part) if a is not Ellipsis]
         if get_origin(part) in (list, tuple) and len(inner) in (1, count):

@@ -51,7 +51,7 @@ GRID = Grid((0.72e-3, 0.8e-3), (24, 20))
 RIM = (3, 5)
 """Cells on each side, along x and y, by which a window is wider; `GRID` becomes square by them."""
 FINE = (3, 5)
-"""Cells along x and y that take the place of one; its middle is that of the middle one."""
+"""Cells along x and y that replace a cell; the middle one has its centre."""
 LOAD = 100.0
 RADIUS = 5e-3
 SOLVERS = (Winkler, DcFft)
@@ -179,7 +179,7 @@ def wider(grid: Grid, way: int = 1) -> Grid:
 
 
 def inside(field: Array | float, grid: Grid = GRID) -> Array:
-    """Return what lies in a window of a field of the window that is wider by a rim."""
+    """Return the part in a window of a field on a window that is wider by a rim."""
     wide = np.broadcast_to(field, wider(grid).cells)
     return wide[RIM[0] : -RIM[0], RIM[1] : -RIM[1]]
 
@@ -198,7 +198,7 @@ def contact_conditions(
     number: int = 0,
     names: Sequence[str] = BODIES,
 ) -> ContactConditions:
-    """Return what a fresh effect is told, by number something else; the second body is swept."""
+    """Return the input of a fresh effect, by number; the second body is swept."""
     # The faster, the less pressure: the power stays what it is.
     pressure = hertz_pressure(GRID) / (1, 2, 20)[number]
     known = fields(names_of(effect.requires), given, pressure, pattern(GRID.cells, number))

@@ -36,7 +36,7 @@ class UncertainValue:
     """A quantity at the end of the run, with its numerical uncertainty."""
 
     name: str
-    """What it is; with the body's name where it belongs to one."""
+    """Its name; with the body's name where it belongs to a body."""
     unit: str
     value: float
     """As the case itself gives it, without saves on the way, in the SI unit `unit`."""
@@ -47,8 +47,8 @@ class UncertainValue:
     floor: float
     """Least uncertainty on these cells: a counted width is good to half a cell."""
     uncertainty: float | None
-    """To quote with `value`: those of grid and steps added, at least `floor`. They are not added
-    as squares, for they are no random errors. None where one of the two diverges."""
+    """To quote with `value`: the errors of grid and steps added, at least `floor`. They are not
+    added as squares, as they are not random. None where one of the two diverges."""
 
 
 @dataclass(frozen=True)
@@ -64,13 +64,13 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
     """Run a case on three grids and with three lengths of step.
 
     The finest grid is the case's own; cells grow by 1.5 towards the coarser
-    ones. Of implicit steps the case's own are the finest too, and tolerances
-    are loosened to make them 1.5 and 2.25 times as long; explicit ones are
+    ones. Implicit steps of the case are the finest too, and tolerances are
+    loosened to make steps 1.5 and 2.25 times as long; explicit steps are
     shortened instead, which stays within their stability limit. Nothing is
     saved on the way, since a save cuts a step short on all levels alike.
 
-    `started` is told what runs before it does; five runs in all. CaseError if the grid is too
-    coarse to be made coarser, NumericalError if one of the runs fails.
+    `started` gets the name of each run before it starts; five runs in all. CaseError if the grid is
+    too coarse to be made coarser, NumericalError if one of the runs fails.
     """
     cells, stepping = model.grid.cells, model.case.stepping
     if min(cells) < FEWEST_CELLS:
@@ -101,7 +101,7 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
 
 
 def _coarser(cells: tuple[int, int], factor: float) -> tuple[int, int]:
-    """Return fewer cells, even or odd as they are, so that the centre stays what it is."""
+    """Return fewer cells, of the same parity, so that the centre stays in place."""
     nx, ny = (n % 2 + 2 * round(0.5 * (n / factor - n % 2)) for n in cells)
     return nx, ny
 

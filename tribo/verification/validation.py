@@ -38,7 +38,7 @@ ORDER_MARGIN = 0.2
 
 @dataclass(frozen=True)
 class Row:
-    """What a case must give of a quantity, what it gave, and whether that holds."""
+    """The expected and the computed value of a quantity in a case, and whether they agree."""
 
     case: str
     title: str
@@ -146,7 +146,7 @@ class ValidationCase:
             return [self._row(wanted.expect[0], solver, reason=words)]
 
     def _found(self, settings: Settings, part: float) -> list[Found]:
-        """Return what one run gives of every quantity, in a window larger by part of 3 cells."""
+        """Return the value of every quantity in one run, in a window larger by part of 3 cells."""
         wanted, tables = self.expected.expect, self.tables()
         if tables is None:
             found = self._script["found"](part, **settings)

@@ -35,7 +35,7 @@ class WearLaw(Component):
         return {field.name: 0.0 for field in self.state_fields}
 
     def smoothed(self) -> WearLaw:
-        """Return the law without what varies from place to place, for a trial on a coarse grid.
+        """Return the law without its variation from place to place, for a trial on a coarse grid.
 
         Itself, unless overridden.
         """

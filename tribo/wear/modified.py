@@ -1,4 +1,4 @@
-"""Laws made of another: what all have in common, and the simplest, a factor."""
+"""Laws made from another law: their base, and the simplest, a factor."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from tribo.wear.law import WearLaw
 
 
 class ModifiedLaw(WearLaw):
-    """A law that changes what another one gives.
+    """A law that changes the rate of another law.
 
-    It requires what `law` requires, keeps what that keeps beside its own state, and is refused
-    where that is. A subclass writes `rate`, in which ``self.law.rate(local)`` is the other law's.
+    It requires the fields that `law` requires, keeps the states of `law` beside its own, and is
+    refused where `law` is. A subclass writes `rate`; ``self.law.rate(local)`` is the other rate.
     """
 
     law: WearLaw
@@ -39,12 +39,12 @@ class ModifiedLaw(WearLaw):
 
     @property
     def requires(self) -> tuple[str | Field, ...]:  # type: ignore[override]
-        """What either needs."""
+        """The fields that either requires."""
         return tuple(dict.fromkeys((*self.law.requires, *self.own_requires)))
 
     @property
     def state_fields(self) -> tuple[Field, ...]:  # type: ignore[override]
-        """What either keeps."""
+        """The states of either."""
         return (*self.law.state_fields, *self.own_state)
 
     def check(self, material: Material) -> None:
@@ -56,16 +56,16 @@ class ModifiedLaw(WearLaw):
         self.law.check_cells(spacing)
 
     def smoothed(self) -> WearLaw:
-        """Return the law on what the other is without what varies from place to place."""
+        """Return the law of the smoothed other law."""
         return self.model_copy(update={"law": self.law.smoothed()})
 
     def initial_state(self) -> dict[str, float]:
-        """Return what the other law's state begins with, and zero for its own."""
+        """Return the initial values of the other law's states, and zero for its own."""
         return {**self.law.initial_state(), **{field.name: 0.0 for field in self.own_state}}
 
 
 def times(factor: float | Array, rate: WearRate) -> WearRate:
-    """Return a rate with its depth and derivative times a factor; else it changes as it did."""
+    """Return a rate with its depth and derivative times a factor; rates of states stay."""
     slope, depth = rate.depth_slope, factor * rate.depth_rate
     changes = rate.state_rates
     if WORN_DEPTH.name in changes:
@@ -76,7 +76,7 @@ def times(factor: float | Array, rate: WearRate) -> WearRate:
 class Scaled(ModifiedLaw):
     """dh/ds = f r(p), with r another law: any law, times a factor.
 
-    Valid where that is; the factor is a fit, for a lubricant, a coating or another test.
+    Valid where r is; the factor is a fit, for a lubricant, a coating or another test.
     """
 
     examples = ({"factor": 0.2, "law": {"type": "archard", "k": "3.11e-16 1/Pa"}},)

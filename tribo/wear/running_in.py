@@ -1,4 +1,4 @@
-"""Running-in: laws that wear more at first, by the work done or by the roughness left."""
+"""Running-in: laws with more wear at first, by the work done or by the roughness left."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ ROUGHNESS = Field("roughness", "m", "Sq that is left of the roughness finer than
 class RunningIn(ModifiedLaw):
     """dh/ds = [1 + (f − 1) exp(−D/W)] r(p), with dD/ds = p and r another law.
 
-    A fresh point wears f times as fast. That passes over a distance W/p: in inverse proportion to
-    the pressure. Under Archard's law, with its steady k, running-in costs the same depth
-    (f − 1) k W under any pressure; under an even one::
+    A fresh point wears f times as fast. The excess decays over a distance W/p. Under Archard's law,
+    with its steady k, running-in costs the same depth (f − 1) k W under any pressure; under an even
+    pressure::
 
         h = k p s + (f − 1) k W [1 − exp(−p s/W)]
 
@@ -41,14 +41,14 @@ class RunningIn(ModifiedLaw):
     examples = ({"law": {"type": "archard", "k": "1e-16 1/Pa"}, "factor": 6, "over": "1 GPa m"},)
     type = "running_in"
     factor: Annotated[float, Quantity("1", at_least=0)]
-    """How many times as fast as later a fresh point wears: f."""
+    """Wear rate of a fresh point over the later rate: f."""
     over: Annotated[float, Quantity("Pa m", above=0)]
-    """Pressure times distance W after which 1/e of that is left."""
+    """Pressure times distance W after which 1/e of the excess is left."""
 
     own_state = (WORK,)
 
     def rate(self, local: LocalConditions) -> WearRate:
-        """Return the other law's rate times the factor of now, and p as the rate of D."""
+        """Return the other law's rate times the present factor, and p as the rate of D."""
         fresh = np.exp(-local.state[WORK.name] / self.over)
         rate = self.law.rate(local)
         state = {**rate.state_rates, WORK.name: local.pressure}
@@ -59,14 +59,14 @@ class RunningIn(ModifiedLaw):
 class Smoothing(ModifiedLaw):
     """dh/ds = [1 + (f − 1) x] r(p), with x = (Sq − Sq∞)/(Sq₀ − Sq∞) and dSq/dh = −(Sq − Sq∞)/λ.
 
-    Wear follows the roughness that is left, and takes it away: over a depth λ of wear what lies
-    above Sq∞ falls to 1/e. Under Archard's law with its steady k, and an even pressure::
+    Wear is in proportion to the roughness left, and reduces it: over a depth λ of wear the
+    roughness above Sq∞ falls to 1/e. Under Archard's law with its steady k, and an even pressure::
 
         h = λ ln[1 + f (exp(k p s/λ) − 1)],  x = exp(−h/λ)
 
-    so that running-in costs a depth of λ ln f. The roughness is that finer than a cell; a surface
-    that is rough on the grid loses its own under any law. Valid where one kind of asperities is
-    worn to a steady roughness: f, λ and both Sq are from a test.
+    so that running-in costs a depth of λ ln f. The roughness is finer than a cell; a surface that
+    is rough on the grid smooths under any law. Valid where one kind of asperities is worn to a
+    steady roughness: f, λ and both Sq are from a test.
 
     References
     ----------
@@ -87,11 +87,11 @@ class Smoothing(ModifiedLaw):
     )
     type = "smoothing"
     factor: Annotated[float, Quantity("1", at_least=0)]
-    """How many times as fast as later a surface of the first roughness wears: f."""
+    """Wear rate of a surface of the first roughness over the later rate: f."""
     roughness: Annotated[float, Quantity("m", above=0)]
     """Sq at first, Sq₀."""
     settled: Annotated[float, Quantity("m", at_least=0)] = 0.0
-    """Sq that it tends to, Sq∞."""
+    """Steady Sq, Sq∞."""
     depth: Annotated[float, Quantity("m", above=0)]
     """Depth of wear λ after which 1/e of the difference is left."""
 
@@ -104,7 +104,7 @@ class Smoothing(ModifiedLaw):
         return self
 
     def initial_state(self) -> dict[str, float]:
-        """Return the state that both begin with."""
+        """Return the initial state of both."""
         return {**super().initial_state(), ROUGHNESS.name: self.roughness}
 
     def rate(self, local: LocalConditions) -> WearRate:
@@ -119,7 +119,7 @@ class Smoothing(ModifiedLaw):
     def _left(self, local: LocalConditions) -> Array:
         """Return the part of the roughness above Sq∞ that is left.
 
-        A step that is only tried may have smoothed more than there was; it wears all the same.
+        It is limited so that a trial step that smoothed too much has a wear rate above 0.
         """
         left = (local.state[ROUGHNESS.name] - self.settled) / (self.roughness - self.settled)
         return np.maximum(left, -1 / max(self.factor, 1.0))

@@ -53,7 +53,7 @@ class Turns(Effect):
 
 @pytest.mark.parametrize("path", ["contact.tolerance", "grid.size.0"])
 def test_how_a_run_is_computed_has_no_derivative(path):
-    with pytest.raises(CaseError, match=f"{path}: says how the run is computed"):
+    with pytest.raises(CaseError, match=f"{path}: is a number of the numerics"):
         gradient(run(), Volume("ball"), [path])
 
 
@@ -117,7 +117,9 @@ def test_a_stage_that_ends_at_a_save_has_no_derivative_in_its_time():
     load = {"normal": [{"until": "5 s", "normal": 20}, {"until": "9 s", "normal": 10}]}
     load["normal"].append({"until": "20 s", "normal": 20})
     case, path = run(load=load, save_times=(9.0,)), "load.normal.1.until"
-    with pytest.raises(CaseError, match=f"{path}: has .*: it parts what falls together at 9 s"):
+    with pytest.raises(
+        CaseError, match=f"{path}: has .*: a change of it separates events that coincide at 9 s"
+    ):
         gradient(case, Volume("ball"), [path])
     assert gradient(case, Volume("ball"), ["load.normal.0.until"])["load.normal.0.until"] > 0
 
@@ -138,7 +140,7 @@ def test_a_refusal_names_its_place_once():
 
 def test_a_path_across_is_refused():
     path = Planar(path="circle", extent=(1e-4, 1e-4), speed=0.02, revolutions=9, positions="cells")
-    with pytest.raises(CaseError, match="gradients are not known where disk moves across"):
+    with pytest.raises(CaseError, match="disk moves across as well as along x"):
         gradient(run(kinematics=path), Volume("ball"), [])
 
 

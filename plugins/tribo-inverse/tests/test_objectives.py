@@ -33,7 +33,7 @@ def test_what_is_no_objective_is_refused(given):
 
 @pytest.mark.parametrize("time", ["20 s", None, True, NAN])
 def test_a_time_to_look_at_that_is_none_is_refused(time):
-    with pytest.raises(CaseError, match=f"look at the time {time!r}; give a number, that of a"):
+    with pytest.raises(CaseError, match=f"has the time {time!r}, which is no number"):
         gradient(run(), {time: Volume("ball")})
 
 
@@ -41,11 +41,11 @@ def test_a_time_to_look_at_that_is_none_is_refused(time):
     ("make", "message"),
     [
         (lambda: Deepest("ball", 1), "an order of 1 of Deepest is not allowed"),
-        (lambda: Depth("ball", "1 mm"), r"the place x = '1 mm', y = 0\.0 is none; give both in m"),
-        (lambda: Pressure(0.0, None), r"the place x = 0\.0, y = None is none"),
+        (lambda: Depth("ball", "1 mm"), r"the place is x = '1 mm', y = 0\.0; give numbers, in m"),
+        (lambda: Pressure(0.0, None), r"the place is x = 0\.0, y = None"),
         (lambda: Misfit("ball", [[1.0], [1.0, 2.0]]), "depth of ball is no array of numbers"),
-        (lambda: Width("ball", 5), "an axis of 5 of Width is none; give 0, along, or 1"),
-        (lambda: Misfit("ball", np.zeros((3, 3)), 0.0), "an uncertainty of 0.0 is none"),
+        (lambda: Width("ball", 5), "the axis of Width is 5; give 0 for along, or 1"),
+        (lambda: Misfit("ball", np.zeros((3, 3)), 0.0), "the uncertainty of Misfit is 0.0"),
         (lambda: Misfit("ball", np.diag([INF, 1, 1])), "is infinite somewhere"),
     ],
 )
@@ -102,7 +102,7 @@ def test_a_save_that_is_not_there_is_refused():
 
 def test_a_depth_that_ends_the_run_before_an_objective_looks_is_refused():
     stops = run(stop=Stop(depth="0.2 um"), save_times=(15.0,))
-    with pytest.raises(CaseError, match=r"a depth ends the run at 6\.\d+ s, before 15 s"):
+    with pytest.raises(CaseError, match=r"a depth ends the run at 6\.\d+ s, before the time 15 s"):
         gradient(stops, {15.0: Volume("ball")}, [])
 
 

@@ -153,7 +153,7 @@ def test_local_coefficients_are_told_with_their_fit(tmp_path):
         file.write(json.dumps(maps_json(found, 0.95)).replace("NaN", "null"))
     path = tribo_report.write_report(tmp_path / "maps.json", tmp_path / "report.html")
     (told,) = answers(path)
-    assert "The coefficient of the ball is 0.50 to 1.20 times that of the case" in told
+    assert "The coefficient of the ball is 0.50 to 1.20 times the case" in told
     assert "at 95 % it is lower in 33 % of these cells and higher in 0 %." in told
     page = path.read_text(encoding="utf-8")
     assert "one cell of four is unknown" in page

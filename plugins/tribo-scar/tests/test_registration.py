@@ -134,8 +134,10 @@ REFUSED = {
     r"1 of its 1024 heights .* first is inf m": lambda *_: Heights(
         np.where(np.arange(1024) == 5, np.inf, 0.0).reshape(32, 32), (PITCH, PITCH)
     ),
-    r"worn deeper than .* 4 times .*larger area": lambda *_: measured_scar(*pair(depth=0)[:2]),
-    r"nothing is worn .*given first": lambda before, after: measured_scar(after, before),
+    r"no depth exceeds .* 4 times .*larger area": lambda *_: measured_scar(*pair(depth=0)[:2]),
+    r"no depth exceeds .*give the map of before first": lambda before, after: measured_scar(
+        after, before
+    ),
     r"% of the 96 × 96 pixels differ|if over half of the map is worn": lambda *_: measured_scar(
         *track(wide=29 * PITCH)[:2]
     ),

@@ -55,7 +55,7 @@ def test_what_is_missing_within_a_ring_is_not_of_its_bottom():
     depths = []
     for missing in (0, 25):
         after = Heights(np.where(far < missing, np.nan, whole), (PITCH, PITCH))
-        with pytest.warns(TriboWarning, match="the scar encloses what is not worn"):
+        with pytest.warns(TriboWarning, match="the scar encloses an unworn area"):
             depths.append(measured_scar(Flat(), after).depth)
     assert depths[1] == pytest.approx(depths[0], rel=1e-3, abs=0)
 
@@ -176,7 +176,7 @@ def test_a_whole_circular_track_is_told_and_no_ball_made_its_outline():
     random, (x, y) = np.random.default_rng(1), Grid(96 * PITCH, 96).mesh
     lost = 1e-6 * np.maximum(1 - ((np.hypot(x, y) - 30e-6) / 8e-6) ** 2, 0)
     after = Heights(1e-8 * random.normal(size=lost.shape) - lost, (PITCH, PITCH))
-    with pytest.warns(TriboWarning, match="encloses what is not worn, as a whole circular track"):
+    with pytest.warns(TriboWarning, match="encloses an unworn area, as a whole circular track"):
         found = measured_scar(Flat(), after, radius=RADIUS)
     assert found.inferred == ()
     assert found.across == pytest.approx(76e-6, rel=0.03, abs=0)

@@ -95,7 +95,7 @@ def test_a_resting_source_needs_no_heat_capacity():
 
 
 def test_two_swept_bodies_are_refused():
-    with pytest.raises(CaseError, match="all are swept"):
+    with pytest.raises(CaseError, match="all bodies are swept"):
         rises(contact(WORN, swept=("ball", "disk")))
 
 

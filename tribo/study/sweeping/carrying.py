@@ -26,7 +26,7 @@ ATTEMPTS = 3
 """Attempts at a run whose worker dies."""
 TICK = 0.2
 """Interval between checks for Ctrl-C, in s."""
-_GOES_ON = "what is done is kept, and the same command goes on"
+_GOES_ON = "finished runs are kept; the same command continues"
 
 
 def carry(
@@ -36,7 +36,7 @@ def carry(
     ended: Callable[[Run, str], None],
     patience: float | None = None,
 ) -> None:
-    """Complete every run; if its worker dies, give it to another one, up to three times.
+    """Complete every run; if its worker dies, give it to another worker, up to three times.
 
     The file `stop` tells workers to stop; `ended` is called with each run that
     ends, and with the reason if it failed; `patience` is the time that workers
@@ -70,7 +70,7 @@ def carry(
                     wait(futures, patience)
                 finally:
                     remove(stop)
-                raise Interrupted("stopped; the same command goes on")
+                raise Interrupted("stopped; the same command continues")
             for future in done:
                 run = futures.pop(future)
                 why, lost = _outcome(future, run)
@@ -96,5 +96,5 @@ def _outcome(future: Future[tuple[str, str]], run: Run) -> tuple[str, bool]:
         return "its worker was stopped", True
     if status == "done" and not run.path.exists():
         folder = run.path.parent
-        return f"its worker wrote to a folder of its own: {folder} must be one that all share", True
+        return f"its worker wrote to a folder of its own: all workers must share {folder}", True
     return why, False

@@ -36,9 +36,9 @@ class Sample(Table):
     """Points that fill a box of ranges."""
 
     method: Literal["latin_hypercube", "sobol"]
-    """How they are spread."""
+    """Distribution of the points."""
     count: Annotated[int, Field(ge=1)]
-    """How many; those of `sobol` are spread evenly where they are a power of two."""
+    """Number of points; `sobol` spreads a power of two evenly."""
     seed: Annotated[int, Field(ge=0)] = 0
     """Another seed gives other points, the same one always the same."""
     ranges: dict[str, Range] = Field(min_length=1)
@@ -180,7 +180,7 @@ def _spread(sample: Sample) -> Any:
 
     if sample.method == "latin_hypercube":
         return qmc.LatinHypercube(len(sample.ranges), seed=sample.seed).random(sample.count)
-    # The first points of a longer sequence are those of a shorter one, of which SciPy would warn.
+    # A longer sequence begins with the points of a shorter one, of which SciPy would warn.
     above = 1 << (sample.count - 1).bit_length()
     return qmc.Sobol(len(sample.ranges), seed=sample.seed).random(above)[: sample.count]
 

@@ -1,4 +1,4 @@
-"""What a sweep ends with: a table of its runs and, where curves say it, a picture."""
+"""The summary of a sweep: a table of its runs and, where runs form curves, a picture."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ MEASURED = (
 
 
 def runs_table(runs: pd.DataFrame) -> DataTable | None:
-    """Return what varied and what came out of each run that is done; None if none is."""
+    """Return the settings and results of each finished run; None if there is none."""
     done = runs[runs["status"] == "done"]
     if done.empty:
         return None
@@ -80,10 +80,10 @@ def sweep_pictures(
 
 
 def curves_by(done: pd.DataFrame, others: Sequence[str]) -> tuple[list[str], bool]:
-    """Return the columns that part runs into curves, and whether a line joins those of a curve.
+    """Return the columns that part runs into curves, and whether a line joins runs of a curve.
 
-    Where other quantities vary along, as in a random sample, none does; only text tells the runs
-    apart then.
+    Where other quantities vary too, as in a random sample, no line joins them, and only text parts
+    the runs.
     """
     others = [name for name in others if done[name].nunique() > 1]
     texts = [name for name in others if not pd.api.types.is_numeric_dtype(done[name])]
@@ -95,13 +95,13 @@ def curves_by(done: pd.DataFrame, others: Sequence[str]) -> tuple[list[str], boo
 
 
 def varied_paths(runs: pd.DataFrame) -> Sequence[str]:
-    """Return the columns of what varies, which stand before the measures."""
+    """Return the columns of settings that vary, which come before the measures."""
     columns = list(map(str, runs))
     return columns[2 : columns.index("time_s")] if "time_s" in columns else []
 
 
 def _measures(column: str, end: str) -> bool:
-    """Whether a column is the run's own measure, or that of a body, of this name."""
+    """Whether a column is the measure of this name, of the run or of a body."""
     return column == end or (end.startswith(".") and column.endswith(end))
 
 
@@ -111,7 +111,7 @@ def is_text(runs: pd.DataFrame, name: str) -> bool:
 
 
 def labelled(name: str, runs: pd.DataFrame) -> tuple[str, str, float]:
-    """Return what is said of a column, its unit, "" for none, and the unit's size."""
+    """Return the label of a column, its unit, "" for none, and the unit's size."""
     from tribo.lab.units import column_label
 
     if is_text(runs, name):

@@ -95,12 +95,12 @@ def sweep(
     jobs : int, optional
         Number of processes if there is no `executor`; a core each if left out.
     retry : bool, optional
-        Whether to run again what failed before.
+        Whether to repeat failed runs.
     many : bool, optional
-        Whether more than 1000 runs are meant.
+        Whether more than 1000 runs are allowed.
     tell : callable, optional
-        Gets the numbers of all runs, of those done and of those failed, at the
-        beginning and as each run ends.
+        Gets the numbers of all, finished and failed runs, at the beginning and
+        as each run ends.
 
     Returns
     -------
@@ -115,7 +115,7 @@ def sweep(
     OutputError
         If the folder cannot be written to, or the executor has broken.
     Interrupted
-        If it was stopped from outside; calling it again goes on.
+        If it was stopped from outside; calling it again continues.
     """
     if output is None:
         if isinstance(study, Mapping):
@@ -159,7 +159,7 @@ def sweep(
 def plan(
     study: str | Path | Mapping[str, Any], folder: Path, *, many: bool = False
 ) -> tuple[list[Run], list[str]]:
-    """Return the runs of a study, all validated, and the paths of what varies."""
+    """Return the runs of a study, all validated, and the paths that vary."""
     asked, data = load_study(study)
     settings = points(asked, data, math.inf if many else MANY)
     runs = []

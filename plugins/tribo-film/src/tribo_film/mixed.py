@@ -37,7 +37,7 @@ class Mixed(Effect):
     Greenwood & Tripp's integral over heights of two rough surfaces, in which Johnson, Greenwood &
     Poon put the film of smooth bodies, since the load hardly thins it. With ``"olver_spikes"`` it
     is A = (1 + Λ)^−2, an interpolation of friction between boundary and film, not of contact: at
-    Λ = 3 it leaves 6 % of the load on asperities, the integral 0.03 %. Friction is that of both,
+    Λ = 3 it leaves 6 % of the load on asperities, the integral 0.03 %. Friction is shared as well,
     μ = φ μ_film + (1 − φ) μ_b. The pressure is shared alike everywhere.
 
     Valid for a ball on a flat of which one stands still, as long as wear is shallow beside the
@@ -64,7 +64,7 @@ class Mixed(Effect):
     pressure_viscosity: Annotated[float, Quantity("1/Pa", above=0, usual=(1e-10, 1e-6))]
     """Its coefficient with pressure α."""
     radius: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
-    """Reduced radius of curvature of the contact; that of the ball on a flat."""
+    """Reduced radius of curvature of the contact; the ball's radius on a flat."""
     roughness: Annotated[float, Quantity("m", above=0, usual=(1e-10, 1e-4))]
     """Root mean square roughness σ of both bodies together, √(Rq₁² + Rq₂²)."""
     sharing: Literal["asperities", "olver_spikes"] = "asperities"

@@ -9,7 +9,7 @@ from tribo import Component, LabRow, Result, hookimpl
 from tribo_film.mixed import RATIO, Mixed
 
 SHALLOW = 1.0
-"""Wear depth over elastic approach, from which on the film does not hold."""
+"""Wear depth over elastic approach, above which the film does not hold."""
 
 
 @hookimpl

@@ -60,9 +60,9 @@ def coefficients(
 class Cerruti:
     """Two half-spaces under tangential traction that is constant in each cell, in free space.
 
-    The convolution is padded with zeros (DC-FFT), as that of the normal contact. Parameters are
-    those of `coefficients`, on a box; the components: 1 for tractions along x alone, 2 for both;
-    and by how much a rig in series gives way along x under a traction of 1 on one cell, in m/Pa.
+    The convolution is padded with zeros (DC-FFT), as for the normal contact. Parameters are as in
+    `coefficients`, on a box; the components: 1 for tractions along x alone, 2 for both; and the
+    displacement along x of a rig in series under a traction of 1 on one cell, in m/Pa.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""What a cycle of a result does: its loop, its energy, and where the contact sticks."""
+"""A cycle of a result: its loop, its energy, and the stick zone of the contact."""
 
 from __future__ import annotations
 

@@ -28,9 +28,9 @@ class Fretting(Kinematics, Drive):
     frequency: Annotated[float, Quantity("Hz", above=0, usual=(1e-6, 1e5))]
     """Full cycles, to and fro, per second."""
     duration: Annotated[float, Quantity("s", above=0)] | None = None
-    """How long it runs."""
+    """Duration of the motion."""
     cycles: Annotated[float, Quantity("1", above=0, also=("lap",))] | None = None
-    """How many full cycles it runs."""
+    """Number of full cycles."""
 
     @model_validator(mode="after")
     def _one_end(self) -> Self:
@@ -81,5 +81,5 @@ class Fretting(Kinematics, Drive):
         return [PartialSlip(**{name: getattr(self, name) for name in Drive.model_fields})]
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
-        """Return that the points of both bodies stay in contact."""
+        """Return stationary exposures of both bodies."""
         return {name: Stationary(grid) for name in bodies}

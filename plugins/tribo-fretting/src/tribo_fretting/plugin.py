@@ -17,7 +17,7 @@ from tribo_fretting.motion import Fretting
 from tribo_fretting.partial_slip import PartialSlip
 
 COUPLED = 0.02
-"""|β|μ from which on a report warns that traction and pressure act on each other."""
+"""|β|μ above which a report warns that traction and pressure act on each other."""
 
 
 @hookimpl

@@ -19,9 +19,9 @@ TOLERANCE = 1e-12
 def pulled_back(
     drive: Drive, contact: ContactConditions, limit: Array, drag: Drag, by: Array
 ) -> tuple[Array, dict[str, float]]:
-    """Return the derivatives in μp and in numbers, by path, from those in slip and traction.
+    """Return derivatives in μp and in numbers, by path, from derivatives in slip and traction.
 
-    `by` has them in this order, shape (1 + components, nx, ny).
+    `by` has the latter in this order, shape (1 + components, nx, ny).
 
     With n the direction of the slip s, points that stick keep d(δ − A q) = 0; points that slip have
     ds = n d(δ − A q), and dq = n d(μp) + w with w along the rim. Which points stick adds nothing:

@@ -1,4 +1,4 @@
-"""From wear to its causes: gradients of a run, and coefficients from what was measured."""
+"""From wear to its causes: gradients of a run, and coefficients from measurements."""
 
 from tribo.kernel_api import lazy
 

@@ -42,7 +42,7 @@ Shown = TypeVar("Shown", Calibration, Choice, Plan)
     "--measured",
     required=True,
     type=PATH,
-    help="What was measured, and what to fit: a TOML file.",
+    help="File of measured values and parameters to fit, in TOML.",
 )
 @SET
 @PLUGIN
@@ -191,7 +191,7 @@ def _print_run(what: str, run: int, misfit: float = math.nan) -> None:
 
 
 def _print_pass(count: int, misfit: float) -> None:
-    """Print the number of a run and pass back, which is for the map or for what is sure of it."""
+    """Print the number of a run with adjoint, for the map or for its standard deviation."""
     if math.isnan(misfit):
         click.echo(f"run and pass back {count}: for standard deviations", err=True)
     else:

@@ -1,4 +1,4 @@
-"""What is to be known of data and of a fit, in words and numbers."""
+"""Findings on data and on a fit, in words and numbers."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ UNLIKELY = 0.01
 TOO_SMALL = 0.001
 """1 − p above which the data agree with the model better than they may."""
 PARTICIPATES = 0.3
-"""Component of a singular vector from which on a parameter is named."""
+"""Component of a singular vector above which a parameter is named."""
 CORRELATED = 3.0
 """Standard deviations above which the correlation of neighbouring residuals is significant."""
 SIGNIFICANT = 4.0
@@ -43,22 +43,22 @@ DIRECTIONS = ("along", "across")
 
 
 def of_run(finding: Finding, runs: Sequence[str] = ()) -> Finding:
-    """Word what some runs of a fit had to say, or all of them."""
+    """Word the finding of some runs of a fit, or of all."""
     return replace(finding, words=": ".join([*([", ".join(runs)] if runs else []), str(finding)]))
 
 
 def of_fit(
     estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array, freedom: int | None
 ) -> list[Finding]:
-    """Return what is to be known of a fit.
+    """Return the findings on a fit.
 
     Parameters
     ----------
     estimates : DataFrame
         `Calibration.parameters`.
     data : DataFrame
-        `Calibration.data` with `stated`, the standard deviation without that of the grid, and
-        `alone`, the weighted residuals, which are independent where tests scatter.
+        `Calibration.data` with `stated`, the standard deviation without the grid's, and `alone`,
+        the weighted residuals, which are independent where tests scatter.
     jacobian : ndarray, shape (n, p)
         Derivatives of the weighted residuals by the logarithms of the parameters.
     freedom : int, optional
@@ -90,8 +90,8 @@ def _bounds(estimates: pd.DataFrame, scatters: bool) -> Iterator[Finding]:
         elif each.limited:
             yield Finding(
                 "undetected",
-                f"{each.path}: what it wears was below the limit of detection, so that it is below "
-                f"{upper} and nothing more is known; the fitted case has as good as none",
+                f"{each.path}: its wear was below the limit of detection, so that only the bound "
+                f"{upper} is known; the fitted case has a negligible value",
                 limit=each.upper,
                 place=each.path,
             )
@@ -140,8 +140,8 @@ def _collinear(paths: list[str], jacobian: Array) -> Iterator[Finding]:
         ]
         yield Finding(
             "collinear",
-            f"the data cannot tell {' and '.join(names)} apart: measure something that only one "
-            "of them changes, or leave one out of fit",
+            f"the data do not separate {' and '.join(names)}: measure something that only one of "
+            "them changes, or leave one out of fit",
             value=float(angle),
             limit=COLLINEAR,
             place=", ".join(names),
@@ -149,7 +149,7 @@ def _collinear(paths: list[str], jacobian: Array) -> Iterator[Finding]:
 
 
 def _misfit(data: pd.DataFrame, freedom: int) -> Iterator[Finding]:
-    """Report a χ² that is too large, or too small, to be by chance."""
+    """Report a χ² that is too large, or too small, to be due to chance."""
     if freedom == 0:
         words = "there are no more data than parameters: nothing is left to test the model with"
         yield Finding("untested", words)
@@ -183,7 +183,7 @@ def _misfit(data: pd.DataFrame, freedom: int) -> Iterator[Finding]:
 
 
 def _patterns(data: pd.DataFrame) -> Iterator[Finding]:
-    """Report profiles and maps whose neighbouring residuals are correlated, but for their scale."""
+    """Report profiles and maps whose scaled neighbouring residuals are correlated."""
     along = data[data["quantity"].isin(FIELDS)].sort_values("position_m", kind="stable")
     for place, rows in along.groupby("place", sort=False):
         residuals = rows["alone"].to_numpy()
@@ -196,8 +196,8 @@ def _patterns(data: pd.DataFrame) -> Iterator[Finding]:
         if correlation > limit and np.max(np.abs(residuals)) > 1:
             yield Finding(
                 "pattern",
-                f"the residuals of the {named(next(rows.itertuples()))} follow a pattern: those "
-                f"of neighbours have a correlation of {correlation:.2f}, so the scar has another "
+                f"the residuals of the {named(next(rows.itertuples()))} follow a pattern: "
+                f"neighbours have a correlation of {correlation:.2f}, so the scar has another "
                 "shape than the model's",
                 value=correlation,
                 limit=limit,
@@ -206,7 +206,7 @@ def _patterns(data: pd.DataFrame) -> Iterator[Finding]:
 
 
 def _coarse_grid(data: pd.DataFrame) -> Iterator[Finding]:
-    """Report diameters that are measured better than the grid computes them."""
+    """Report diameters that are measured more exactly than the grid computes them."""
     for entry in data[data["stated"] < data["edge"]].drop_duplicates("place").itertuples():
         yield Finding(
             "grid",
@@ -219,7 +219,7 @@ def _coarse_grid(data: pd.DataFrame) -> Iterator[Finding]:
 
 
 def named(entry: Any) -> str:
-    """Return the name of what was measured, as ``"mass of 'ball' in heavy"``."""
+    """Return the name of a measurement, as ``"mass of 'ball' in heavy"``."""
     where = f" in {entry.test}" if entry.test else ""
     when = "" if math.isnan(entry.time_s) else f" at {entry.time_s:g} s"
     return f"{entry.quantity}{f' of {entry.body!r}' if entry.body else ''}{where}{when}"
@@ -245,7 +245,7 @@ def off_level(
 ) -> Iterator[Finding]:
     """Report a map whose median outside the scar, two cells and more away, is not 0.
 
-    By four standard errors, those of a median, and 0.2 % of the scar's depth.
+    The limit is four standard errors of a median, plus 0.2 % of the scar's depth.
     """
     largest = float(np.max(depth))
     unworn = ~binary_dilation(depth > WORN * largest, iterations=2) & np.isfinite(measured)
@@ -266,7 +266,7 @@ def off_level(
 
 
 def of_maps(found: FittedMaps) -> Iterator[Finding]:
-    """Return what is to be known of the fit of local coefficients."""
+    """Return the findings on the fit of local coefficients."""
     chi_square, freedom = found.chi_square, found.degrees_of_freedom
     if found.is_refuted:
         yield Finding(
@@ -282,8 +282,8 @@ def of_maps(found: FittedMaps) -> Iterator[Finding]:
         yield Finding(
             "overstated",
             f"the depths differ from the fit by less than their uncertainty: χ² is "
-            f"{chi_square:.3g} where at least {least:.3g} is expected; is it that of a cell, or of "
-            "a line along a track, and not of a pixel?",
+            f"{chi_square:.3g} where at least {least:.3g} is expected; give the uncertainty of a "
+            "cell, or of a line along a track, not of a pixel",
             value=chi_square,
             limit=least,
         )
@@ -291,7 +291,7 @@ def of_maps(found: FittedMaps) -> Iterator[Finding]:
         if (silent := int(np.sum(~each.told))) > 0:
             yield Finding(
                 "unknown",
-                f"{name}: the data say nothing of {silent} cells, mostly where nothing was "
+                f"{name}: the data do not determine {silent} cells, mostly where nothing was "
                 "worn or measured: there the coefficient is the case's, as uncertain as before",
                 value=silent,
                 place=name,
@@ -299,7 +299,7 @@ def of_maps(found: FittedMaps) -> Iterator[Finding]:
 
 
 def chosen(case: str, by: float, limit: float, p_value: float | None) -> Finding:
-    """Report the case that the data speak for."""
+    """Report the case that the data support."""
     words = f"the data speak for {case}: Schwarz's criterion is lower by {by:.3g} or more"
     if p_value is not None and p_value < UNLIKELY:
         words += f"; yet {case} does not describe them either ({p_words(p_value)})"
@@ -307,7 +307,7 @@ def chosen(case: str, by: float, limit: float, p_value: float | None) -> Finding
 
 
 def undecided(best: str, rivals: Mapping[str, float], limit: float, following: Any) -> Finding:
-    """Report cases that the data do not tell apart, and the quantity to measure next, if any."""
+    """Report cases that the data do not separate, and the quantity to measure next, if any."""
     more = ""
     if following is not None:
         name, test = following.quantity, following.test
@@ -319,7 +319,7 @@ def undecided(best: str, rivals: Mapping[str, float], limit: float, following: A
         )
     return Finding(
         "undecided",
-        f"these data cannot tell {' and '.join([best, *rivals])} apart: Schwarz's criterion "
+        f"these data do not separate {' and '.join([best, *rivals])}: Schwarz's criterion "
         f"differs by {', '.join(f'{by:.2g}' for by in rivals.values())}, where {limit:g} is strong "
         f"evidence{more}",
         value=min(rivals.values()),

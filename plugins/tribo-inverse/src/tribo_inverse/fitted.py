@@ -1,4 +1,4 @@
-"""A picture of what a calibration computes over what was measured."""
+"""A picture of computed over measured values of a calibration."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ NAME, PROFILE, MAP = 1.25, 42.0, 62.0
 
 
 def fit_picture(data: pd.DataFrame, points: pd.DataFrame | None = None) -> Figure:
-    """Draw what a calibration computes over what was measured, with its standard deviation.
+    """Draw the computed over the measured values of a calibration, with standard deviations.
 
-    Of a value below a limit of detection the limit stands for it, as an arrow that points down.
+    A value below a limit of detection is drawn at the limit, as an arrow that points down.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def fit_picture(data: pd.DataFrame, points: pd.DataFrame | None = None) -> Figur
         ``quantity``, ``measured``, ``sigma`` and ``computed``; ``test``,
         ``time_s``, ``position_m`` and ``below`` where it has them.
     points : DataFrame, optional
-        A row for each point, as its `data`; of these profiles and maps are drawn, each in a panel.
+        A row for each point, as its `data`; its profiles and maps are drawn, each in a panel.
     """
     fields = [] if points is None else _fields(points)
     measured, computed = data["measured"].to_numpy(float), data["computed"].to_numpy(float)
@@ -77,7 +77,7 @@ def fit_picture(data: pd.DataFrame, points: pd.DataFrame | None = None) -> Figur
 
 
 def _fields(points: pd.DataFrame) -> list[tuple[Callable[..., None], float, pd.DataFrame]]:
-    """Return how to draw each profile and map, how high it is, in mm, and its rows."""
+    """Return the drawing function, height in mm, and rows of each profile and map."""
     found: list[tuple[Callable[..., None], float, pd.DataFrame]] = []
     places = points.assign(position_m=points["position_m"].fillna(points.get("y_m", np.nan)))
     for _, rows in places[places["position_m"].notna()].groupby("place"):
@@ -103,7 +103,7 @@ def _residuals(axes: Axes, rows: pd.DataFrame) -> None:
 
 
 def _profile(axes: Axes, rows: pd.DataFrame) -> None:
-    """Draw a profile that was measured and that of the fit, over the place."""
+    """Draw the measured and the computed profile over the position."""
     place, depths = 1e3 * rows["position_m"], 1e6 * rows[["measured", "sigma", "computed"]]
     axes.errorbar(
         place, depths["measured"], yerr=depths["sigma"], fmt="o", color="#56b4e9", markersize=2.0

@@ -1,4 +1,4 @@
-"""What this package offers to tribo."""
+"""The hooks of this package."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def tribo_commands() -> list[Command]:
 
 @hookimpl
 def tribo_findings(model: Model, half_width_x: float) -> list[Finding]:
-    """Say which numbers of a case rule its answer."""
+    """Report the numbers of a case with the largest influence on its answer."""
     from tribo_inverse.adjoint.sensitivity import of_case
 
     return of_case(model, half_width_x)

@@ -76,7 +76,7 @@ def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
 def maps_table(found: FittedMaps, level: float) -> DataTable:
     """Return the range of the factors, and the number of cells where it differs from 1."""
     title = f"Local coefficients, {found.gradients + found.products} runs and passes back"
-    columns, rows = ("", "told", "factor there", f"below 1 at {100 * level:g} %", "above 1"), []
+    columns, rows = ("", "known", "factor there", f"below 1 at {100 * level:g} %", "above 1"), []
     for name, each in found.maps.items():
         told, (lower, upper) = each.told, each.interval(level)
         ends = each.factor[told] if np.any(told) else np.ones(1)
@@ -91,7 +91,7 @@ def fit_words(found: FittedMaps) -> str:
     """Return the goodness of fit in a sentence."""
     return (
         f"χ² {found.chi_square:.4g} with {found.degrees_of_freedom:.4g} degrees of freedom, "
-        f"{p_words(found.p_value)}. A cell is told where less than {SILENT:g} of the prior's "
+        f"{p_words(found.p_value)}. A cell is known where less than {SILENT:g} of the prior's "
         "standard deviation is left."
     )
 

@@ -30,14 +30,14 @@ def coefficient_map(found: LocalMap, level: float, title: str = "") -> Figure:
         return np.where(found.told, values, np.nan)
 
     panels: dict[str, tuple[Array, Range]] = {
-        "factor on k, where told": (known(found.factor), (None, None)),
+        "factor on k, where known": (known(found.factor), (None, None)),
         "standard deviation / prior's": (part, (0.0, 1.0)),
     }
     figure = _drawn(panels, spacing, title, "viridis")
     if len(part) == 1:
         low, high = (known(each)[0] for each in found.interval(level))
         figure.axes[0].fill_between(_places(part, spacing), low, high, color="#d0d0d0", lw=0)
-        # Ends where hardly anything is told would leave the rest flat.
+        # Ends with hardly any information would flatten the rest.
         if np.any(sure := part[0] < SURE):
             figure.axes[0].set_ylim(0.95 * np.min(low[sure]), 1.05 * np.max(high[sure]))
     return figure
@@ -46,8 +46,8 @@ def coefficient_map(found: LocalMap, level: float, title: str = "") -> Figure:
 def depth_fit(found: LocalMap, title: str = "") -> Figure:
     """Draw a measured depth, and the residual of the fit.
 
-    On a map a solid line surrounds residuals above three standard deviations, a dashed one those
-    below minus three.
+    On a map a solid line surrounds residuals above three standard deviations, a dashed line
+    residuals below minus three.
     """
     off = (found.computed - found.measured) / found.uncertainty
     largest = float(np.max(np.abs(off), initial=SIGNIFICANT, where=np.isfinite(off)))
@@ -65,7 +65,7 @@ def depth_fit(found: LocalMap, title: str = "") -> Figure:
 
 
 def _places(values: Array, spacing: tuple[float, float]) -> Array:
-    """Return where the cells of a row lie along y, in µm."""
+    """Return the positions of the cells of a row along y, in µm."""
     cells = np.arange(values.size) - 0.5 * (values.size - 1)
     return np.asarray(1e6 * spacing[1] * cells)
 

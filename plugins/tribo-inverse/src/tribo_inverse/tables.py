@@ -1,4 +1,4 @@
-"""Tables and sentences that `tribo calibrate` prints of fitted parameters."""
+"""Tables and sentences that `tribo calibrate` prints for fitted parameters."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tribo_inverse.findings import bound
 FAR = 10.0
 """Ratio of an interval's end to the value above which no percentage is printed."""
 BLIND = 0.2
-"""Singular value of the Jacobian below which a combination of parameters is unknown."""
+"""Singular value of the Jacobian below which a combination of parameters counts as unknown."""
 LONGEST_NAME = 30
 """Characters of a name that fit in a table of 80 columns."""
 BROKEN = ("interval", "relative")
@@ -171,7 +171,7 @@ def _name(row: Any) -> str:
 
 
 def _interval(row: Any, low: str, high: str) -> tuple[str, str]:
-    """Return the interval of a row, and the same relative to the value unless it is open."""
+    """Return the interval of a row, and the interval relative to the value unless it is open."""
     if row.lower == row.upper:
         return "not fitted", ""
     if math.isinf(row.upper):

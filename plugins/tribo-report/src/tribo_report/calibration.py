@@ -89,7 +89,7 @@ def calibration_page(found: Calibration, title: str) -> str:
 
 
 def _answers(found: Calibration) -> Iterator[str]:
-    """Return each estimate and its interval in a sentence, after a doubt of all of them."""
+    """Yield a warning of a misfit, then each estimate and its interval in a sentence."""
     if found.p_value is not None and found.p_value < UNLIKELY:
         yield (
             f"Data and model disagree, {p_words(found.p_value)}: the values below are not to be "

@@ -10,9 +10,9 @@ from tribo.kernel_api import PATH
 
 @click.command()
 @click.argument("what", nargs=-1, required=True, type=PATH)
-@click.option("-o", "--output", type=PATH, help="The file; WHAT-report.html.")
+@click.option("-o", "--output", type=PATH, help="Write this file, by default WHAT-report.html.")
 @click.option(
-    "--verified", type=PATH, help="What 'tribo verify CASE --json' printed, for uncertainties."
+    "--verified", type=PATH, help="Output of 'tribo verify CASE --json', for uncertainties."
 )
 def report(what: tuple[Path, ...], output: Path | None, verified: Path | None) -> None:
     """Write a report of WHAT to hand on: one HTML file that opens offline in any browser.

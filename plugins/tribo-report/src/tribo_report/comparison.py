@@ -68,13 +68,13 @@ def comparison_page(comparison: Comparison) -> str:
 def _how_compared(comparison: Comparison) -> str:
     """Say what the percentages of the table are."""
     return (
-        f"Percentages are relative to {comparison.reference}; those of fields and sections "
-        "are the L2 norm and the largest difference, of a pressure often that of a cell at the rim."
+        f"Percentages are relative to {comparison.reference}; for fields and sections they are "
+        "the L2 norm and the largest difference, which for a pressure often lies at the rim."
     )
 
 
 def _answers(comparison: Comparison) -> list[str]:
-    """Return what the bodies have lost in the first result, and how far the others are off."""
+    """Return the wear of bodies in the first result, and the differences of the others."""
     first, last = comparison.reference, comparison.times[-1]
     saves = {label: comparison.save(label, last) for label in comparison.results}
     time = time_labels(comparison.results[first].times)[comparison.results[first].save_at(last)]
@@ -96,7 +96,7 @@ def _answers(comparison: Comparison) -> list[str]:
 
 
 def _others(worn: dict[str, dict[str, float]], key: str, first: str) -> str:
-    """Return how far the others are off the first, in percent."""
+    """Return the differences of the others from the first, in percent."""
     parts = {label: 100 * (body[key] / worn[first][key] - 1) for label, body in worn.items()}
     del parts[first]
     return ", ".join(f"{label}: {signed(part, 1)} %" for label, part in parts.items())

@@ -32,9 +32,9 @@ NUMBERS = 150_000
 AT_SAVES = "A mark for each save; not known between."
 
 Results = Mapping[str, Result]
-"""By label; that of a single one is empty."""
+"""By label; empty for a single result."""
 Curves = Mapping[str, tuple[Result, list[Array]]]
-"""Fields of a result, one for each time, by what their curve is called."""
+"""Fields of a result, one for each time, by the name of their curve."""
 Panel = tuple[str, str, dict[str, list[Array]]]
 """Name, SI unit, and curves by what they are called: distance, time and values."""
 
@@ -51,7 +51,7 @@ def moments(result: Result, saves: Sequence[int]) -> list[dict[str, str]]:
 
 
 def touched(result: Result, saves: Sequence[int]) -> Mask:
-    """Return the cells that were in contact at one of some saves, or wear on a body that stays."""
+    """Return the cells in contact at one of some saves, or worn on a stationary body."""
     marked: Mask = np.any([result.field("pressure", i) > 0 for i in saves], axis=0)
     for name in result.body_names:
         if not result.body(name).swept:
@@ -156,7 +156,7 @@ def _section(
 
 
 def history(results: Results) -> dict[str, Any]:
-    """Return what changes over the steps: panels of curves against the distance, and the time."""
+    """Return panels of curves over the steps, against the distance, and the time."""
     tables, left_out = dict[str, dict[str, Array]](), 0
     for label, result in results.items():
         every = with_rests(result)
@@ -195,7 +195,7 @@ def history(results: Results) -> dict[str, Any]:
 
 
 def _panels(tables: Mapping[str, Mapping[str, Array]], bodies: Sequence[str]) -> Iterator[Panel]:
-    """Yield what there is to show of the steps."""
+    """Yield the panels of the steps."""
     for name, si, columns in _columns(bodies):
         curves = {
             ", ".join(part for part in (label, called) if part): [
@@ -213,7 +213,7 @@ def _panels(tables: Mapping[str, Mapping[str, Array]], bodies: Sequence[str]) ->
 
 
 def _of_models(results: Results) -> Iterator[Panel]:
-    """Yield what effects provide and what models keep, at the saves."""
+    """Yield the panels of fields of effects and states of models, at the saves."""
     found: dict[tuple[str, str], dict[str, list[Array]]] = {}
     for label, result in results.items():
         for field in kept_fields(result) if len(result.times) > 1 else ():
@@ -226,7 +226,7 @@ def _of_models(results: Results) -> Iterator[Panel]:
 
 
 def _columns(bodies: Sequence[str]) -> Iterator[tuple[str, str, dict[str, str]]]:
-    """Yield what there may be to show: its name, unit, and columns by what a curve is called."""
+    """Yield the possible panels: name, unit, and columns by the name of a curve."""
     for name, si, column in (
         ("Volume worn", "m^3", "wear_volume_m3"),
         ("Largest wear depth", "m", "max_wear_depth_m"),

@@ -15,7 +15,7 @@ CURVED = ("sphere", "paraboloid")
 
 
 def drawing(case: Mapping[str, Any], swept: str | None, load: str) -> str:
-    """Return the case as SVG. Its body that stays in the contact is above, or the first."""
+    """Return the case as SVG. Its stationary body is above, or the first."""
     bodies: Mapping[str, Any] = case["bodies"]
     lower = list(bodies)[-1] if swept is None else swept
     upper = next(name for name in bodies if name != lower)

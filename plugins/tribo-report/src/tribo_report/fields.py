@@ -58,7 +58,7 @@ class FieldPart:
 
 
 def charts(result: Result) -> dict[str, Any]:
-    """Return what the charts of a result draw, as plain data."""
+    """Return the data of the charts of a result, as plain data."""
     saves = thinned(len(result.times))
     times = [float(result.times[i]) for i in saves]
     depths_of = {name: removed(result, name)[saves] for name in result.body_names}
@@ -166,6 +166,6 @@ def _map(
 
 
 def _surface(name: str, map_: int, height: Array | None, unit: str) -> dict[str, Any]:
-    """Return what is drawn in 3-D: heights less the depths of a map; from 0 along a track."""
+    """Return the surface in 3-D: heights less the depths of a map; from 0 along a track."""
     heights = None if height is None else plain((height - np.max(height)) / size(unit))
     return {"name": name, "map": map_, "height": heights}

@@ -38,7 +38,7 @@ def _called(name: str) -> str:
 
 
 def _answers(found: FittedMaps, level: float) -> Iterator[str]:
-    """Say by which factors each coefficient differs, and where that is sure, after a doubt."""
+    """Yield a warning of a misfit, then the factors on each coefficient with certainty."""
     if found.is_refuted:
         yield (
             f"No map that varies so smoothly explains the depths, {p_words(found.p_value)}; see "
@@ -47,12 +47,12 @@ def _answers(found: FittedMaps, level: float) -> Iterator[str]:
     for name, each in found.maps.items():
         told, (lower, upper) = each.told, each.interval(level)
         if not np.any(told):
-            yield f"The data say nothing of where the coefficient of the {name} differs."
+            yield f"The data do not determine where the coefficient of the {name} differs."
             continue
         ends = each.factor[told]
         parts = [np.sum(told & sure) / np.sum(told) for sure in (upper < 1, lower > 1)]
         yield (
-            f"The coefficient of the {name} is {ends.min():.2f} to {ends.max():.2f} times that of "
-            f"the case where the data tell it; at {100 * level:g} % it is lower in "
+            f"The coefficient of the {name} is {ends.min():.2f} to {ends.max():.2f} times the "
+            f"case's where the data determine it; at {100 * level:g} % it is lower in "
             f"{100 * parts[0]:.0f} % of these cells and higher in {100 * parts[1]:.0f} %."
         )

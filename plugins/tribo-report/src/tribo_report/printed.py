@@ -13,7 +13,7 @@ from tribo import CaseError
 def printed_by(command: str, path: Path, option: str = "") -> Iterator[None]:
     """Turn errors of reading what a command printed into a `CaseError` that names the file.
 
-    `option` is that of the command line by which the file was given.
+    `option` is the option of the command line that gave the file.
     """
     try:
         yield

@@ -50,8 +50,8 @@ def block_words(blocks: Sequence[Blocks]) -> str:
         return "Every cell of the calculation is shown."
     count = " × ".join(map(str, sizes))
     return (
-        f"Each point shown is the mean of {count} cells of the calculation, so that peaks narrower "
-        "than that are lower here; the largest values named are those of single cells."
+        f"Each point shown is the mean of {count} cells of the calculation, which lowers narrower "
+        "peaks; the largest values named belong to single cells."
     )
 
 

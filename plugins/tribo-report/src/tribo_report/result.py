@@ -168,7 +168,7 @@ def _provenance(result: Result) -> list[tuple[str, str]]:
 
 
 def case_text(case: Mapping[str, Any]) -> str:
-    """Return a case as TOML, or a word on one that is too long for a report."""
+    """Return a case as TOML, or a sentence if it is too long for a report."""
     text = to_toml(case)
     if len(text) <= LONGEST_CASE:
         return text

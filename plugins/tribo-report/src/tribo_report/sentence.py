@@ -14,7 +14,7 @@ from tribo_report.amounts import amount
 from tribo_report.printed import printed_by
 
 AGREES = 0.02
-"""Relative difference up to which a value is that of a study of the same case."""
+"""Relative difference up to which a value agrees with a study of the same case."""
 
 EXACT = 1e-6
 """Relative uncertainty up to which none is quoted: Archard's law fixes the volume."""
@@ -52,7 +52,7 @@ def read_verified(path: Path, result: Result) -> Sequence[Estimate]:
 
 
 def sentence(result: Result, lab: LabReport, verified: Sequence[Estimate]) -> str:
-    """Return what each body has lost, how deep, over which distance and under which load."""
+    """Return the volume and depth that each body has lost, with distance and load."""
     last = result.saves()[-1]
     losses = []
     for name, report in lab.bodies.items():
@@ -77,7 +77,7 @@ def sentence(result: Result, lab: LabReport, verified: Sequence[Estimate]) -> st
 
 
 def _coating(result: Result, name: str, layers: int) -> str:
-    """Say of a body's layers which was worn through, and when."""
+    """Name the layers of a body that were worn through, and when."""
     if not layers:
         return ""
     passed = [each for each in result.worn_through if each["body"] == name]
@@ -111,7 +111,7 @@ def quoted(value: float, units: Mapping[str, float], study: Estimate | None = No
 
 
 def trust(verified: Sequence[Estimate]) -> str:
-    """Return what the numbers behind ± are, or how to get them."""
+    """Return the meaning of the numbers after ±, or the command to get them."""
     if verified:
         return (
             "± is the numerical uncertainty, of grid and time steps together, found on three grids "

@@ -122,7 +122,7 @@ def _table(runs: pd.DataFrame, varied: list[str], measures: list[str]) -> DataTa
 
 
 def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[str, Any]:
-    """Return what is measured over each quantity that varies, a curve for each of the others."""
+    """Return measures over each quantity that varies, a curve for each of the others."""
     axes = []
     for across in varied:
         words, _, factor = labelled(across, done)

@@ -33,15 +33,15 @@ def write_report(
     Parameters
     ----------
     what : Result, Comparison, Sweep, Calibration, str, Path or sequence of str or Path
-        A result or its file; a comparison, the files of several results, or
-        a folder of them, as that of ``tribo compare``; a sweep or its folder; a
-        calibration, or what ``tribo calibrate --json`` printed, in a file that ends
-        in ``.json``. Results are compared with the first, of a folder in the order
+        A result or its file; a comparison, the files of several results, or a
+        folder of them, as from ``tribo compare``; a sweep or its folder; a
+        calibration, or the output of ``tribo calibrate --json`` in a file that ends
+        in ``.json``. Results are compared with the first; a folder is in the order
         of the names.
     path : str or Path
-        The file to write; what is there is replaced.
+        The file to write; an existing file is replaced.
     verified : str or Path, optional
-        What ``tribo verify CASE --json`` printed of the same case: the report
+        The output of ``tribo verify CASE --json`` for the same case: the report
         of a result then states uncertainties.
 
     Returns
@@ -86,7 +86,7 @@ def _page(what: What, verified: Path | None) -> str:
 
 
 def _opened(what: What, opened: ExitStack) -> Result | Comparison | Calibration | Path:
-    """Return what is to be reported; the path alone of a sweep and of a printed calibration."""
+    """Return the subject of the report; for a sweep and a printed calibration the path alone."""
     if isinstance(what, str | Path):
         place = Path(what)
         if place.suffix == ".json" or (place / RUNS).exists():

@@ -22,7 +22,7 @@ class Detachment(WearLaw):
     The material is made of particles of a diameter d and a thickness t. R is drawn for each, with
     mean 1, from a gamma distribution; in between it is linear (`resistance`). With a spread of 1 it
     is exponential: the chance of a particle to leave is the same in every metre, as Archard takes
-    it. A point under an even pressure wears by k p on the mean, and so does a whole contact once
+    it. A point under an even pressure wears by k p on average, and so does a whole contact once
     the pressure has spread itself in proportion to R (Khrushchov: the wear resistance of a
     composite is the mean of its parts').
 
@@ -40,7 +40,7 @@ class Detachment(WearLaw):
     examples = ({"k": "3.11e-16 1/Pa", "diameter": "10 um", "thickness": "0.5 um"},)
     type = "roughening.detachment"
     k: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))]
-    """Specific wear rate, volume per load and sliding distance, on the mean."""
+    """Mean specific wear rate, volume per load and sliding distance."""
     diameter: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1e-3))]
     """Diameter d of a particle along the surface."""
     thickness: Annotated[float, Quantity("m", above=0, usual=(1e-10, 1e-4))]
@@ -74,7 +74,7 @@ class Detachment(WearLaw):
             )
 
     def smoothed(self) -> WearLaw:
-        """Return Archard's law with the same k, which it follows on the mean."""
+        """Return Archard's law with the same k, which it follows on average."""
         return Archard(k=self.k)
 
     def facts(self) -> Mapping[str, str]:

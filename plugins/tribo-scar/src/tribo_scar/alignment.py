@@ -1,4 +1,4 @@
-"""Where two height maps lie on each other to a pixel, by the cross-correlation of their relief."""
+"""The alignment of two height maps to a pixel, by the cross-correlation of their relief."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ SIGNIFICANT = 8.0
 
 
 def align(before: Heights, after: Heights) -> tuple[Array, float]:
-    """Return how the map after lies on that before, to about a pixel.
+    """Return the position of the map after on the map before, to about a pixel.
 
-    The shift of its middle from that of the map before, shape (2,), in m, and its rotation,
-    anticlockwise, in rad.
+    It is the shift of its middle from the middle of the map before, shape (2,), in m, and its
+    rotation, anticlockwise, in rad.
 
     References
     ----------

@@ -31,11 +31,11 @@ MOST_DIGITS = 6
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=PATH, metavar="[BEFORE] AFTER")
-@click.option("--ideal", metavar="SURFACE", help="Shape in place of BEFORE, as in a case.")
-@click.option("--pitch", multiple=True, metavar="LENGTH", help="Of pixels; twice for x and y.")
-@click.option("--radius", metavar="LENGTH", help="Of the ball, for a lab's formulas.")
-@click.option("--track-length", metavar="LENGTH", help="Of the whole track; the map's.")
-@click.option("--form", type=int, default=1, help="2 takes a curvature off too.")
+@click.option("--ideal", metavar="SURFACE", help="Shape before the test, as in a case.")
+@click.option("--pitch", multiple=True, metavar="LENGTH", help="Pixel pitch; twice for x, y.")
+@click.option("--radius", metavar="LENGTH", help="Radius of the ball, for formulas.")
+@click.option("--track-length", metavar="LENGTH", help="Track length; by default the map's.")
+@click.option("--form", type=int, default=1, help="Form removed: 1 tilt, 2 curvature too.")
 @click.option(
     "-o",
     "--output",
@@ -115,7 +115,7 @@ def _write(found: MeasuredScar, path: Path, shape: tuple[int, ...]) -> Path:
     if path.suffix.lower() == DEPTHS:
         import numpy as np
 
-        # The middle of the map stays where it is, which is that of the contact in a fit.
+        # The middle of the map stays, as a fit takes it as the middle of the contact.
         depths = np.full(shape, np.nan)
         depths[found.registration.part] = found.depths
         image = BytesIO()

@@ -1,4 +1,4 @@
-"""The largest depth of a measured scar, and how sure that and its volume are."""
+"""The largest depth of a measured scar, and the uncertainties of depth and volume."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MISSED = 0.2
 FEWEST_OF_BOTTOM = 12
 """Pixels that a paraboloid is fitted to at least."""
 BOTTOM = 0.8
-"""Part of the largest depth from which on a pixel is of the bottom of the scar."""
+"""Part of the largest depth above which a pixel belongs to the bottom of the scar."""
 LEVEL = 10.0
 """Variance of the form of a bottom, relative to that by noise of a mean, below which it is flat; 5
 by noise alone."""
@@ -28,10 +28,9 @@ by noise alone."""
 def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tuple[float, float]:
     """Return the largest depth of a scar and its standard uncertainty, in m.
 
-    A paraboloid is fitted to the bottom, as smoothing would flatten it; where noise would make as
-    much of a flat bottom its mean is taken. The uncertainty combines that of the coefficients, of
-    the registration, and the smoothed residuals of the fit beyond noise, as of the relief of a worn
-    surface.
+    A paraboloid is fitted to the bottom, as smoothing would flatten it; a bottom that is flat
+    within noise has its mean. The uncertainty combines the coefficients, the registration, and the
+    smoothed residuals of the fit beyond noise, such as the relief of a worn surface.
     """
     worn = np.where(core, smooth, -np.inf)
     areas, _ = ndimage.label(worn >= BOTTOM * np.max(worn), np.ones((3, 3)))
@@ -70,7 +69,7 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
     mean, spread = float(np.mean(form)), float(np.var(form))
     # The largest of what noise makes of a flat bottom lies above it.
     if spread < LEVEL * of_noise / len(places):
-        # That of a curved one lies √3 standard deviations above the mean.
+        # The depth of a curved one lies √3 standard deviations above the mean.
         of_form = of_noise / len(places) + 3 * spread
         return mean, math.sqrt(of_form + of_rest)
     of_coefficients = min(_leverage(off, scale) * of_noise, found.noise**2)
@@ -78,7 +77,7 @@ def deepest(found: Registration, smooth: Array, core: Mask, noise: float) -> tup
 
 
 def _holes(area: Mask, missing: Mask) -> Mask:
-    """Return what an area encloses that is missing, but for what is missing in a ring's middle."""
+    """Return the missing pixels that an area encloses, without the middle of a ring."""
     places, count = ndimage.label(ndimage.binary_fill_holes(area) & ~area)
     parts = np.array([1.0, *ndimage.mean(missing, places, np.arange(1, count + 1))])
     found: Mask = missing & (places > 0) & (parts[places] > MOSTLY)
@@ -95,9 +94,8 @@ def _leverage(places: Array, scale: float) -> float:
 def sum_uncertainty(found: Registration, scar: Mask) -> float:
     """Return the standard uncertainty of the sum of depths in a scar, in m.
 
-    Missing pixels have the standard deviation of the depths around them from their smoothed ones,
-    which is that of curvature and noise; those of a hole are correlated, of one with arms as far as
-    it is wide.
+    Missing pixels have the standard deviation of the depths around them from the smoothed depths,
+    which includes curvature and noise; pixels of a hole are correlated, over the width of its arms.
     """
     missing = scar & np.isnan(found.depth)
     sums = np.sum(found.slopes[:, scar], axis=1)

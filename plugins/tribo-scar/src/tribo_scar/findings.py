@@ -1,4 +1,4 @@
-"""Warnings of what looks wrong with the maps of a scar."""
+"""Warnings of faults in the maps of a scar."""
 
 from __future__ import annotations
 
@@ -14,18 +14,17 @@ from tribo_scar.registration import variance_inflation
 from tribo_scar.worn_area import WornArea
 
 ZEROS = 10
-"""Ratio of the number of zeros to that of any other height above which zeros may be missing
-values."""
+"""Number of zeros over the number of any other height, above which zeros may be missing values."""
 CURVED = 20.0
-"""Sag of the map, relative to its relief, from which on the radius of its surface is known."""
+"""Sag of the map, relative to its relief, above which the radius of its surface is known."""
 FEWEST = 100
-"""Pixels beside a scar that a form is looked for in."""
+"""Least pixels beside a scar to search for a form."""
 ORDER = 4
-"""Order of the polynomial that a form is looked for by."""
+"""Order of the polynomial of the form."""
 BENT = 40.0
 """χ² of its 12 terms beyond a tilt, which chance exceeds once in 10⁴ maps."""
 GAP = 0.15
-"""Part of the volume in one gap of the map from which on it is told."""
+"""Part of the volume in one gap of the map above which it is reported."""
 WIDE = 5
 """Pixels of a gap along x and y at least."""
 RADIUS_OFF = 0.05
@@ -33,7 +32,7 @@ RADIUS_OFF = 0.05
 
 
 def warn(words: str) -> None:
-    """Warn whoever has a scar measured."""
+    """Warn at the line that measures a scar."""
     warnings.warn(words, TriboWarning, stacklevel=4)
 
 
@@ -54,7 +53,7 @@ def warn_of_zeros(heights: Heights, which: str) -> None:
 
 
 def check_scales(before: Heights, after: Heights) -> None:
-    """Refuse maps of which one has a whole part of the other's pixels along both axes."""
+    """Refuse maps whose numbers of pixels along both axes have a whole ratio above 1."""
     fewer, more = sorted((before.heights.shape, after.heights.shape))
     ratio = more[0] // fewer[0]
     if ratio > 1 and more == tuple(ratio * n for n in fewer):
@@ -66,7 +65,7 @@ def check_scales(before: Heights, after: Heights) -> None:
 
 
 def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
-    """Warn if what is unworn differs by a form, beyond what relief and noise make of it.
+    """Warn if the unworn surfaces differ by a form, beyond relief and noise.
 
     Not if its standard deviation is below the uncertainty `sure` of the scar's mean depth, in m.
     A form of the order `form` was taken off.
@@ -96,12 +95,12 @@ def warn_of_form(unworn: Array, sure: float, form: int, *, ideal: bool) -> None:
 
 
 def _is_covered(unworn: Array) -> bool:
-    """Whether a scar covers as good as all of a map."""
+    """Whether a scar covers almost all of a map."""
     return bool(np.count_nonzero(np.isfinite(unworn)) < FEWEST)
 
 
 def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
-    """Whether the unworn surface may be that of a ball; warn if not, or of another radius."""
+    """Whether the unworn surface may be a ball; warn if not, or of another radius."""
     unworn = np.where(scar, np.nan, after.heights)
     if _is_covered(unworn):
         # It is not known.
@@ -123,7 +122,7 @@ def may_be_ball(after: Heights, scar: Mask, radius: float) -> bool:
 
 
 def _of_ball(after: Heights, scar: Mask, radius: float) -> float:
-    """Return the radius that a ball's surface is read to have, which is less where it is steep."""
+    """Return the radius read off a ball's surface, which is smaller where it is steep."""
     try:
         ball = np.where(scar, np.nan, Sphere(radius=radius).height(after.grid))
     except CaseError:
@@ -132,29 +131,29 @@ def _of_ball(after: Heights, scar: Mask, radius: float) -> float:
 
 
 def warn_of_area(worn: WornArea, *, within: bool) -> None:
-    """Warn of a scar that an edge cuts off, that of the map or `within` it, and of its shape."""
+    """Warn of a scar that an edge of the map, or `within` it, cuts off, and of its shape."""
     if worn.cut_off:
         edge = "the area common to both maps" if within else "what was measured"
         warn(
-            f"the edge of {edge} cuts the scar off: volume and depth are those of the part within, "
+            f"the edge of {edge} cuts the scar off: volume and depth belong to the part within, "
             "widths and formulas are left out; measure a larger area"
             f"{', the same before and after' if within else ''}"
         )
     elif (part := _in_a_gap(worn)) > GAP:
         warn(
-            f"{100 * part:.0f} % of the volume lie in one gap of what was measured, by the depths "
-            "around it: too much if it is not worn there, as in the middle of a circular track"
+            f"{100 * part:.0f} % of the volume lies in one gap of the map, interpolated from the "
+            "depths around it: too much if the gap is unworn, as in the middle of a circular track"
         )
     if worn.several:
         warn(
-            f"{worn.count} areas are worn: volume is that of all, depth that of the deepest, and "
-            "widths and formulas are left out; cut the maps to one of them for these"
+            f"{worn.count} areas are worn: volume is of all, depth is of the deepest, and widths "
+            "and formulas are left out; cut the maps to one of them for these"
         )
     if worn.is_ring:
         warn(
-            "the scar encloses what is not worn, as a whole circular track does: widths are those "
-            "of its outline, the largest depth is rough, and formulas are left out; cut the maps "
-            "to a part of the track for these"
+            "the scar encloses an unworn area, as a whole circular track does: widths belong to "
+            "its outline, the largest depth is rough, and formulas are left out; cut the maps to "
+            "a part of the track for these"
         )
 
 

@@ -38,13 +38,13 @@ from tribo_scar.worn_area import MARGIN, WornArea, worn_area
 MOST = 0.65
 """Part of the map that a scar may cover, with its margin."""
 PIT = 0.03
-"""Part of the map below which what differs beside the scar is a pit or a scratch."""
+"""Part of the map below which a difference beside the scar is a pit or a scratch."""
 LITTLE = 2e-3
 """Part of a volume that does not matter."""
 SHORTER = 0.95
 """Length of a track over that within the map, below which it is refused."""
 SURE = 0.3
-"""Part of the largest depth from which on a pixel tells the shape of the worn surface."""
+"""Part of the largest depth above which a pixel shows the shape of the worn surface."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class MeasuredScar:
     after : Heights
         The map after the test, on the common area.
     scar, piled : ndarray of bool, shape (nx, ny)
-        The pixels of the scar, and those of what is piled up beside it.
+        The pixels of the scar, and the pixels of material piled up beside it.
     volume, volume_uncertainty : float
         Volume of the scar within the map, in m³.
     piled_up, piled_up_uncertainty : float
@@ -67,11 +67,11 @@ class MeasuredScar:
         Largest depth, of a paraboloid through the bottom of the scar, in m.
     along, across : float
         Widths along and across the sliding direction, in m; infinite for a track, which reaches
-        both edges of the map, and None for one that is cut off and for several.
+        both edges of the map, and None for a scar that is cut off and for several.
     along_uncertainty, across_uncertainty : float
-        Standard uncertainties of these, by noise and by how far the edge is from a parabola.
+        Standard uncertainties of these, by noise and by the deviation of the edge from a parabola.
     cut_off : bool
-        Whether the scar goes on beyond the edge of the map, other than at the ends of a track.
+        Whether the scar extends beyond the edge of the map, other than at the ends of a track.
     missing : float
         Part of the scar's pixels that are missing; their depth is interpolated.
     outliers : int
@@ -80,8 +80,8 @@ class MeasuredScar:
         Mean cross-section of a track, across its direction, in m²; None for a scar that ends within
         the map.
     track_volume : float or None
-        Of the whole track, its mean section times its length (ASTM G133, D7755), in m³; None where
-        that is not given, and for a scar that ends within the map.
+        Of the whole track, its mean section times its length (ASTM G133, D7755), in m³; None
+        without a length, and for a scar that ends within the map.
     inferred : tuple of InferredVolume
         Volumes by formulas, and their difference from the measured one.
     """
@@ -162,12 +162,12 @@ def measured_scar(
         The surface after the test, x along the sliding direction.
     radius : float, optional
         Radius of the ball, in m, for the formulas that need it; for a scar on an ideal
-        sphere that of the sphere by default.
+        sphere the radius of the sphere by default.
     track_length : float, optional
         Length of the whole track, in m: the stroke, or 2πr. By default its length in the map.
     form : int, optional
         Order of the polynomial form that is removed from the difference: 1 for tilt, 2 for
-        curvature as well, as of an instrument, or of a ball whose radius is uncertain.
+        curvature as well, such as from an instrument, or from an uncertain radius of a ball.
 
     Raises
     ------
@@ -205,9 +205,9 @@ def measured_scar(
     covered = float(np.mean(found.worn))
     if covered > MOST:
         raise CaseError(
-            f"{100 * covered:.0f} % of the {shape[0]} × {shape[1]} pixels differ, or lie within a "
-            "few of those that do, too much to register the maps by the rest; measure a larger "
-            "area, half of it unworn, or with smaller pixels"
+            f"{100 * covered:.0f} % of the {shape[0]} × {shape[1]} pixels differ, or lie next to "
+            "differing pixels, too many to register the maps by the rest; measure a larger area, "
+            "half of it unworn, or with smaller pixels"
         )
     worn = worn_area(found, after.pitch, ideal=ideal)
     smooth, depth, known, scar = worn.smooth, worn.depth, worn.known, worn.scar

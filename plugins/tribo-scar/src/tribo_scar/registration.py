@@ -14,16 +14,16 @@ from tribo_scar.alignment import OVERLAP, align, robust_deviation, rotation
 SAME = 1e-3
 """Relative difference up to which two pitches are the same."""
 TEXTURE = 3.0
-"""Eigenvalue of the normal matrix, relative to that of noise, above which a direction of shift and
-rotation is determined."""
+"""Eigenvalue of the normal matrix, relative to noise, above which a direction of shift and rotation
+is determined."""
 TUKEY = 4.685
 """Tukey's constant: residual of weight 0, in standard deviations."""
 DEEP = 4.0
-"""Standard deviations of noise from which on a difference is a scar."""
+"""Standard deviations of noise above which a difference is a scar."""
 ROUNDING = 1e-4
 """Least noise, relative to the largest depth."""
 ROUNDED = 1e-7
-"""Rounding of heights in files, relative to their range; less tells no shift."""
+"""Rounding of heights in files, relative to their range; less does not determine a shift."""
 BLOCKS = 8
 """Blocks along the shorter edge of the map, whose sums give the correlation of noise."""
 BLURS = 4.0, 2.0, 1.0
@@ -35,7 +35,7 @@ SETTLED = 1e-3
 standard deviations of noise."""
 SHIFT_GUESSED, TURN_GUESSED = 0.1, 0.1
 """Standard deviations of a shift, in widths of the map, and of a turn, in rad, that the relief does
-not tell."""
+not determine."""
 FORM_ITERATIONS = 6
 """First steps, which fit the form alone."""
 QUANTILE = 0.3
@@ -55,11 +55,11 @@ class Registration:
     uncertainty : ndarray, shape (nx, ny)
         Standard uncertainty of the depth, by noise and registration, in m.
     shift, shift_uncertainty : tuple of float
-        How far what is in the middle of the map before lies from the middle of the map after, in
-        m. The uncertainty is infinite where the maps do not determine it: a shift of a smooth ball
-        looks like a tilt. If nothing is determined the map is not moved.
+        Offset, in the map after, of the middle of the map before from its own middle, in m. The
+        uncertainty is infinite where the maps do not determine it: a shift of a smooth ball looks
+        like a tilt. If nothing is determined the map is not moved.
     rotation, rotation_uncertainty : float
-        Anticlockwise, of what is in the map after against the map before, in rad.
+        Anticlockwise, of the surface in the map after against the map before, in rad.
     noise : float
         Standard deviation of the unworn differences, in m.
     worn : ndarray of bool, shape (nx, ny)
@@ -69,7 +69,7 @@ class Registration:
     covariance : ndarray, shape (p, p)
         Covariance of the parameters.
     variance_inflation : float
-        Variance of a sum of noise, relative to that of noise without correlation of neighbours.
+        Variance of a sum of noise, relative to noise without correlation of neighbours.
     """
 
     part: tuple[slice, slice]
@@ -220,7 +220,7 @@ class _Fit:
         inverse = np.linalg.pinv(normal[3:, 3:], hermitian=True)
         coupling = normal[:3, 3:] @ inverse
         values, vectors = np.linalg.eigh(normal[:3, :3] - coupling @ normal[3:, :3])
-        # Half of the noise is that of the map before. Correlated noise has less steep slopes than
+        # Half of the noise is in the map before. Correlated noise has less steep slopes than
         # white noise, which the residuals show once the maps are registered.
         white = (scale / (blur * np.min(self.pitch))) ** 2 / 2
         seen = (
@@ -317,7 +317,7 @@ def quadratic(places: Array, scale: float) -> Array:
 
 
 def variance_inflation(values: Array) -> float:
-    """Return the variance of a sum of values, relative to that of independent ones."""
+    """Return the variance of a sum of values, relative to independent values."""
     known = np.isfinite(values)
     centred = np.where(known, values - np.mean(values[known]), 0.0)
     return max(1.0, float(_sums(centred[None])[0, 0]) / max(float(np.sum(centred**2)), 1e-300))
@@ -326,8 +326,8 @@ def variance_inflation(values: Array) -> float:
 def _sums(scores: Array) -> Array:
     """Return the covariance of the sums over the map of residuals' scores, shape (p, nx, ny).
 
-    It is that of sums over all blocks of a size, extrapolated from two sizes to large ones, where
-    neighbours of another block no longer count.
+    It is the covariance of sums over all blocks of a size, extrapolated from two sizes to large
+    blocks, where neighbours of another block no longer count.
     """
     edge = max(BLOCKS, min(scores.shape[1:]) // BLOCKS)
     padded = np.pad(scores, ((0, 0), (edge, edge), (edge, edge)))

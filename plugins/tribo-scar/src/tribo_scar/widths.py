@@ -69,10 +69,9 @@ def track_across(
 ) -> tuple[Mask, WidthReading, float]:
     """Return the band of a track, straight or an arc, along an axis, its width and length in m.
 
-    The mean profile along the track has less noise than single depths, and shows how far it is
-    worn beyond the pixels that do by themselves. `core` are the pixels that are worn beyond doubt,
-    `worn` those beside which noise is looked for. Where hardly any line is beside the track `noise`
-    is taken, that of smoothed depths in m.
+    The mean profile along the track has less noise than single depths, and shows wear beyond the
+    pixels with significant wear, `core`. Noise is measured beside the pixels `worn`. Where hardly
+    any line is beside the track `noise` is taken, the standard deviation of smoothed depths in m.
     """
     lines, inside, touched = (np.moveaxis(each, 1 - axis, 0) for each in (depth, core, worn))
     deep = np.where(inside, np.maximum(lines, 0.0), 0.0)
@@ -92,7 +91,7 @@ def track_across(
     along_core = np.flatnonzero(np.mean(core_part, axis=1) > BESIDE)
     if not along_core.size:
         raise CaseError(
-            "what is worn runs across the map, but along no line: check that both maps are of one "
+            "the worn area crosses the map, but along no line; check that both maps show the same "
             "body"
         )
     first, last = along_core[[0, -1]]
@@ -109,14 +108,14 @@ def track_across(
 
 
 def _read(profile: Array, noise: float, blur: float, pitch: float) -> WidthReading:
-    """Return the width of a profile: where the parabola through two of its levels comes to 0.
+    """Return the width of a profile: where the parabola through two of its levels reaches 0.
 
-    The depth of a ball worn flat is a parabola. How far another scar is from it shows in the
-    parabola through higher levels. Sides that fall within a pixel end at half of the depth.
+    The depth of a ball worn flat is a parabola. The deviation of another scar shows in the parabola
+    through higher levels. Sides that fall within a pixel end at half of the depth.
     """
     peak = float(np.max(profile))
     if peak <= 0:
-        raise CaseError("what is worn has no depth on the mean: is the map of before given first?")
+        raise CaseError("the scar has no mean depth; give the map of before first")
     half = _crossed(profile, 0.5 * peak)
     low = min(max(LOWEST, DEEP * noise / peak, 3 * blur * math.sqrt(2) / half), HIGHEST)
     levels = (low, 2 * low, min(4 * low, 0.9))

@@ -1,4 +1,4 @@
-"""What of a depth map is a scar, and what is piled up beside it."""
+"""The scar in a depth map, and the material piled up beside it."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from tribo_scar.widths import WidthReading, track_across
 SPOT = 0.1
 """Part of the largest scar's volume below which a worn area is left out."""
 EDGE = 0.05
-"""Part of the largest depth from which on a scar is cut off by the edge of the map."""
+"""Part of the largest depth above which the edge of the map cuts a scar off."""
 ENCLOSED = 0.1
-"""Part of a scar within its outline from which on what is not worn makes a ring of it."""
+"""Unworn part within the outline of a scar, above which the scar is a ring."""
 FINE = 0.7
-"""Width of the Gaussian that a ridge of a few pixels is seen after, in pixels."""
+"""Width of the Gaussian for ridges of a few pixels, in pixels."""
 RELIEF = 1.0
-"""That against which the relief of a worn surface is told, but not its curvature."""
+"""Width of the Gaussian that separates relief from the curvature of a worn surface, in pixels."""
 BORDER, STEEP = 2, 2.0
 """Pixels on each side of the border of a scar with what is piled up that are sorted by their sign,
 and the least slope there, in standard deviations of the noise per pixel."""
@@ -45,19 +45,19 @@ class WornArea:
     """Depths, with missing pixels interpolated."""
     known: Mask
     core: Mask
-    """Pixels that are worn beyond doubt."""
+    """Pixels with significant wear."""
     scar: Mask
     piled: Mask
     noise: float
-    """Standard deviation of the smoothed depths of what is unworn."""
+    """Standard deviation of the smoothed depths of unworn pixels."""
     count: int
-    """Number of areas apart from each other."""
+    """Number of separate areas."""
     is_open: list[bool]
     """Whether it reaches both edges of the map, along x and along y."""
     cut_off: bool
-    """Whether it goes on beyond the edge, other than at the ends of a track."""
+    """Whether it extends beyond the edge, other than at the ends of a track."""
     is_ring: bool
-    """Whether it encloses what is not worn, as a whole circular track does."""
+    """Whether it encloses an unworn area, as a whole circular track does."""
     track: WidthReading | None
     """Width across a track; None for a scar that ends within the map."""
     length: float | None
@@ -70,7 +70,7 @@ class WornArea:
 
 
 def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -> WornArea:
-    """Return what is worn; `CaseError` if nothing is. The map before may be an ideal shape."""
+    """Return the worn area; `CaseError` if nothing is. The map before may be an ideal shape."""
     smooth, known = smoothed(found.depth), np.isfinite(found.depth)
     depth = _filled(found.depth, smooth, known)
     noise = _noise(smooth, found)
@@ -81,12 +81,11 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         why = f"if over half of the map is worn, measure a larger area; or {doubt}"
         if piled.any():
             why = (
-                "but some of it stands up; is the map after the test given first, or are heights "
-                "counted downwards?"
+                "but a part stands up; give the map of before first, and heights that count upwards"
             )
         raise CaseError(
-            f"no scar was found: nothing is worn deeper than {1e6 * DEEP * noise:.3g} µm, {DEEP:g} "
-            f"times what else differs; {why}"
+            f"no scar was found: no depth exceeds {1e6 * DEEP * noise:.3g} µm, {DEEP:g} times the "
+            f"other differences; {why}"
         )
     is_open = [
         all(bool(np.any(core.take(end, axis))) for end in (range(MARGIN), range(-MARGIN, 0)))
@@ -140,7 +139,7 @@ def _noise(depth: Array, found: Registration) -> float:
 
 
 def _thin_ridges(found: Registration, fine: Array, relief: float, margin: Mask) -> Mask:
-    """Return what stands up in the margin of a scar, too thin for `_largest`.
+    """Return the ridges in the margin of a scar, too thin for `_largest`.
 
     Beyond noise, and beyond the relief of the worn surface, whose tops are no ridges.
     """
@@ -152,7 +151,7 @@ def _thin_ridges(found: Registration, fine: Array, relief: float, margin: Mask) 
 
 
 def _border(fine: Array, noise: float, scar: Mask, piled: Mask) -> Mask:
-    """Return pixels between a scar and what is piled up that tell by their sign of which they are.
+    """Return pixels at the border of a scar and piled-up material, to be sorted by their sign.
 
     Smoothing moves that border. Where it is not steep, the signs of noise, and of the relief of the
     worn surface, would add up.
@@ -180,7 +179,7 @@ def _largest(depth: Array, marked: Mask) -> Mask:
 
 
 def _shallow(smooth: Array, core: Mask, level: float) -> int:
-    """Return how many pixels further than at a level a parabolic scar ends."""
+    """Return the distance in pixels from a level to the end of a parabolic scar."""
     reach = float(np.max(ndimage.distance_transform_edt(core)))
     deep = 1 - level / float(np.max(smooth[core]))
     return math.ceil(reach * (1 / math.sqrt(deep) - 1))

@@ -27,9 +27,9 @@ def pressure(
     tolerance: float,
     max_iterations: int,
 ) -> tuple[Array, int]:
-    """Return what tamaas takes for the solution, and its iterations.
+    """Return the solution of tamaas, and its iterations.
 
-    tamaas says neither whether nor how well it converged, so the caller has to
+    tamaas reports neither whether nor how well it converged, so the caller must
     judge the pressure.
 
     Parameters
@@ -61,7 +61,7 @@ def pressure(
     Raises
     ------
     NumericalError
-        If tamaas raises something, or gives a pressure that cannot be one.
+        If tamaas raises an error, or returns an invalid pressure.
     """
     import tamaas
 
@@ -102,7 +102,7 @@ def pressure(
 
 
 def _counter(tamaas: Any) -> Any:
-    """Return an energy that is zero, to count how often its gradient is asked for."""
+    """Return an energy that is zero, to count evaluations of its gradient."""
 
     class Counter(tamaas.Functional):  # type: ignore[misc]
         def __init__(self) -> None:

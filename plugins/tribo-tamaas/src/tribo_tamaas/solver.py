@@ -26,7 +26,7 @@ from tribo.kernel_api import check_bearable, check_finite
 
 from tribo_tamaas.drive import pressure
 
-# tamaas's error is not quite tribo's residual; where it stops too soon, it goes on.
+# tamaas's error is not quite tribo's residual; where it stops too soon, it continues.
 _ATTEMPTS = 4
 _SHARPER = 0.1
 

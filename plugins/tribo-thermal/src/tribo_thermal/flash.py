@@ -66,8 +66,8 @@ class Flash(Effect):
     stationary body (static) and moving at the sliding speed over the swept
     one; see `rise_per_power`. R_kept is the heat that earlier passes left in
     the track of the swept body, to and fro or round; see `kept_per_power`. Each
-    body adds the bulk resistance of its heat path, K/W. The heat flows q, in
-    sum μ F v, make the two temperatures equal (Blok's 1/ΔT = 1/ΔT₁ + 1/ΔT₂,
+    body adds the bulk resistance of its heat path, K/W. The heat flows q, which
+    add up to μ F v, make the two temperatures equal (Blok's 1/ΔT = 1/ΔT₁ + 1/ΔT₂,
     bulk included), unless the case gives their parts: then each body has its
     own temperature, as across an insulating film.
 
@@ -109,7 +109,8 @@ class Flash(Effect):
     heat_paths: dict[str, HeatPath] | None = None
     """Heat path of each body, by name; a body without one is a half-space at ambient."""
     heat_fraction: dict[str, Annotated[float, Quantity("1", at_least=0, at_most=1)]] | None = None
-    """Part of the heat that each body takes, by name, in sum 1; by partition if left out."""
+    """Part of the heat that each body takes, by name; the parts add up to 1. If left out, by
+    partition."""
 
     @model_validator(mode="after")
     def _all_heat_goes_somewhere(self) -> Self:
@@ -145,7 +146,7 @@ class Flash(Effect):
         )
 
     def check(self, system: ContactSystem, swept: frozenset[str], solver: str) -> None:
-        """Require thermal properties, bodies that exist, and one that stays in contact."""
+        """Require thermal properties, existing bodies, and a body that stays in contact."""
         materials = system.materials
         bodies = set(materials)
         for key, wrong in (
@@ -159,8 +160,8 @@ class Flash(Effect):
                 )
         if swept >= bodies:
             raise CaseError(
-                "'thermal.flash' needs a body that stays in the contact; here all are swept, at "
-                "speeds it does not know"
+                "'thermal.flash' needs a stationary body, and all bodies are swept; leave it out, "
+                "or use a motion that sweeps one body"
             )
         for name, key in product(swept, ("density", "heat_capacity")):
             if getattr(materials[name], key) is None:
@@ -179,7 +180,7 @@ class Flash(Effect):
         }
 
     def state_rates(self, contact: ContactConditions) -> Mapping[str, Array]:
-        """Return by how much the bulk of each body that warms in time does so per second."""
+        """Return the bulk temperature rate, in K/s, of each body that warms in time."""
         flows, rates = self._flows(contact), {}
         for name, path in self._warming.items():
             assert path.capacity is not None
@@ -189,7 +190,7 @@ class Flash(Effect):
         return rates
 
     def rises(self, contact: ContactConditions) -> dict[str, float]:
-        """Return how much hotter than ambient each body is in the contact, in K."""
+        """Return the temperature rise of each body in the contact above ambient, in K."""
         flows = self._flows(contact)
         return {
             name: self._bulk(name, contact) + flows[name] * self._resistance(name, contact)
@@ -212,7 +213,7 @@ class Flash(Effect):
         return {name: (common - bulks[name]) / r for name, r in resistance.items()}
 
     def _bulk(self, name: str, contact: ContactConditions) -> float:
-        """Return what a body that warms in time has come to beyond the contact, in K."""
+        """Return the bulk temperature rise of a body that warms in time, in K."""
         return float(contact.state[bulk(name)][0, 0]) if bulk(name) in contact.state else 0.0
 
     def _resistance(self, name: str, contact: ContactConditions) -> float:

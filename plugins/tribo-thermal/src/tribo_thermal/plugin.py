@@ -64,7 +64,7 @@ def tribo_figures(result: Result) -> dict[str, Callable[[], Figure]]:
         figure = Figure(figsize=(3.35, 2.5))
         axes = figure.add_subplot(xlabel="Time (s)", ylabel="Temperature in the contact (K)")
         axes.set_title("at the saves; not known between", loc="right", fontsize=7)
-        # The marks of the second lie within those of the first where both are as hot.
+        # The marks of the second lie within the first's where both are as hot.
         for (name, at), look, size in zip(found.items(), ("o:", "s:"), (6, 3), strict=True):
             axes.plot(result.times, at, look, markersize=size, linewidth=0.8, label=name)
         axes.legend()

@@ -82,8 +82,8 @@ def kept_per_power(
 ) -> float:
     """Return the rise from the heat of earlier passes, per heat flow, in K/W.
 
-    It is added to `rise_per_power`, which is that of a source that moves on for ever: heat of the
-    age t = s² a²/(4κ) warms the contact by
+    It is added to `rise_per_power`, the rise of a source that never returns: heat of the age
+    t = s² a²/(4κ) warms the contact by
 
         ΔT = Q/(π^1.5 a K) ∫ W(s) ds/(1 + s²)        from 0 to ∞, β = 1/(1 + s²)
 

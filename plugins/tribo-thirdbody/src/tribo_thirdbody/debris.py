@@ -55,12 +55,12 @@ class Debris(Effect):
         return self.on
 
     def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
-        """Return what the debris carries."""
+        """Return the load share of the debris."""
         share = -np.expm1(-contact.state[THICKNESS.name] / self.cover)
         return {LOAD_SHARE.name: dict.fromkeys(contact.materials, share)}
 
     def state_rates(self, contact: ContactConditions) -> Mapping[str, Array]:
-        """Return what wear adds and sliding takes away per second, where the bodies touch."""
+        """Return the rate of debris per second: added by wear, removed by sliding."""
         caught = self.caught * np.sum([*contact.wear_rates.values()], axis=0)
         pressure = contact.pressure
         pressed: Array = (pressure > 0).astype(float)

@@ -33,7 +33,7 @@ class MeasuredSurface(Surface, MeasuredFile):
         return self._measured()[2]
 
     def facts(self) -> dict[str, str]:
-        """Return what the file is taken to be, for the user to look at; reads it."""
+        """Return how the file was read, for the user to check; reads it."""
         return self.scale.stated()
 
     def height(self, grid: Grid) -> Array:

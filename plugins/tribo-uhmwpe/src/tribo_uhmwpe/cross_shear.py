@@ -24,10 +24,10 @@ class CrossShear(WearLaw):
     slid over yet. The chains of the polymer turn to the principal direction and resist along it: at
     an angle α to it wear goes by k_along cos² α + k_across sin² α, whose mean is the law.
 
-    Valid where a point is slid over many times and always in the same way, under a pressure such as
-    that of the test which gave both rates: UHMWPE wears less per load as the pressure grows. s
-    counts from the start and never forgets, so a principal direction that changes comes late. On a
-    body that is averaged along a track χ is that of the mean over the track.
+    Valid where a point is slid over many times and always in the same way, under a pressure near
+    the pressure of the test of both rates: UHMWPE wears less per load as the pressure grows. s
+    counts from the start and never forgets, so that χ lags behind a changing principal direction.
+    On a body that is averaged along a track χ belongs to the mean over the track.
 
     References
     ----------
@@ -42,7 +42,7 @@ class CrossShear(WearLaw):
     k_along: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))]
     """Specific wear rate along the principal direction, as on a straight path."""
     k_across: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))]
-    """Specific wear rate across it: twice that of a circle less `k_along`."""
+    """Specific wear rate across it: twice the rate on a circle less `k_along`."""
 
     requires = ("heading_x", "heading_y")
     state_fields = (PATH, COSINE, SINE)

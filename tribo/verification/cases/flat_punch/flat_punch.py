@@ -8,7 +8,7 @@ MODULUS, LOAD = 113.736e9, 100.0
 
 
 def found(part: float, cells: int) -> dict[str, float]:
-    """Return the approach and the pressure over those of a disc of the staircase's area."""
+    """Return the approach and the pressure, relative to a disc of the staircase's area."""
     grid = Grid(0.8e-3 * (1 + 3 * part / cells), cells)
     inside = np.hypot(*grid.mesh) < 0.3e-3
     radius = np.sqrt(np.count_nonzero(inside) * grid.cell_area / np.pi)

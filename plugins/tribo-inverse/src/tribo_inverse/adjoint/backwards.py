@@ -1,4 +1,4 @@
-"""A run gone through backwards: how an objective follows each of its parts."""
+"""The adjoint of a run, from its last step back to its first."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Derivatives:
     worn_before: Mapping[str, Array]
 
     def plus(self, by: float, other: Derivatives) -> Derivatives:
-        """Return those of this objective plus `by` times another."""
+        """Return the derivatives of this objective plus `by` times another."""
 
         def both(maps: Mapping[str, Array], others: Mapping[str, Array]) -> Mapping[str, Array]:
             return {name: each + by * others[name] for name, each in maps.items()}
@@ -60,17 +60,17 @@ class Derivatives:
 def swept_back(
     model: Model, tape: Tape, seeds: Mapping[float, Seeds], chains: Sequence[Chain]
 ) -> Derivatives:
-    """Go through a run backwards; return the derivatives of the objective with these seeds.
+    """Return the derivatives of an objective with these seeds, by the adjoint of a run.
 
     Each step gave w¹ = w⁰ + Δs Σₘ ωₘ Jₘ r(pₘ), with K pₘ + h + Tₘ w¹ = δₘ on its free cells. With
-    λ¹ the derivative of the objective in w¹, and ωₘ r' that of the step's depth in pressure, the
-    adjoint is one more solve on these cells::
+    λ¹ the derivative of the objective in w¹, and ωₘ r' the derivative of the step's depth in
+    pressure, the adjoint is one more solve on these cells::
 
         K zₘ + r' Tₘ Σₙ Tₙᵀ ωₙ zₙ + μₘ = r' Tₘ λ¹,  Σ zₘ = 0,  λ⁰ = λ¹ − Σₙ Tₙᵀ ωₙ zₙ
 
     An explicit step has r' at the contacts before it, which are solved by themselves. Cells at the
-    hardness have a fixed z, by what their overlap adds to the plastic depth. What laws
-    remember adds to the right side, and is followed back through the step.
+    hardness have a fixed z, the derivative in their overlap. The states of laws add to the right
+    side, and their adjoint is carried back through the step.
     """
     cells = model.grid.cells
     touched = Box.of(tape.touched, cells) if tape.touched else whole(cells)
@@ -88,7 +88,7 @@ def swept_back(
 
 
 class Backwards:
-    """The derivatives of an objective that have been gathered so far, from the end of a run back.
+    """The derivatives of an objective, accumulated from the end of a run back.
 
     By body at each cell of its surface: in a factor on its `wear_rate`, in its `height` outward and
     in the depth `worn_before`.
@@ -135,7 +135,7 @@ class Backwards:
             self.pressure[len(self.gap) // 2] += seeds.pressure
 
     def spread_out(self, record: Enveloped) -> None:
-        """Go back through an envelope: all of a row follows its deepest cell."""
+        """Carry the adjoint through an envelope: all of a row depends on its deepest cell."""
         for name, rows in record.rows.items():
             if name in self.plastic:
                 total = np.sum(self.plastic[name], axis=0)
@@ -143,7 +143,7 @@ class Backwards:
                 self.plastic[name][rows, np.arange(len(rows))] = total
 
     def press(self, record: Pressed) -> None:
-        """Go back through a contact, and what was worn under it."""
+        """Carry the adjoint through a contact and the wear under it."""
         pressed, yielded = self.pressure, self.gave
         self.pressure, self.gave = None, ()
         slid = record.slid
@@ -170,7 +170,7 @@ class Backwards:
         yielded: Sequence[int],
         parts: Sequence[Increment],
     ) -> list[Before]:
-        """Go back through a contact that was solved with what it wore; return what is before that.
+        """Return the adjoint of one implicit contact solve, before its increments.
 
         `looked` are the derivatives of the objective in its pressures.
         """
@@ -216,11 +216,11 @@ class Backwards:
         return behind
 
     def _behind(self, parts: Sequence[Increment]) -> list[Before]:
-        """Return derivatives before increments from what has been gathered after them."""
+        """Return derivatives before increments from the derivatives after them."""
         return [each.back(self.worn_before, self.states) for each in parts]
 
     def _wear(self, slid: Slid, behind: Sequence[Before]) -> None:
-        """Go back through what a step wore under given contacts."""
+        """Carry the adjoint through the wear of a step under given contacts."""
         seen = {name: law.seen for name, law in self.laws.items()}
         for at, chain in enumerate(self.chains):
             for weight, other in chain.by_wear(slid, seen, self.carriers):
@@ -233,7 +233,7 @@ class Backwards:
             self.states = Memory(laws, {**self.states.between, **each.states.between})
 
     def _of_wear(self, increment: Increment, box: Box, z: Array) -> Array:
-        """Return what the wear and the filling that pressures make add to the adjoint of K."""
+        """Return the contribution of wear and filling to the adjoint of K."""
         y = over(self.shares) * z
         wear = {name: self.carriers[name].gathered(y, box) for name in self.model.laws.wear}
         zeros = [np.zeros_like(value) for value in self.states.values]
@@ -242,7 +242,7 @@ class Backwards:
         return found
 
     def _filled(self, states: Memory, y: Array, box: Box) -> Memory:
-        """Return derivatives in what is remembered, with those through what fills the gap."""
+        """Return derivatives in the states, including their effect as filling of the gap."""
         for name, key in self.model.laws.filling:
             carrier = self.between[key] if name is None else self.carriers[name]
             of = states.between if name is None else states.laws[name]
@@ -255,7 +255,7 @@ class Backwards:
         return states
 
     def _shift(self, y: Array, box: Box) -> None:
-        """Take what a solve says of the gaps."""
+        """Add the derivatives in the gaps of a contact solve."""
         for name, carrier in self.carriers.items():
             taken = carrier.gathered(y, box)
             self.worn_before[name] = self.worn_before[name] - taken

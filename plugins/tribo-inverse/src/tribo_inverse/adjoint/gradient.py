@@ -22,7 +22,7 @@ from tribo_inverse.recording.local import factor_shape, localised
 from tribo_inverse.recording.tape import Tape, recorded
 
 FURTHEST = 30.0
-"""Change of the logarithm of a number beyond which no case is asked for."""
+"""Largest change of the logarithm of a number that is evaluated."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Gradient:
     refused: Mapping[str, str]
 
     def __str__(self) -> str:
-        """Return which numbers rule the objective, in per cent for one per cent, as lines."""
+        """Return lines with the influence of numbers on the objective, in % for 1 %."""
         ranked = sorted(self.relative.items(), key=lambda item: -abs(item[1]))
         width = max((len(path) for path in self.relative), default=0)
         lines = [f"{path:{width}}  {percent:+.3f} % for 1 %" for path, percent in ranked]
@@ -83,17 +83,17 @@ def gradient(
 ) -> Gradient:
     """Run a case; return the derivatives of a number of its result in every input.
 
-    They are exact for the steps that the run took (the discrete adjoint): their ends are held at
-    the same parts of the time between saves. One solve more a step gives all derivatives, and two
-    where a depth ends the run, which is then as long as it takes to wear to that depth.
+    They are exact for the steps that the run took (the discrete adjoint): their ends stay at
+    the same parts of the time between saves. One more solve a step gives all derivatives, and two
+    where a depth ends the run, whose duration then depends on the inputs.
 
     Parameters
     ----------
     case : Case, Mapping, str, Path or Model
         As `Simulation` takes it.
     objective : callable, or Mapping of float to callable
-        What is differentiated, at the end of the run; or the sum of several, by the time (s) of the
-        save that each looks at. See `tribo_inverse.adjoint.objective`.
+        The number at the end of the run; or the sum of several numbers, by the saved time (s) of
+        each. See `tribo_inverse.adjoint.objective`.
     wrt : sequence of str, optional
         Paths of numbers, as ``bodies.ball.wear.k``; ``*`` stands for each body. All numbers of
         bodies, load, motion, friction and contact, and ``stop.depth``, if left out.
@@ -104,13 +104,13 @@ def gradient(
     Returns
     -------
     Gradient
-        With the maps, which cost nothing more.
+        With the maps, at no further cost.
 
     Raises
     ------
     CaseError
-        If the case has parts through which no gradient goes, or a path leads to no number, or to
-        one in which there is no derivative.
+        If the case has parts without a gradient, or a path leads to no number or to a number
+        without a derivative.
     NumericalError
         If the run fails.
     """
@@ -148,12 +148,12 @@ def gradient(
 
 
 def covered(model: Model) -> Model:
-    """Return a model without the effects that no law follows, and no load.
+    """Return a model without the effects on which no law and no load depends.
 
     Raises
     ------
     CaseError
-        If there is no gradient through a part of it.
+        If a part of it has no gradient.
     """
     given = {
         field.name
@@ -166,15 +166,13 @@ def covered(model: Model) -> Model:
     followed = followed or any(field.fills for f in model.laws.effects for field in f.state_fields)
     if loading := [each for each in model.laws.effects if each.changes_load]:
         raise CaseError(
-            f"{loading[0]} makes the load follow the state, and no gradient goes through that; "
-            "leave it out",
+            f"{loading[0]} makes the load depend on the state, which has no gradient; leave it out",
             "effects",
         )
     if model.contact.hardness:
         raise CaseError(
-            "the largest pressure of a cell jumps in the step in which it is worn into a layer of "
-            "another hardness, and so does all that follows; a gradient needs one hardness, leave "
-            "that of layers out",
+            "the largest pressure of a cell jumps where it wears into a layer of another hardness; "
+            "a gradient needs one hardness: leave out the hardness of layers",
             "bodies",
         )
     if (
@@ -194,15 +192,15 @@ def covered(model: Model) -> Model:
 def _at_depth(
     model: Model, tape: Tape, seeds: Mapping[float, Seeds], chains: Sequence[Chain], end: State
 ) -> tuple[Derivatives, float]:
-    """Return the derivatives of a run that ends at a depth, and that in this depth, in 1/m.
+    """Return the derivatives of a run that ends at a depth; the second in this depth, in 1/m.
 
-    With J the objective, and D the depth at the time t, a number p that the depth follows changes t
+    With J the objective, and D the depth at the time t, a number p that changes the depth changes t
     by −(∂D/∂p)/(∂D/∂t), and so J by ∂J/∂p − (∂J/∂t)/(∂D/∂t) ∂D/∂p, both at a fixed time.
 
     Raises
     ------
     CaseError
-        If the depth went past its limit in a jump.
+        If the depth jumped past its limit.
     """
     length, last = of_length(model, end.time), model.end_time
     at_end = {**dict.fromkeys(seeds, Seeds()), last: _deepest(model, end)}
@@ -216,7 +214,7 @@ def _at_depth(
 
 
 def _deepest(model: Model, end: State) -> Seeds:
-    """Return 1 at the cell whose depth ended the run, the first of those that are as deep."""
+    """Return 1 at the cell whose depth ended the run, the first of equally deep cells."""
     stop = model.case.stop
     assert stop.depth is not None
     worn = {name: end.bodies[name].wear for name in stop.whose(end.bodies)}
@@ -237,7 +235,7 @@ def _deepest(model: Model, end: State) -> Seeds:
 def _chains(
     model: Model, wrt: Sequence[str] | None, factors: Mapping[str, Array]
 ) -> tuple[list[Chain], dict[str, str]]:
-    """Return what each number changes; and by path why one of all has no derivative."""
+    """Return the chain of each number; and by path why a number has no derivative."""
     chains, refused = list[Chain](), dict[str, str]()
     for path, places, value in find(model.case, wrt):
         try:
@@ -252,12 +250,12 @@ def _chains(
 def _looks(
     objective: Objective | Mapping[float, Objective], end_time: float
 ) -> Mapping[float, Objective]:
-    """Return objectives by the time (s) that they look at; refuse what is none."""
+    """Return objectives by their saved time (s); refuse invalid objectives."""
     looks = objective if isinstance(objective, Mapping) else {end_time: objective}
     for time in looks:
         if not is_finite(time):
             raise CaseError(
-                f"an objective is to look at the time {time!r}; give a number, that of a save in s"
+                f"the objective has the time {time!r}, which is no number; give a saved time, in s"
             )
     for look in looks.values() or [None]:
         if not callable(look) or isinstance(look, type):
@@ -276,8 +274,8 @@ def value_and_gradient(
 ) -> ValueAndGradient:
     """Return an objective with its gradient, for ``scipy.optimize.minimize(…, jac=True)``.
 
-    Unknown are the logarithms of numbers of the case, relative to what they are there, and of
-    factors on wear rates at each cell of bodies: one vector, which begins with `start`, all 0.
+    The unknowns are the logarithms of numbers of the case, relative to their values there, and of
+    factors on wear rates at each cell of bodies: one vector, whose `start` is all 0.
 
     Parameters
     ----------
@@ -328,7 +326,7 @@ class ValueAndGradient:
     def at(self, unknowns: Array) -> tuple[Case, dict[str, Array]]:
         """Return the case and the factors on wear rates, by body, for a vector of unknowns.
 
-        `CaseError` if it has another length than `start`, or a number that the case may not have.
+        `CaseError` if its length differs from `start`, or the case refuses a number.
         """
         if np.shape(unknowns) != self.start.shape:
             raise CaseError(f"{np.size(unknowns)} unknowns were given; start has {self.start.size}")

@@ -1,4 +1,4 @@
-"""The linear system of a step backwards: the operator of the step on the cells in contact."""
+"""The linear system of the adjoint of a step, on the cells in contact."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from tribo_inverse.increment.carriers import Carrier
 Map = Callable[[Array], Array]
 
 TOLERANCE = 1e-8
-"""Residual of a system, relative to its right side: as that of a run's contacts."""
+"""Residual of a system, relative to its right side, as for the contacts of a run."""
 ALIKE = 1e-9
 """Relative difference below which slopes are alike, which are differences of rates."""
 MOST, RESTART = 400, 60
-"""Iterations of which the method gives up, and after which GMRES starts anew."""
+"""Iterations after which the method gives up, and after which GMRES restarts."""
 
 
 @dataclass(frozen=True)
@@ -31,10 +31,10 @@ class StepSystem:
 
         (A z)ₘ = K zₘ + Σ over bodies r'ₘ Tₘ Σₙ Tₙᵀ ωₙ zₙ
 
-    `operator` is K on the `box`, `bodies` has of each that wears its carrier and r', shape
+    `operator` is K on the `box`, `bodies` has the carrier of each body that wears and r', shape
     (positions, nx, ny), in m/Pa, and `free` the cells whose pressure is between its bounds. `wear`
-    gives A z − K z where that is more than `bodies` say, which then only precondition. `mirrored`
-    tells whether each position also stands for one that mirrors it along x; the last for itself.
+    returns A z − K z where `bodies` give it approximately, to precondition. `mirrored` is whether
+    each position also represents its mirror image along x; the last represents itself.
     """
 
     operator: Operator
@@ -60,9 +60,9 @@ class StepSystem:
         return found
 
     def solve(self, given: Array, fixed: Array, start: Array) -> Array:
-        """Return z, with which `given` − A z is one number on the free cells of each position.
+        """Return z, for which `given` − A z is uniform on the free cells of each position.
 
-        On the other cells it is `fixed`, and its sum over all is 0; `start` is one to start from.
+        On the other cells z is `fixed`, and its sum over all is 0; `start` is the first guess.
         """
         if self._mirrors(given, fixed):
             return _both(self._one_side().solve(*(a[: self._half] for a in (given, fixed, start))))
@@ -156,9 +156,9 @@ class StepSystem:
         return True
 
     def _symbols(self) -> tuple[Array, Array | None]:
-        """Return eigenvalues to precondition with, and what more 1 over them is for the mean.
+        """Return eigenvalues of the preconditioner, and the addition to their inverse for the mean.
 
-        A body that stays in the window wears by the mean over all positions.
+        A stationary body wears by the mean over all positions.
         """
         symbol, stays = self.operator.symbol(), 0.0
         for carrier, slope in self.bodies:
@@ -200,7 +200,7 @@ class StepSystem:
 
 
 def _minimal(applied: Map, preconditioned: Map, residual: Array, tolerance: float) -> Array:
-    """Solve by GMRES, started anew where it takes long."""
+    """Solve by GMRES with restarts."""
     found = np.zeros_like(residual)
     for _ in range(MOST // RESTART):
         size = _norm(residual)
@@ -229,7 +229,7 @@ def _minimal(applied: Map, preconditioned: Map, residual: Array, tolerance: floa
 
 
 def _both(values: Array) -> Array:
-    """Return fields at all positions, from those on one side and in the middle."""
+    """Return fields at all positions, from the fields on one side and in the middle."""
     middle = 0.5 * (values[-1:] + values[-1:, ::-1])
     return np.concatenate([values[:-1], middle, values[-2::-1, ::-1]])
 

@@ -13,23 +13,23 @@ from tribo.kernel_api import did_you_mean, leaves, path_keys, suggestion
 ANY = "*"
 """The key that stands for each body, as in ``bodies.*.material.hardness``."""
 HOW = ("grid", "stepping")
-"""Parts of a case that say how it is computed, and have no derivative."""
+"""Parts of a case for its numerics, which have no derivative."""
 NOT_PHYSICS = (*HOW, "output", "stop", "begin", "observers", "requires")
 """Parts of a case whose numbers are left out unless they are named."""
 END = ("stop", "depth")
-"""The number of them that is not, since it may be what rules how long a body lasts."""
+"""The exception: a number of these parts that is physics, since it may set the life of a body."""
 
 
 def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[Any, ...]], float]]:
-    """Return path, places and value of the numbers that are asked for, or of all.
+    """Return path, places and value of the numbers asked for, or of all numbers.
 
-    Those of a table of numbers, as measured heights, have to be asked for.
+    Numbers of a table, such as measured heights, must be named.
 
     Raises
     ------
     CaseError
-        If a path does not lead to a number with decimals, or to several different ones, or to one
-        that says how the run is computed.
+        If a path leads to no number with decimals, to several different numbers, or to a number of
+        the numerics.
     """
     known = {place: value for place, value, _ in leaves(case) if isinstance(value, float)}
     if asked is None:
@@ -44,7 +44,7 @@ def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[
 
 
 def listed(names: Sequence[str]) -> Sequence[str]:
-    """Return names; `CaseError` if they are a single one, whose letters would be taken for them."""
+    """Return names; `CaseError` for a single string, whose letters would be taken as names."""
     if isinstance(names, str):
         raise CaseError(f"a list of names is needed, {names!r} was given; give [{names!r}]")
     return names
@@ -65,8 +65,8 @@ def _named(
         )
     if any(place[0] in HOW or _is_tolerance(place) for place in places):
         raise CaseError(
-            "says how the run is computed, in which there is no derivative; name numbers of "
-            "bodies, load, motion, friction or contact",
+            "is a number of the numerics and has no derivative; name numbers of bodies, load, "
+            "motion, friction or contact",
             path,
         )
     values = {known[place] for place in places}

@@ -1,4 +1,4 @@
-"""What is differentiated: numbers of a saved state, and their derivatives in it."""
+"""Objectives: numbers of a saved state, and their derivatives in it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tribo_inverse.adjoint.view import Seeds, View, as_numbers, is_finite
 
 def _check_place(x: float, y: float) -> None:
     if not (is_finite(x) and is_finite(y)):
-        raise CaseError(f"the place x = {x!r}, y = {y!r} is none; give both in m, from the middle")
+        raise CaseError(f"the place is x = {x!r}, y = {y!r}; give numbers, in m from the middle")
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Volume:
 class Depth:
     """The depth worn off a body at a place, in m: of the cell nearest to `x` and `y`, in m.
 
-    Places count from the middle of its own surface; `x` is left aside on a body that is averaged.
+    Places count from the middle of its own surface; `x` has no effect on an averaged body.
     """
 
     body: str
@@ -59,7 +59,7 @@ class Depth:
 class Deepest:
     """The largest depth worn off a body, in m, made smooth: Σ wᵐ / Σ wᵐ⁻¹ with m = `order`.
 
-    It lies below the largest depth, by 1/m of it where the scar is round at its deepest.
+    It is below the largest depth, by 1/m of it for a scar with a round bottom.
     """
 
     body: str
@@ -86,11 +86,11 @@ class Deepest:
 
 @dataclass(frozen=True)
 class Width:
-    """The width of a scar, in m, made smooth: that of a parabola as wide in the mean.
+    """The width of a scar, in m, made smooth: the width of a parabola with the same second moment.
 
-    Of the profile through the middle it is √20 times the standard deviation of the place of what
-    is gone. That is exact of a parabola, as a ball worn flat has lost it; on a groove with a toe it
-    is some 6 % less than to its edge. `axis` is 0 along the sliding direction, 1 across it.
+    It is √20 times the standard deviation of the worn section through the middle. It is exact for a
+    parabola, the loss of a ball worn flat; for a groove with a toe it is some 6 % less than the
+    width between the edges. `axis` is 0 along the sliding direction, 1 across it.
     """
 
     body: str
@@ -99,7 +99,7 @@ class Width:
     def __post_init__(self) -> None:
         if self.axis not in (0, 1):
             raise CaseError(
-                f"an axis of {self.axis!r} of Width is none; give 0, along, or 1, across"
+                f"the axis of Width is {self.axis!r}; give 0 for along, or 1 for across"
             )
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
@@ -124,7 +124,7 @@ class Width:
 
 @dataclass(frozen=True)
 class Misfit:
-    """Half of the sum of squares of what a body's depth misses a measured map by.
+    """Half of the sum of squared differences of a body's depth from a measured map.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ class Misfit:
     depth : ndarray
         The measured depth, in m, of the shape of `View.wear`; NaN where nothing was measured.
     uncertainty : float, optional
-        By which each difference is divided, in m.
+        Divisor of each difference, in m.
     """
 
     body: str
@@ -143,7 +143,7 @@ class Misfit:
     def __post_init__(self) -> None:
         if not (is_finite(self.uncertainty) and self.uncertainty > 0):
             raise CaseError(
-                f"an uncertainty of {self.uncertainty!r} is none; give Misfit one above 0, in m"
+                f"the uncertainty of Misfit is {self.uncertainty!r}; give a number above 0, in m"
             )
         depth = as_numbers(self.depth)
         if depth is None or np.any(np.isinf(depth)) or np.all(np.isnan(depth)):
@@ -168,7 +168,7 @@ class Misfit:
 class Pressure:
     """The pressure in the middle of the cycle at a place, in Pa: of the cell nearest to it, in m.
 
-    A cell that just touches has the derivative of one that is open.
+    A cell that just touches has the derivative of an open cell, 0.
     """
 
     x: float = 0.0
@@ -186,7 +186,7 @@ class Pressure:
 
 @dataclass(frozen=True)
 class EndTime:
-    """The time at which a depth ends a run, in s: how long a body lasts."""
+    """The time at which a depth ends a run, in s: the life of a body."""
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the time, and 1; `CaseError` if no depth has ended the run."""
@@ -196,7 +196,7 @@ class EndTime:
 
 @dataclass(frozen=True)
 class EndDistance:
-    """The distance slid when a depth ends a run, in m: how far a body lasts."""
+    """The distance slid when a depth ends a run, in m: the life of a body as a distance."""
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the distance, and 1; `CaseError` if no depth has ended the run."""
@@ -205,7 +205,7 @@ class EndDistance:
 
 
 def _check_ended(view: View) -> None:
-    """Refuse a run that goes on to its own end, which says nothing of how long a body lasts."""
+    """Refuse a run that no depth ends, which does not give the life of a body."""
     model, time = view.model, view.state.time
     if time < model.end_time:
         return

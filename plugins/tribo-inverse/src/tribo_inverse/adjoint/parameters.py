@@ -1,4 +1,4 @@
-"""What each number of a case changes in a step whose pressures are given."""
+"""The derivative of a step under given pressures in each number of a case."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from tribo_inverse.recording.local import SPEED, localised
 from tribo_inverse.recording.tape import Pressed, Slid
 
 LAW = "law"
-"""What a number changes of a law that it enters."""
+"""Marks a number that enters a law itself."""
 CONTACT = ("young", "poisson", "hardness")
-"""Numbers of a material that contacts follow."""
+"""Numbers of a material that contacts depend on."""
 MOVES = "it moves the positions of the cycle by whole cells"
 
 
 @dataclass(frozen=True)
 class Stops:
-    """Times at which steps of a model end in any case, in s, and how far it has slid by then, in m.
+    """Times at which steps of a model always end, in s, and the distance slid by then, in m.
 
-    In between, a model with another number makes its steps at the same parts of each stretch.
+    In between, a model with another number steps at the same parts of each stretch.
     """
 
     times: Array
@@ -39,14 +39,14 @@ class Stops:
 
     @staticmethod
     def of(model: Model) -> Stops:
-        """Return those of a model, 0 among them."""
+        """Return the stops of a model, including 0."""
         edges = {*model.contact.loads.edges, *model.motion.edges()}
         within = {time for time in edges if 0 < time < model.end_time}
         return Stops.at(model, sorted({0.0, *model.saves, *within}))
 
     @staticmethod
     def at(model: Model, times: Iterable[float]) -> Stops:
-        """Return those of a model at these times."""
+        """Return the stops of a model at these times."""
         found = np.array(list(times))
         return Stops(found, np.array([model.motion.distance_at(float(time)) for time in found]))
 
@@ -55,7 +55,7 @@ class Stops:
 class Variant:
     """A model with a number changed, and its weight in the derivative.
 
-    `carriers` is None where the motion is that of the case.
+    `carriers` is None where the motion is unchanged.
     """
 
     model: Model
@@ -66,12 +66,12 @@ class Variant:
 
 @dataclass(frozen=True)
 class Chain:
-    """What the number at a path of a case changes, by differences of models that differ in it.
+    """The derivatives in the number at a path of a case, by differences of models.
 
     The weighted sum over `variants` is the derivative; `base` is the model of the case itself, and
-    `stops` are its own. `wears` has the bodies whose wear under given contacts differs, and what of
-    their laws it may be that does: the `LAW` itself, or only properties of their material or the
-    `SPEED`. `spreads` tells whether K changes its shape too, and not only its size.
+    `stops` are its stops. `wears` has the bodies whose wear under given contacts changes, and
+    through what: the `LAW` itself, or only properties of their material or the `SPEED`. `spreads`
+    is whether K changes its shape too, and not only its size.
     """
 
     path: str
@@ -83,7 +83,7 @@ class Chain:
     spreads: bool
 
     def until(self, end: float) -> Chain:
-        """Return what it changes of a run that ends at a time (s) before that of the model."""
+        """Return the chain for a run that ends at a time (s) before the end of the model."""
         before = self.stops.times < end
         own = Stops.at(self.base, [*self.stops.times[before], end])
         variants = [
@@ -95,7 +95,7 @@ class Chain:
         return replace(self, stops=own, variants=variants)
 
     def by_save(self, time: float, seeds: Seeds) -> float:
-        """Return what comes through when a save is, in the case at `time` (s), and how far on."""
+        """Return the part through the time and distance of a save at `time` (s) of the case."""
         return sum(
             each.weight * (seeds.time * when + seeds.distance * each.model.motion.distance_at(when))
             for each in self.variants
@@ -103,12 +103,12 @@ class Chain:
         )
 
     def by_stop(self, by_depth: float) -> float:
-        """Return what comes through the depth that ends the run, given the derivative in it."""
+        """Return the part through the depth that ends the run, given the derivative in it."""
         stops = ((each.weight, each.model.case.stop.depth) for each in self.variants)
         return by_depth * sum(weight * depth for weight, depth in stops if depth is not None)
 
     def by_load(self, record: Pressed, by_load: Array) -> float:
-        """Return what comes through the loads of a contact, given the derivative in each."""
+        """Return the part through the loads of a contact, given the derivative in each."""
         total = 0.0
         for each in self.variants:
             loads = getattr(each.model.contact.loads, record.load)
@@ -117,10 +117,10 @@ class Chain:
         return total
 
     def by_spread(self, touching: Mask, seeds: Array, pressure: Array) -> float:
-        """Return what comes through the displacements K p, given the derivatives in them.
+        """Return the part through the displacements K p, given the derivatives in them.
 
-        Both lie on the box of K around what touches, shape (positions, nx, ny). It is 0 of a number
-        that K only grows with, which `by_rest` has.
+        Both lie on the box of K around the contact, shape (positions, nx, ny). It is 0 for a number
+        that only scales K, whose part is in `by_rest`.
         """
         return sum(
             each.weight * float(np.sum(seeds * _operator(each.model, touching).apply(pressure)))
@@ -131,16 +131,16 @@ class Chain:
     def by_wear(
         self, slid: Slid, seen: Mapping[str, Set[str]], carriers: Mapping[str, Carrier]
     ) -> Iterator[tuple[float, Other]]:
-        """Yield what a step slides otherwise under given contacts, with its weight.
+        """Yield the changed increments of a step under given contacts, with their weights.
 
-        `seen` is what each law read for it, and `carriers` are those of the case.
+        `seen` has the inputs that each law read, and `carriers` the carriers of the case.
         """
-        # A law that the number does not enter need not be asked about it again.
+        # A law that the number does not enter need not be evaluated again.
         asks = {name for name, through in self.wears.items() if through & {LAW, *seen[name]}}
         wears = asks | {name for name, through in self.wears.items() if SPEED in through}
         for each in self.variants if wears else ():
             if each.stops is self.stops:
-                # Of a difference to one side, the case itself.
+                # In a one-sided difference, the case itself.
                 continue
             own = slid.interval
             begun, ended = (self._then(each, time) for time in (own.time, own.end_time))
@@ -159,7 +159,7 @@ class Chain:
         cap: float,
         states: Memory,
     ) -> float:
-        """Return what comes through shapes, moduli, the hardness and what laws begin with."""
+        """Return the part through shapes, moduli, the hardness and first states."""
         total = 0.0
         for each in self.variants:
             model = each.model
@@ -179,7 +179,7 @@ class Chain:
         return total
 
     def _then(self, each: Variant, time: float) -> float:
-        """Return the time in a variant of what happens at `time` (s) in the case."""
+        """Return the time in a variant that corresponds to `time` (s) in the case."""
         return float(np.interp(time, self.stops.times, each.stops.times))
 
 
@@ -190,7 +190,7 @@ def chain(
     value: float,
     factors: Mapping[str, Array],
 ) -> Chain:
-    """Return what a number changes, `factors` on the wear rates being the base's.
+    """Return the chain of a number; `factors` are the base's factors on wear rates.
 
     Raises
     ------
@@ -205,7 +205,7 @@ def chain(
     error: Exception | None = None
     central, upper = [(1, 0.5), (-1, -0.5)], [(0, -1.5), (1, 2.0), (2, -0.5)]
     if all(map(_only_wears, places)):
-        # Only what is worn under given contacts follows it, which is known of the case itself.
+        # Only the wear under given contacts depends on it, which is known for the case itself.
         step, central, upper = ASIDE * value, [], [(0, -1.0), (1, 1.0)]
     lower = [(-by, -weight) for by, weight in upper]
     for scheme in filter(None, (central, upper, lower)):
@@ -240,13 +240,13 @@ def chain(
 
 
 def _only_wears(place: Sequence[Any]) -> bool:
-    """Whether a number at a place of a case changes no contact, but only what is worn under it."""
+    """Whether a number at a place of a case changes no contact, but only the wear under it."""
     of_material = place[2:3] == ["material"] and place[3] not in CONTACT
     return place[0] in ("effects", "friction") or "wear" in place[2:] or of_material
 
 
 def moved(model: Model, base: Model) -> Mapping[str, Carrier] | None:
-    """Return how the surfaces of bodies meet the window; None if as in the base."""
+    """Return the carriers of bodies; None if they equal the base's."""
     found, own = carriers_of(model), carriers_of(base)
     shares, others = ([position.share for position in each.cycle] for each in (model, base))
     alike = shares == others and not any(found[name].differs(own[name]) for name in found)
@@ -254,7 +254,7 @@ def moved(model: Model, base: Model) -> Mapping[str, Carrier] | None:
 
 
 def of_length(model: Model, end: float) -> Chain:
-    """Return what it changes when a run ends at a later time than `end`, in s."""
+    """Return the chain of the time of the end, `end`, in s."""
     times = Stops.of(model).times
     before = times[times < end]
     step = ASIDE * (end - before[-1])
@@ -270,13 +270,13 @@ def of_length(model: Model, end: float) -> Chain:
 def _varied(
     base: Model, places: Sequence[Sequence[Any]], number: float, factors: Mapping[str, Array]
 ) -> Model:
-    """Return the model of a case with another number; refuse one that changes more than values."""
+    """Return the model of a case with another number; refuse a change of its structure."""
     case = base.case
     for place in places:
         case = changed(case, place, number)
     model = unreached(localised(assemble(case), factors), base)
     if not base.laws.effects:
-        # Those of the motion too: no law follows them.
+        # Effects of the motion too: no law depends on them.
         model = replace(model, laws=replace(model.laws, effects=()))
     ways, others = (
         [(e.rows, None if e.starts is None else tuple(e.starts)) for e in each.cycle.maps.values()]
@@ -296,14 +296,14 @@ def _varied(
         both = (of_load & of_motion) | ((of_load | of_motion) & base.saves)
         at = min(both, key=lambda time: abs(time - moved), default=moved)
         raise CaseError(
-            f"it parts what falls together at {at:g} s: a save, the end of a stage of the load or "
-            "of the motion; move one of them a little"
+            f"a change of it separates events that coincide at {at:g} s: a save, the end of a "
+            "stage of the load or of the motion; move one of them a little"
         )
     return model
 
 
 def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
-    """Return the bodies that wear otherwise under given contacts, and through what."""
+    """Return the bodies whose wear under given contacts changes, and through what."""
     one, other, laws = base.case, model.case, model.laws
     same = np.array_equal(Stops.of(base).times, Stops.of(model).times)
     moves = one.kinematics != other.kinematics or not same

@@ -1,4 +1,4 @@
-"""Which numbers of a case rule its answer, from runs on two coarse grids."""
+"""The numbers of a case with the largest influence, from runs on two coarse grids."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from tribo_inverse.adjoint.view import Seeds, View
 CELLS = 24
 """Along the longer edge of the coarser window; the finer has twice as many.
 
-An error of first order in the size of a cell is as large on the finer grid as the two differ.
+An error of first order in the cell size equals, on the finer grid, the difference of the two.
 """
 LEAST = 0.005
-"""Per cent for one per cent, below which a number is left out."""
+"""Influence in % for 1 % below which a number is left out."""
 
 MOST = 8
 """Numbers of a case that are reported."""
@@ -29,19 +29,19 @@ Answer = Literal["depth", "end_time"]
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """How the largest depth worn follows the numbers of a case, or the time until it is reached.
+    """Influence of the numbers of a case on the largest depth worn, or on the time to reach it.
 
     Parameters
     ----------
     body : str
-        The body that is worn deepest, or of which a depth ends the run.
+        The body that is worn deepest, or whose depth ends the run.
     of : str
         ``"depth"`` of the body, or ``"end_time"`` where a depth ends the run.
     percent : dict of float
-        By path, the largest first: by how many per cent that changes for one per cent of the
-        number, on the finer grid.
+        By path, the largest first: change of the depth or time in % for 1 % of the number, on the
+        finer grid.
     uncertainty : dict of float
-        By path: by how many per cent for one per cent the two grids differ.
+        By path: the difference of the two grids, in % for 1 %.
     cells : tuple of tuple of int
         Cells of the two grids, along x and y.
     """
@@ -54,7 +54,7 @@ class Sensitivity:
 
 
 def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
-    """Return which numbers rule the largest depth of a run, or its end, from coarse grids.
+    """Return the influence of numbers on the largest depth of a run, or its end, on coarse grids.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
     Raises
     ------
     CaseError
-        If there is no gradient through the case, or nothing wears.
+        If the case has no gradient, or nothing wears.
     NumericalError
         If the run on a coarse grid fails, or takes over 30 s.
     """
@@ -132,7 +132,7 @@ def _asked(view: View) -> tuple[str, Answer]:
 
 
 def of_case(model: Model, half_width_x: float) -> list[Finding]:
-    """Return the `MOST` numbers that rule a case, with half its first contact's length, in m."""
+    """Return the `MOST` most influential numbers of a case; `half_width_x` of its contact in m."""
     try:
         found = sensitivity(model, half_width_x)
     except (CaseError, NumericalError) as error:
@@ -153,7 +153,7 @@ def of_case(model: Model, half_width_x: float) -> list[Finding]:
 def _sensitivity(
     what: str, path: str, change: float, uncertainty: float, kelvin: float | None
 ) -> Finding:
-    """Word by how many per cent an answer changes for 1 % more of a number, or 1 K more."""
+    """Word the change of an answer, in %, for 1 % more of a number, or 1 K more."""
     # A per cent of a temperature is one of its distance from absolute zero.
     more, per = ("1 %", 1.0) if kelvin is None else ("1 K", 100 / kelvin)
     return Finding(

@@ -1,4 +1,4 @@
-"""What an objective sees of a saved state, and what it answers: a number and its seeds."""
+"""The input of an objective, a saved state, and its answer: a number and its seeds."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tribo.kernel_api import Model, did_you_mean, suggestion
 
 @dataclass(frozen=True)
 class View:
-    """A saved state, as an objective sees it.
+    """A saved state, the input of an objective.
 
     Parameters
     ----------
@@ -41,8 +41,8 @@ class View:
     def wear(self, body: str) -> Array:
         """Return the depth worn off a body's own surface, in m.
 
-        Its shape is that of the window; (1, ny) of a body that is averaged along its track, and
-        (rows, ny) of one that passes through a resolved cycle.
+        Shape (nx, ny); (1, ny) for a body averaged along its track, and (rows, ny) for a body
+        that moves through a resolved cycle.
         """
         if not isinstance(body, str) or body not in self.state.bodies:
             meant = suggestion(did_you_mean(str(body), self.state.bodies))
@@ -75,7 +75,7 @@ class Seeds:
     Parameters
     ----------
     wear : Mapping[str, ndarray], optional
-        By the depth worn off a body, by name, of its shape, in 1/m.
+        By the depth worn off a body, by name, of the shape of the depth, in 1/m.
     pressure : ndarray, shape (nx, ny), optional
         By the pressure in the middle of the cycle, in 1/Pa.
     time : float, optional
@@ -95,12 +95,12 @@ Objective = Callable[[View], tuple[float, Seeds]]
 
 
 def looked(objective: Objective, view: View) -> tuple[float, Seeds]:
-    """Return what an objective says of a state.
+    """Return the value and the seeds of an objective at a state.
 
     Raises
     ------
     CaseError
-        If that is not a finite number and its finite `Seeds`, of the shapes of what they are by.
+        If they are not a finite number and finite `Seeds` of the shapes of their variables.
     """
     name = getattr(objective, "__name__", type(objective).__name__)
     answer: Any = objective(view)
@@ -136,7 +136,7 @@ def is_finite(value: object) -> bool:
 
 
 def as_numbers(values: object) -> Array | None:
-    """Return an array of numbers; None of text, or of rows that are not alike."""
+    """Return an array of numbers; None for text, or for rows of unequal length."""
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):

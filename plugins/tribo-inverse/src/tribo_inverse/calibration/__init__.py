@@ -1,1 +1,1 @@
-"""Fit the coefficients of a case to what was measured."""
+"""Fit the coefficients of a case to measurements."""

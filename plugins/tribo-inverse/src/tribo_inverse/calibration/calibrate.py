@@ -62,16 +62,16 @@ class Calibration:
     data: pd.DataFrame
     """One row per measured value: `test`, empty for the case as it is; `body`, `quantity`,
     `time_s`, `position_m` on a profile, `place`, its entry in the file, `unit`, `measured`,
-    `below`, whether it is a limit of detection, `sigma`, its standard deviation with that of the
-    grid and from test to test, `computed`, and `residual`, computed less measured in units of
-    `sigma`; √(−2 ln Φ(z)) for a limit that lies z above the computed value. A map has one row per
-    block of cells, with its middle, `x_m` and `y_m`, and the shift of the scar from the middle of
-    the map, `shift_x_m` and `shift_y_m`."""
+    `below`, whether it is a limit of detection, `sigma`, its standard deviation including the grid
+    and the scatter from test to test, `computed`, and `residual`, computed less measured in units
+    of `sigma`; √(−2 ln Φ(z)) for a limit that lies z above the computed value. A map has one row
+    per block of cells, with its middle, `x_m` and `y_m`, and the shift of the scar from the middle
+    of the map, `shift_x_m` and `shift_y_m`."""
     predictions: pd.DataFrame
     """Other quantities of the fitted case at the end of each test: `test`, `body`, `quantity`,
     `unit`, `value`, `lower`, `upper`; these equal where nothing fitted changes it, 0 and infinite
     if it depends on a parameter held by a bound. For a parameter that is `limited` the case is run
-    at its upper bound. Where tests scatter, the interval is that of the mean."""
+    at its upper bound. Where tests scatter, the interval is for the mean."""
     chi_square: float
     """Sum of squared weighted residuals, without limits of detection."""
     degrees_of_freedom: int
@@ -93,7 +93,7 @@ class Calibration:
     """Log-likelihood of each test predicted from all others; NaN if these do not determine a
     parameter."""
     findings: tuple[Finding, ...]
-    """What is to be known of the data, the fit and the model."""
+    """Findings on the data, the fit and the model."""
 
     @property
     def settings(self) -> dict[str, float]:
@@ -284,7 +284,7 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
 
 
 def _of_places(experiment: Experiment, depths: Mapping[int, Array]) -> Iterator[Finding]:
-    """Report maps off their middle or not levelled."""
+    """Report maps whose scar is off the middle, or that are not levelled."""
     for reading, depth in depths.items():
         row, found = experiment.table.loc[reading], experiment.shifts[reading]
         where = named(row), row["place"]

@@ -84,9 +84,9 @@ def on_cells(
     """Return the mean of a map over each cell of a surface, weighted by shared area.
 
     The point at `shift` from the middle of the map, in m, lies on the middle of the surface.
-    Missing pixels are interpolated, but for a track. NaN in cells of which less than half was
-    measured, or that have a part in a larger hole. Also the noise of each relative to that of a
-    cell without missing pixels, 1 where NaN.
+    Missing pixels are interpolated, except on a track. NaN in cells of which less than half was
+    measured, or that have a part in a larger hole. The second array is the noise of each cell
+    relative to a cell without missing pixels, 1 where NaN.
     """
     averaged = shape[0] == 1
     cell = heights.heights.shape[0] * heights.pitch[0] if averaged else spacing[0], spacing[1]
@@ -135,7 +135,7 @@ def _overlaps(
 ) -> tuple[Array, Array]:
     """Return the lengths shared by cells and pixels, shape (cells, pixels), at a shift.
 
-    Also each length times the offset of its middle from that of the pixel, in pixels.
+    Also each length times the offset of its middle from the pixel's, in pixels.
     """
     to_cell = width * (np.arange(cells + 1)[:, None] - 0.5 * cells)
     to_pixel = pitch * (np.arange(pixels + 1) - 0.5 * pixels) - shift

@@ -20,7 +20,7 @@ from tribo_inverse.calibration.parameters import is_number
 from tribo_inverse.findings import chosen, undecided
 
 STRONG = 6.0
-"""Difference of the criterion from which on evidence is strong (Kass & Raftery)."""
+"""Difference of the criterion above which evidence is strong (Kass & Raftery)."""
 _SIGNIFICANT = 2.0
 """Standard errors by which a case must predict left-out tests worse to be rejected."""
 SAME = 1e-6
@@ -39,7 +39,7 @@ class Choice:
     calibrations: Mapping[str, Calibration]
     """By the name of the case."""
     finding: Finding
-    """Which case the data speak for, or that they cannot tell."""
+    """The case that the data support, or that they are inconclusive."""
 
     @property
     def verdict(self) -> str:
@@ -67,14 +67,14 @@ def choose_case(
     cases : Mapping
         Cases, their tables, or their TOML files, by name.
     measured : Measurements, Mapping, str or Path
-        As for `calibrate`. Each case fits those of the parameters that it has.
+        As for `calibrate`. Each case fits the parameters that it has.
     level, on_run
         As for `calibrate`; `on_run` gets the name of the case first.
 
     Raises
     ------
     CaseError, NumericalError
-        If there are fewer than two cases, or one cannot be calibrated.
+        If there are fewer than two cases, or a case cannot be calibrated.
 
     References
     ----------
@@ -84,7 +84,7 @@ def choose_case(
     if len(cases) < 2:
         raise CaseError("give two cases or more to choose from")
     found, of_each = {}, _measurements_of_each(cases, read_measurements(measured))
-    # What is wrong with one is told before another is run.
+    # Errors of each are reported before any is run.
     for name, own in of_each.items():
         with about(name):
             Experiment.of(cases[name], own)
@@ -108,7 +108,7 @@ def choose_case(
 def _measurements_of_each(
     cases: Mapping[str, Case | Mapping[str, Any] | str | Path], measurements: Measurements
 ) -> dict[str, Measurements]:
-    """Return the measurements for each case, with those parameters to fit that it has."""
+    """Return the measurements for each case, with the parameters to fit that it has."""
     known = {name: validate_case(case_tables(case)) for name, case in cases.items()}
     fits = {
         name: tuple(entry for entry in measurements.fit if is_number(case, entry.path))
@@ -150,7 +150,7 @@ def _next_quantity(found: Mapping[str, Calibration], first: str, second: str) ->
     ratios = data.assign(ratio=data["computed"] / found[second].data["computed"])
 
     def is_new(row: Any) -> bool:
-        # A quantity proportional to a measured one, as a volume to a mass, tells nothing new.
+        # A quantity proportional to a measured one, as a volume to a mass, adds no information.
         own = ratios[(ratios["test"] == row.test) & (ratios["body"] == row.body)]
         return not np.any(np.abs(own["ratio"] / row.ratio - 1) < SAME)
 

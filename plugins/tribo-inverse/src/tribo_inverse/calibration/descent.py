@@ -1,4 +1,4 @@
-"""The least of a function that runs compute, by L-BFGS."""
+"""The minimum of a function that needs runs, by L-BFGS."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ MEMORY = 30
 FALL = 0.05
 """Fall of −ln p that errors of the steps of a run hide."""
 MOST_WALLS, STEEP = 20, 10.0
-"""Steps to where nothing can be computed that are shortened, and how much more is assumed there
-than the step was to gain."""
+"""Largest number of failed steps that are shortened, and the rise assumed there over the gain
+expected of the step."""
 SMALL = 2
-"""Steps in a row that fall by less, which end it."""
+"""Steps in a row with a smaller fall that end it."""
 
 
 def descended(function: Callable[[Array], tuple[float, Array]], start: Array, steps: int) -> Array:
-    """Return where a function with its gradient is least, or the least after a number of steps.
+    """Return the minimum of a function with its gradient, or the lowest point after some steps.
 
-    A step to where it cannot be computed is shortened; `NumericalError` after many of them.
+    A step to a point where it cannot be computed is shortened; `NumericalError` after many.
     """
     best, least, slope_there, former = start, math.inf, start, math.inf
     small = walls = 0

@@ -49,7 +49,7 @@ from tribo_inverse.calibration.setups import (
 from tribo_inverse.findings import named, of_run
 
 REFUSED = 300.0
-"""Factor between measured and computed values from which on they are refused: a wrong prefix of a
+"""Factor between measured and computed values above which they are refused: a wrong prefix of a
 unit makes 1000."""
 LINEAR_BELOW = 0.1
 """Part of the largest depth of a profile or map below which depths are taken as linear."""
@@ -75,7 +75,7 @@ class Experiment:
     shifts: Mapping[int, ScarShift] = field(default_factory=dict)
     """Shift of the scar of a map, by its row of the table."""
     runs: dict[bytes, SetupRun] = field(default_factory=dict)
-    """Runs by the bytes of the parameters, with the readings of the table and those predicted."""
+    """Runs by the bytes of the parameters, with the readings of the table and predictions."""
 
     @classmethod
     def of(
@@ -143,7 +143,7 @@ class Experiment:
     def on_cells(self, reading: int, shift: tuple[float, float]) -> tuple[Array, Array]:
         """Return a map on the cells of its surface, in m, and its noise; see `cells.on_cells`.
 
-        0 for one that is not measured yet.
+        0 for a map that is not measured yet.
         """
         row = self.table.loc[reading]
         model = self.setups[row["setup"]].model

@@ -22,7 +22,7 @@ from tribo_inverse.calibration.linearised import (
 STEP = 0.2
 """Change of a logarithm for a finite difference; large, since computed scars are rounded."""
 LEAST_STEP = 0.05
-"""The least, which errors of the steps of a run do not hide."""
+"""The smallest difference that exceeds errors of the steps of a run."""
 FAR = 20.0
 """Change of all data together, in standard deviations, beyond which a difference is shortened."""
 TRUST_RADIUS = np.log(2.0)
@@ -45,11 +45,11 @@ NO_EFFECT = 1e-3
 """Change of a datum, in standard deviations, per change of a parameter by a factor e, below which
 nothing depends on the parameter."""
 UNSEEN = 0.01
-"""Computed value of a loss that was not seen, relative to its limit of detection."""
+"""Computed value of an undetected loss, relative to its limit of detection."""
 ABOVE_ROUNDING = 0.01
 """Relative change of a response, per change of a parameter by a factor e, above rounding."""
 MOST_HALVINGS = 5
-"""Times that a step is halved whose scar outgrows the window."""
+"""Halvings of a step whose scar outgrows the window."""
 MOST_ROUNDS = 12
 """Rounds after which a fit fails."""
 WITHOUT_PROGRESS, MOST_WITHOUT_PROGRESS = 2, 4
@@ -184,8 +184,8 @@ def interval(here: Linearised, direction: Array, level: float) -> tuple[float, f
 def limit(here: Linearised, axis: Array, level: float) -> float:
     """Return the upper end, relative to the last run, for a parameter that is `limited`.
 
-    There values below all limits of detection have the probability 1 − level. As tests scatter in
-    proportion to the parameter, errors are those at that end.
+    There values below all limits of detection have the probability 1 − level. Errors are taken at
+    that end, as tests scatter in proportion to the parameter.
     """
     one_sided, end = float(chdtr(1, -2 * np.log1p(-level))), 0.0
     for _ in range(MOST_ROUNDS):
@@ -229,7 +229,7 @@ def _within(
 ) -> tuple[Array, Array, OutOfWindow | None]:
     """Return a point from near to far, and its responses, whose scar does not outgrow the window.
 
-    Also how a farther one did. OutOfWindow if all do that are tried.
+    Also the error of a farther point. OutOfWindow if all points that are tried outgrow it.
     """
     outgrown = None
     for _ in range(MOST_HALVINGS):

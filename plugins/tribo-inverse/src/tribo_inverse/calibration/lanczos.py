@@ -1,4 +1,4 @@
-"""The largest eigenpairs of a symmetric operator that is known by its products."""
+"""The largest eigenpairs of a symmetric operator, given by its products."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from tribo import Array
 
 CHECK_INTERVAL = 10
-"""Products with the Fisher information between two checks of what they add."""
+"""Products with the Fisher information between two checks of their gain."""
 LEAST_GAIN = 0.2
 """Degrees of freedom per product below which the Krylov space is large enough."""
 EXHAUSTED = 1e-9

@@ -21,12 +21,12 @@ INSENSITIVE = 0.1
 below which the data are taken as insensitive to it."""
 COLLINEAR = 0.01
 """Singular value of the Jacobian with normalised columns, 1 if the effects of parameters are
-orthogonal, up to which the data do not tell them apart: a step does not go that way."""
+orthogonal, up to which the data do not separate them: steps have no part in that direction."""
 _STAY = 0.1
-"""Weight of a move that way, relative to the effects of the parameters on the data."""
+"""Weight of a move in that direction, relative to the effects of the parameters on the data."""
 _ITERATIONS, _CONVERGED, _RIDGE = 30, 1e-5, 1e-12
 _UNDETERMINED = 10.0
-"""Standard deviation of a logarithm from which on a parameter counts as undetermined."""
+"""Standard deviation of a logarithm above which a parameter counts as undetermined."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class Weights:
         return np.asarray((1 - self.vectors[rows] ** 2 @ self.reduction) / self.sigma[rows])
 
     def log_determinant(self, rows: Mask) -> float:
-        """Return ln |W| of some rows, whose errors are independent of those of the others."""
+        """Return ln |W| of some rows, whose errors are independent of the other rows."""
         inside = self.vectors[rows].T @ self.vectors[rows]
         size = np.linalg.slogdet(np.eye(len(inside)) - self.reduction[:, None] * inside)[1]
         return float(size - np.sum(np.log(self.sigma[rows])))
@@ -77,7 +77,7 @@ class Weights:
 
 @dataclass(frozen=True)
 class Problem:
-    """A least-squares problem: p parameters, n data, and m responses of which n are of the data."""
+    """A least-squares problem: p parameters, n data, and m responses, n of them for the data."""
 
     names: tuple[str, ...]
     """Of the parameters."""
@@ -88,7 +88,7 @@ class Problem:
     below: Mask
     """Whether a value is censored, below a limit of detection; shape (n,)."""
     specimen: Array
-    """Number of the test that a value is of, shape (n,)."""
+    """Number of the test of each value, shape (n,)."""
     repeatability: float | None
     """Relative standard deviation of the parameters from test to test; None to estimate it."""
     small: Array
@@ -99,7 +99,7 @@ class Problem:
     upper: Array
     """Upper bounds, infinity for none."""
     common: Array
-    """Correlated errors: what one standard deviation of each source adds to the data, shape
+    """Correlated errors: the change of the data for one standard deviation of each source, shape
     (n, k)."""
 
     def weights(self, scatter: Array | None = None) -> Weights:
@@ -124,8 +124,8 @@ class Problem:
     def residuals(self, responses: Array, weights: Weights) -> Array:
         """Return weighted residuals; their sum of squares is −2 ln L but for a constant.
 
-        That of a censored value is √(−2 ln Φ(z)), where the response lies z standard deviations
-        below the limit of detection.
+        The residual of a censored value is √(−2 ln Φ(z)), where the response lies z standard
+        deviations below the limit of detection.
         """
         found = weights.weigh(responses[: len(self.observed)] - self.observed)
         found[self.below] = np.sqrt(-2 * log_ndtr(-found[self.below]))
@@ -195,7 +195,7 @@ class Linearised:
     def sensitivity(self) -> Array:
         """Return the weighted derivatives of the data, shape (n, p).
 
-        Of a censored value they are those at the limit of detection.
+        For a censored value they are taken at the limit of detection.
         """
         effects, observed = self.effects(self.point), self.problem.observed
         below = self.problem.below
@@ -211,7 +211,7 @@ class Linearised:
         return np.asarray(by_limits & not_by_values)
 
     def bounds(self, reach: float) -> tuple[Array, Array]:
-        """Return the bounds of points within `reach` of that of the run."""
+        """Return the bounds of points within `reach` of the point of the run."""
         lower = np.maximum(self.problem.lower, self.point - reach)
         return lower, np.minimum(self.problem.upper, self.point + reach)
 
@@ -293,7 +293,7 @@ class Linearised:
             point = self.least(self.point, ~own)
             rest = replace(self, point=point, responses=self.at(point))
             root = root_covariance(rest.sensitivity()[~own])
-            # The error of the estimate adds to that of each value.
+            # The error of the estimate adds to the error of each value.
             from_estimate = self.weights.weigh(rest.effects(point)) @ root
             residuals = self.weights.weigh(rest.responses[:n] - self.problem.observed)
             values, limits = own & ~below, own & below
@@ -331,7 +331,7 @@ class Linearised:
 
 
 def normalised(jacobian: Array) -> tuple[Array, Array, Array]:
-    """Return the norms of columns; and the singular values and directions with these as units."""
+    """Return the norms of columns, and singular values and directions of the scaled columns."""
     size = np.sqrt(np.sum(jacobian**2, axis=0)) + _RIDGE
     _, values, directions = np.linalg.svd(jacobian / size, full_matrices=False)
     return size, values, directions

@@ -1,4 +1,4 @@
-"""Errors of a measured depth map: of its cells, and of where it lies."""
+"""Errors of a measured depth map: of its cells, and of its position."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from tribo_inverse.calibration.scar_shift import slopes
 class MapErrors:
     """Errors of the cells of a map, whose covariance is σ² + Σ m mᵀ.
 
-    To weigh residuals by its inverse is to fit where the map lies with the rest (Woodbury 1950).
+    To weigh residuals by its inverse is to fit the position of the map too (Woodbury 1950).
     """
 
     sigma: Array
-    """Standard deviation of each cell, with that of the grid at a scar's edge, in m."""
+    """Standard deviation of each cell, including the grid's at a scar's edge, in m."""
     far: Array
-    """Standard deviations of where the map lies along each axis of more than one cell, in m."""
+    """Standard deviations of the map's position along each axis of more than one cell, in m."""
     moves: Array
     """Changes m of each measured cell, over its σ, by these, shape (axes, rows, ny)."""
 
@@ -37,9 +37,9 @@ class MapErrors:
         placed: Sequence[float],
         spacing: tuple[float, float],
     ) -> MapErrors:
-        """Return those of a measured depth where a run wears another.
+        """Return the errors of a measured depth, given the depth `worn` in a run.
 
-        `placed` has the standard deviations of where the map lies along both axes, in m.
+        `placed` has the standard deviations of the map's position along both axes, in m.
         """
         total = np.hypot(sigma, edge_sigma(worn, EDGE_CELL_SIGMA))
         along = slopes(cell_means(worn), spacing)
@@ -54,20 +54,20 @@ class MapErrors:
         return residuals - self.moved(residuals)
 
     def moved(self, residuals: Array) -> Array:
-        """Return the part of residuals that is due to where the map lies."""
+        """Return the part of residuals that is due to the position of the map."""
         return np.asarray(np.einsum("k,kij->ij", self._places(residuals), self.moves))
 
     def off(self, residuals: Array) -> tuple[float, ...]:
-        """Return how much further the scar lies than the map has it, along each axis, in m."""
+        """Return the offset of the scar from its position in the map, along each axis, in m."""
         return tuple(float(each) for each in self.far * self._places(residuals))
 
     @property
     def degrees_of_freedom(self) -> float:
-        """How many numbers of where the map lies the data tell."""
+        """Degrees of freedom of the map's position that the data determine."""
         return float(np.trace(np.linalg.solve(np.eye(len(self.far)) + self._gram, self._gram)))
 
     def _places(self, residuals: Array) -> Array:
-        """Return where the map lies, in its standard deviations."""
+        """Return the position of the map, in its standard deviations."""
         along = np.einsum("kij,ij->k", self.moves, residuals)
         return np.asarray(np.linalg.solve(np.eye(len(self.far)) + self._gram, along))
 

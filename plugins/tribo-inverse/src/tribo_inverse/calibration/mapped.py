@@ -22,7 +22,7 @@ from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_sh
 from tribo_inverse.findings import SIGNIFICANT, of_run, off_level, off_middle
 
 FAR = 2.0
-"""Standard deviations of the prior by which the mean coefficient may be off."""
+"""Largest offset of the mean coefficient, in standard deviations of the prior."""
 
 
 def calibrate_maps(
@@ -80,7 +80,7 @@ def calibrate_maps(
 
 
 def _check_volume(entry: MapEntry, depth: Array, worn: Array) -> None:
-    """Refuse a loss further from the case's than two standard deviations of the prior."""
+    """Refuse a loss that differs from the case's by over two standard deviations of the prior."""
     known = np.isfinite(depth) & (worn > 0)
     lost, own = float(np.sum(depth[known])), float(np.sum(worn[known]))
     noise = SIGNIFICANT * entry.uncertainty * float(np.sum(known)) ** 0.5
@@ -95,7 +95,7 @@ def _check_volume(entry: MapEntry, depth: Array, worn: Array) -> None:
 
 
 class _Read(NamedTuple):
-    """A map, its depth on the cells, moved by a shift, and that of a run with one coefficient."""
+    """A map, its depth on the cells, moved by a shift, and the depth of a run with one k."""
 
     place: str
     entry: MapEntry
@@ -104,7 +104,7 @@ class _Read(NamedTuple):
     shift: tuple[float, float]
 
     def findings(self, off: Sequence[float], spacing: tuple[float, float]) -> Iterator[Finding]:
-        """Report a map further `off` the middle, in m, than its noise hides, or not levelled."""
+        """Report a map further `off` the middle, in m, than its noise, or not levelled."""
         name, along, shift = (
             f"map of {self.entry.body!r}",
             slopes(self.worn, spacing),

@@ -38,7 +38,7 @@ FINE = 0.125
 FEWEST = 16
 """Cells along each axis of such a grid."""
 SILENT = 0.9
-"""Posterior standard deviation over the prior's from which on the data say nothing."""
+"""Posterior standard deviation over the prior's, above which the data give no information."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +60,7 @@ class LocalMap:
     uncertainty: Array
     """Standard deviation of their difference, in m."""
     off: tuple[float, ...] = ()
-    """How much further the scar lies than the map has it, along each axis of the map, in m."""
+    """Offset of the scar from its position in the map, along each axis of the map, in m."""
 
     @property
     def factor(self) -> Array:
@@ -91,11 +91,11 @@ class FittedMaps:
     chi_square: float
     degrees_of_freedom: float
     """Measured cells, less Σ λ/(1 + λ) over the eigenvalues λ of the information, and less the same
-    of where the maps lie."""
+    for the positions of the maps."""
     by_grid: float = 0.0
-    """Degrees of freedom that count for errors of the grid, which may be less than stated."""
+    """Degrees of freedom due to errors of the grid, which may be less than stated."""
     findings: tuple[Finding, ...] = ()
-    """What is to be known of the maps and the fit."""
+    """Findings on the maps and the fit."""
 
     @property
     def p_value(self) -> float:
@@ -134,7 +134,7 @@ def fit_maps(
 
     `depths` has, by the name of the body, the mean depth of each cell at the end, in m, of the
     shape of `View.wear`, NaN where missing, and their standard deviations, to which `edge_sigma`
-    is added. `placed` has the standard deviations of where a map lies along and across the sliding
+    is added. `placed` has the standard deviations of a map's position along and across the sliding
     direction, in m, by body; 0 by default. `on_run` is called after each gradient or product with
     their number and χ², NaN for a product.
     """
@@ -267,7 +267,7 @@ class _Posterior:
     def least(
         self, near: Array, steps: int, basis: Array | None = None, less: Array | None = None
     ) -> Array:
-        """Return the most probable amplitudes, or those after `steps`, by L-BFGS.
+        """Return the most probable amplitudes, or the amplitudes after `steps`, by L-BFGS.
 
         The posterior's standard deviation along the rows of `basis` is 1 + `less`, which
         preconditions the steps.
@@ -299,7 +299,7 @@ class _Posterior:
         return found
 
     def adjoint(self, slope: Array) -> Array:
-        """Return derivatives by the amplitudes from those by ln(k/k₀), the adjoint of `logs`."""
+        """Return derivatives by the amplitudes from derivatives by ln(k/k₀): adjoint of `logs`."""
         found = np.empty(self.size)
         for name, part in self.parts.items():
             scaled = self.scales[name] * slope[part].reshape(self.shapes[name])

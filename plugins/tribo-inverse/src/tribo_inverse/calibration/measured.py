@@ -36,7 +36,7 @@ class Share(float):
 
 
 def _part_of(text: str, quantity: str) -> Share:
-    """Return the part of a value that a text in per cent says; CaseError if it cannot be one."""
+    """Return a text in per cent as a part of a value; CaseError if it is none."""
     if quantity in FIELDS:
         raise CaseError(f"{text!r}: of depths at many places give it with a unit, as '10 nm'")
     try:
@@ -69,7 +69,7 @@ class MeasuredEntry(Table):
     """One measured quantity of one body, or of a run as a package reads it."""
 
     body: str = ""
-    """Name of the body in the case; none for what is of the run."""
+    """Name of the body in the case; none for a quantity of the run."""
     quantity: str
     """Measured quantity: one of `QUANTITIES`, or of a package."""
     value: float | tuple[float, ...] | None = None
@@ -88,7 +88,7 @@ class MeasuredEntry(Table):
     pitch: Annotated[float, Quantity("m", above=0)] | None = None
     """Pixel pitch of a depth map."""
     uncertainty: float | None = None
-    """Standard deviation, or a `Share`; of a profile that of each depth, of a map of each cell."""
+    """Standard deviation, or a `Share`; for each depth of a profile, or each cell of a map."""
     resolution: float | None = None
     """Smallest step that the instrument shows."""
     time: Annotated[float, Quantity("s", above=0)] | None = None
@@ -136,7 +136,7 @@ class MeasuredEntry(Table):
             if key not in own and getattr(self, key) is not None:
                 raise ValueError(f"{name} has no {key}; its numbers are {' and '.join(own)}")
         if found.label and self.time is not None:
-            raise ValueError(f"{name} is that of a whole run; leave time out")
+            raise ValueError(f"{name} belongs to a whole run; leave time out")
         if (found.of == "run") == bool(self.body):
             raise ValueError(f"{name} is of the run; leave body out" if self.body else "give body")
         return self
@@ -169,7 +169,7 @@ class MeasuredEntry(Table):
     def _says_how_exact(self) -> Self:
         if self.uncertainty is None and self.resolution is None:
             raise ValueError(
-                "say how well it was measured: uncertainty (a standard deviation), resolution, "
+                "the uncertainty is missing; give uncertainty (a standard deviation), resolution, "
                 "or both"
             )
         if isinstance(self.uncertainty, Share) and np.isnan(self.values).any():
@@ -298,7 +298,7 @@ class MapEntry(Table):
     depth: BesideFile
     """File of a height map: depths in m, positive where material is gone, NaN where missing."""
     pitch: Annotated[float, Quantity("m", above=0)] | None = None
-    """Distance between its pixels; that of the file if left out."""
+    """Distance between its pixels; the file's if left out."""
     uncertainty: Annotated[float, Quantity("m", above=0)]
     """Standard deviation of the depth of a cell of the grid; of a track that is averaged along its
     length, of the mean of a line along it."""
@@ -307,8 +307,8 @@ class MapEntry(Table):
     length: Annotated[float, Quantity("m", above=0)]
     """Correlation length of the coefficient."""
     centred: bool = False
-    """Whether the middle of the contact is known to be that of the map; where the scar lies is
-    fitted otherwise."""
+    """Whether the middle of the contact is known to be the middle of the map; the position of the
+    scar is fitted otherwise."""
 
 
 class Measurements(Table):
@@ -339,7 +339,7 @@ class Measurements(Table):
     def table(self) -> pd.DataFrame:
         """Return the measured numbers in SI, one row each; a depth map has one without a value.
 
-        `place` is the entry in the file, `test` the name of its test, `of` the index of that in
+        `place` is the entry in the file, `test` the name of its test, `of` the index of the test in
         `tests`, `specimen` the number of the single test, `entry` the `MeasuredEntry`; `step_sigma`
         and `step_most` are the standard deviation and the largest error due to the resolution,
         `step`.

@@ -53,7 +53,7 @@ def find_parameters(
 
 
 def check_set(parameters: Sequence[Parameter], paths: Iterable[str], place: str) -> None:
-    """Check that no test sets a parameter, or what it is part of; CaseError if one does."""
+    """Check that no test sets a parameter, or a table around it; CaseError if one does."""
     for path in paths:
         keys = path_keys(path)
         # Another type has other parameters.
@@ -95,7 +95,7 @@ def _number(case: Case, keys: tuple[str, ...]) -> tuple[float, Quantity]:
 
 
 def _bounded(place: str, entry: FitEntry, value: float, mark: Quantity) -> Parameter:
-    """Return a parameter with the bounds given, within those of its field."""
+    """Return a parameter with the bounds given, within the bounds of its field."""
     above = max(mark.above or 0.0, 0.0)
     positive = replace(mark, above=above)
 

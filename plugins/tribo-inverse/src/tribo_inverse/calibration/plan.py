@@ -21,7 +21,7 @@ MOST = 1000
 """Largest number of tests that is tried."""
 _RIDGE = 1e-12
 _POWER = 4
-"""Of the norm over parameters whose intervals are shortened."""
+"""Power of the norm over parameters whose intervals are shortened."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""The prior of a local wear coefficient: by how much it varies, and over what distance."""
+"""The prior of a local wear coefficient: its standard deviation and correlation length."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ EDGE_CELL_SIGMA = 0.1
 """Standard deviation of the mean depth of a cell at the scar's edge, relative to the largest
 difference between neighbouring cells."""
 WORN = 1e-3
-"""Part of the largest depth from which on a cell counts as worn."""
+"""Part of the largest depth above which a cell counts as worn."""
 ROUNDING = 1e-9
 """Relative number that is printed as 0 %."""
 
@@ -49,8 +49,8 @@ class WornQuantity(NamedTuple):
     per_unit: float
     """Printed units in one SI unit."""
     of: Literal["both", "stationary", "swept", "run", "body of a run"] = "both"
-    """The bodies that have it: bodies that stay in the contact, or are swept through it. A quantity
-    of a package is of a run, or of each body of a run, at its end."""
+    """The bodies that have it: stationary, swept, or both. A quantity of a package belongs to a
+    run, or to each body of a run, at its end."""
     label: str = ""
     """Its name with the unit, where a package reads it."""
 
@@ -96,10 +96,10 @@ def quantity(name: str) -> WornQuantity:
 
 
 class Reading(NamedTuple):
-    """One number to compute from a run; of a depth map the largest depth.
+    """One number to compute from a run; for a depth map the largest depth.
 
     `time_s` is NaN for the end of the run, `position_m` for all but profiles; `body` is empty for
-    what is of the run.
+    a quantity of the run.
     """
 
     body: str
@@ -125,7 +125,7 @@ def in_words(name: str, value: float, digits: int = 3) -> str:
 
 
 def row_name(row: Any) -> str:
-    """Return which value a row of data or predictions is of, as ``"heavy: ball, mass at 9 s"``."""
+    """Return the name of a row of data or predictions, as ``"heavy: ball, mass at 9 s"``."""
     test = f"{row.test}: " if getattr(row, "test", "") else ""
     time, place = (getattr(row, name, math.nan) for name in ("time_s", "position_m"))
     when = "" if pd.isna(time) else f" at {time:g} s"

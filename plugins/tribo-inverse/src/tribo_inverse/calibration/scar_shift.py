@@ -59,7 +59,7 @@ def find_shift(
     spacing : tuple of float
         Edge lengths of a cell, in m.
     sigma : float
-        Standard deviation of a measured cell, in m; that of the residuals if larger.
+        Standard deviation of a measured cell, in m; the residuals' is used if larger.
     """
     along = slopes(depth, spacing)
     ramps = [np.indices(depth.shape)[axis] / depth.shape[axis] - 0.5 for axis in along]

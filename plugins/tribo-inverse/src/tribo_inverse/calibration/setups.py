@@ -42,7 +42,7 @@ class Setup:
     """The case of tests under identical conditions."""
 
     name: str
-    """That of the first test."""
+    """Name of the first test."""
     case: Mapping[str, Any]
     """Tables of the case."""
     tables: Mapping[str, Any]

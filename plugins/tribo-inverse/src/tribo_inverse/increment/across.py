@@ -1,4 +1,4 @@
-"""Effects that state how their fields follow their input: asked once, then held."""
+"""Effects that state their `pull_back`: evaluated once, then held."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class EffectFields:
 
     @property
     def told(self) -> dict[str, Array]:
-        """What the fields may follow, by path; numbers too in the shape of the window."""
+        """The possible inputs of the fields, by path; numbers too in the shape of the window."""
         contact = self.contact
         own = {name: of for name, of in contact.fields.items() if name in self.effect.requires}
         parts = {**vars(contact), "system": vars(contact.system), "fields": own}
@@ -34,7 +34,7 @@ class EffectFields:
         }
 
     def back(self, cotangents: Fields) -> list[Array]:
-        """Return the derivatives in what is `told` from those in the fields."""
+        """Return the derivatives in the inputs `told` from the derivatives in the fields."""
         pull_back, shape = self.effect.component.pull_back, self.contact.pressure.shape
         found = self.effect.ask(pull_back, self.contact, cotangents)
         each = (np.asarray(found.get(path, 0.0)) for path in self.told)
@@ -44,7 +44,7 @@ class EffectFields:
 
 
 class HeldEffect(GuardedEffect):
-    """An effect that notes its answers, or repeats those that are given."""
+    """An effect that notes its answers, or repeats the answers given."""
 
     def __init__(self, effect: GuardedEffect, given: Sequence[EffectFields]) -> None:
         vars(self).update(vars(effect))
@@ -59,7 +59,7 @@ class HeldEffect(GuardedEffect):
 
 
 def held(model: Model, answers: Sequence[Sequence[EffectFields]] = ()) -> Model:
-    """Return a model whose effects that state a product note answers, or repeat these of each."""
+    """Return a model whose effects with a `pull_back` note answers, or repeat the answers given."""
     given = iter(answers)
     effects = tuple(
         effect

@@ -1,4 +1,4 @@
-"""Depths at which the rate of a law jumps, as layers end, where a number moves them."""
+"""Depths at which the rate of a law jumps, such as the bottoms of layers, moved by a number."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ from tribo.kernel_api import DEPTH_ACCURACY, GuardedLaw, Memory, Model, kept_in
 
 
 class SidedLaw(GuardedLaw):
-    """A law whose rate jumps at other depths: it is told one between the same two of its own."""
+    """A law whose rate jumps at other depths.
+
+    Its input is the depth, clipped to lie between the corresponding two breaks of its own.
+    """
 
     def __init__(self, law: GuardedLaw, breaks: Sequence[float]) -> None:
         vars(self).update(vars(law))
@@ -37,25 +40,25 @@ def moved_breaks(model: Model, base: Model, before: Memory, state: int) -> Array
     Raises
     ------
     CaseError
-        If it is another state than a depth worn.
+        If breaks of a state other than the depth worn move.
     """
     own, other = (kept_in(each, before)[state] for each in (base, model))
     moved = np.subtract(other.breaks, own.breaks)
     if own.name != WORN_DEPTH.name and np.any(moved):
         raise CaseError(
-            f"moves the breaks of {own}; a gradient goes through those of layers alone",
+            f"moves the breaks of {own}; a gradient follows breaks of layers alone",
             f"bodies.{body}.wear" if (body := before.bodies[state]) else "effects",
         )
     return moved
 
 
 def with_breaks(model: Model, base: Model, names: Sequence[str]) -> dict[str, GuardedLaw]:
-    """Return laws of a model, whose rates jump where those of the base do.
+    """Return laws of a model, whose rates jump at the breaks of the base.
 
     Raises
     ------
     CaseError
-        If a number moves the breaks of a law that follows the depth between them too.
+        If a number moves the breaks of a law that also depends on the depth between them.
     """
     laws = {name: model.laws.wear[name] for name in names}
     for name, law in laws.items():
@@ -63,8 +66,8 @@ def with_breaks(model: Model, base: Model, names: Sequence[str]) -> dict[str, Gu
         if law.breaks != breaks:
             if law.follows_depth:
                 raise CaseError(
-                    f"moves the depths at which the rate of {law} jumps; a gradient goes through "
-                    "those of layers alone, of laws that do not follow the depth",
+                    f"moves the depths at which the rate of {law} jumps; a gradient follows jumps "
+                    "at layers alone, of laws that do not depend on the depth",
                     f"bodies.{name}.wear",
                 )
             laws[name] = SidedLaw(law, breaks)

@@ -1,4 +1,4 @@
-"""How the surfaces of bodies meet the part of the window that an adjoint looks at."""
+"""The maps between the surfaces of bodies and the part of the window of an adjoint."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from tribo.kernel_api import Model, add_from
 
 @dataclass(frozen=True)
 class Carrier:
-    """How a body's own surface meets the window.
+    """The map between a body's own surface and the window.
 
-    It has `rows` cells along x, and the window begins at the row `starts` of it at each position.
-    `weights`, shape (nx, ny), are those with which an average takes the cells of a row; None where
-    points keep their own.
+    The surface has `rows` cells along x; the window begins at its row `starts` at each position.
+    `weights`, shape (nx, ny), are the weights of cells in the average over a row; None where points
+    are not averaged.
     """
 
     rows: int
@@ -24,13 +24,13 @@ class Carrier:
     weights: Array | None
 
     def differs(self, other: Carrier) -> bool:
-        """Whether another one lies or counts otherwise."""
+        """Whether another carrier has other rows, starts or weights."""
         same = self.rows == other.rows and [*self.starts] == [*other.starts]
         own, others = (np.array(0) if c.weights is None else c.weights for c in (self, other))
         return not (same and np.array_equal(own, others))
 
     def gathered(self, parts: Array, box: Box) -> Array:
-        """Return what fields on a box, by position, add up to on the body: shape (rows, ny)."""
+        """Return the sum on the body of fields on a box, by position: shape (rows, ny)."""
         along, columns = box.slices
         own = np.zeros((self.rows, box.window[1]))
         if self.weights is not None:
@@ -54,13 +54,13 @@ class Carrier:
         return np.stack(each, axis=-3)
 
     def part(self, box: Box) -> Array | float:
-        """Return what each cell of a box counts for in the mean rate of its point."""
+        """Return the weight of each cell of a box in the mean rate of its point."""
         return 1.0 if self.weights is None else self.weights[box.slices]
 
 
 @dataclass(frozen=True)
 class Uniform(Carrier):
-    """Where one number lies that stands for all of the window."""
+    """The carrier of one number for all of the window."""
 
     def gathered(self, parts: Array, box: Box) -> Array:
         """Return the sum of fields on a box, shape (1, 1)."""
@@ -73,7 +73,7 @@ class Uniform(Carrier):
 
 
 def carriers_between(model: Model, of_bodies: Mapping[str, Carrier]) -> dict[str, Carrier]:
-    """Return where what effects remember lies, by key as in `State`."""
+    """Return the carriers of the states of effects, by key as in `State`."""
     found: dict[str, Carrier] = {}
     rows, starts = model.grid.cells[0], [0] * len(model.cycle)
     for key, (effect, field) in model.laws.between.items():
@@ -88,7 +88,7 @@ def carriers_between(model: Model, of_bodies: Mapping[str, Carrier]) -> dict[str
 
 
 def carriers_of(model: Model) -> dict[str, Carrier]:
-    """Return how the surfaces of bodies meet the window, by name.
+    """Return the carriers of bodies, by name.
 
     Raises
     ------
@@ -100,13 +100,13 @@ def carriers_of(model: Model) -> dict[str, Carrier]:
         exposure = model.cycle.maps[name]
         if exposure.across is not None:
             raise CaseError(
-                f"gradients are not known where {name} moves across as well as along x, as it does "
-                f"with {model.case.kinematics.type!r}",
+                f"{name} moves across as well as along x with {model.case.kinematics.type!r}, "
+                "which has no gradient; use a motion along x",
                 "kinematics.type",
             )
         weights = None
         if exposure.averaged:
-            # An average is linear: those of each row of the window are its weights.
+            # An average is linear: the averages of the window's rows are its weights.
             rows = (np.outer(row, np.ones(cells[1])) for row in np.eye(cells[0]))
             weights = np.concatenate([exposure.average(row) for row in rows])
         starts = exposure.starts if exposure.starts is not None else [0] * len(model.cycle)

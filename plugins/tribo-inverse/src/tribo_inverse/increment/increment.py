@@ -1,4 +1,4 @@
-"""What an increment wears, and comes to remember, under given contacts, backwards."""
+"""The adjoint of the wear and the states of an increment under given contacts."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ from tribo_inverse.increment.stages import RateStage, together
 from tribo_inverse.recording.tape import Pressed, Slid
 
 _Seeded = tuple[Slopes, Sequence[Field]]
-"""Rates, and the derivatives in them."""
+"""Rates, and derivatives in them."""
 
 
 @dataclass(frozen=True)
 class Before:
-    """The derivatives of an objective in what an increment depends on.
+    """The derivatives of an objective in the inputs of an increment.
 
     In the pressures, shape (positions, nx, ny), by the share of each position; in the depths worn
-    and what was remembered before; and in a factor, 1 here, on the wear rate of each body.
-    `through` returns what an increment of another model adds to it.
+    and the states before; and in a factor, 1 here, on the wear rate of each body. `through` returns
+    the change of the objective with an increment of another model.
     """
 
     pressure: Array
@@ -54,7 +54,7 @@ class Before:
 class Other:
     """An increment under the same contacts, of a model with another number.
 
-    `wears` are the bodies whose wear may differ, and `asks` those of them whose rates may.
+    `wears` are the bodies whose wear may differ, and `asks` the bodies whose rates may differ.
     """
 
     model: Model
@@ -66,12 +66,12 @@ class Other:
 
 @dataclass(frozen=True)
 class _Back:
-    """Derivatives of an objective in what an increment depends on.
+    """Derivatives of an objective in the inputs of an increment.
 
-    In the pressure of each cell, with what comes through the `load` and Σp² of its contact beside;
-    in factors on the rates of bodies; and in the `states` before.
-    `rates` has those in the `means` of the rates at its stages, and `breaks` those in the breaks of
-    states, by number, still for each point.
+    In the pressure of each cell, and separately in the `load` and Σp² of its contact; in factors on
+    the rates of bodies; and in the `states` before.
+    `rates` has derivatives in the `means` of the rates at its stages, and `breaks` derivatives in
+    the breaks of states, by number, at each point.
     """
 
     pressure: Field
@@ -89,7 +89,7 @@ class _Back:
 
     @property
     def by_length(self) -> float:
-        """The derivative in ln(its length) where the rates stay as they are."""
+        """The derivative in the logarithm of its length at constant rates."""
         return sum(
             float(np.sum(seed * mean))
             for stage, seeds in self.rates
@@ -99,14 +99,14 @@ class _Back:
 
 @dataclass(frozen=True)
 class Increment:
-    """An increment of the bodies of a model that wear, and the rates at its stages."""
+    """An increment of the wearing bodies of a model, and the rates at its stages."""
 
     stages: Sloping
 
     def back(self, wear: Mapping[str, Array], states: Memory) -> Before:
-        """Return derivatives before it from those in the depths and what is remembered after."""
+        """Return derivatives before it from derivatives in the depths and states after."""
         increment, laws = self.stages, self.stages.slid.before.laws
-        # What a depth comes to within the increment counts as wear alone.
+        # The depth worn at the end of the increment counts as wear alone.
         of_laws = [states.laws[name].get(key, 0.0) for name, of in laws.items() for key in of]
         depths = [wear[name] for name in increment.model.laws.wear]
         found = self._back(depths, [*of_laws, *states.between.values()])
@@ -127,9 +127,9 @@ class Increment:
 
     @cached_property
     def is_pointwise(self) -> bool:
-        """Whether a point's depth follows the pressures of its own cells alone, but for the load.
+        """Whether a point's depth depends on the pressures of its own cells and the load alone.
 
-        Then `bodies` have all that the wear adds to the system of a step.
+        Then `bodies` are the full contribution of wear to the system of a step.
         """
         model, reach = self.stages.model, self.stages.reach
         if not (model.laws.effects or model.laws.filling):
@@ -144,7 +144,7 @@ class Increment:
     def bodies(self) -> Sequence[tuple[Carrier, Array]]:
         """Of each body its carrier and the derivative of a point's depth in its cells' pressures.
 
-        Where more follows those, that as the increment begins, to precondition with.
+        Unless it `is_pointwise`, the derivative at the beginning of the increment, to precondition.
         """
         increment, window = self.stages, np.ones_like(self.stages.pressure)
         if not self.is_pointwise:
@@ -163,7 +163,7 @@ class Increment:
         return found
 
     def _through(self, found: _Back, other: Other) -> float:
-        """Return what an increment of another model adds."""
+        """Return the change of the objective with an increment of another model."""
         increment, laws = self.stages, self.stages.model.laws.wear
         if not other.wears & laws.keys():
             return 0.0
@@ -180,7 +180,7 @@ class Increment:
             total += sum(float(np.sum(of)) * far for of, far in zip(by, deeper, strict=True))
         stages = [stage for stage, _ in found.rates]
         before = rates = together([stage.rates for stage in stages])
-        # Rates follow the length where loads change along it.
+        # Rates depend on the length where loads change along it.
         asks, moves = other.asks & laws.keys(), other.carriers is not increment.carriers
         if not (asks or increment.loads_change or moves):
             return total
@@ -199,7 +199,7 @@ class Increment:
 
     @cached_property
     def _retraced(self) -> tuple[Sequence[Part], Mapping[int, Slopes]]:
-        """The parts of the increment, and by the identity of rates in them their derivatives."""
+        """The parts of the increment, and the derivatives of their rates by identity."""
         increment, length = self.stages, self.stages.slid.interval.length
         asked = dict[int, tuple[Values, RateStage]]()
 
@@ -224,7 +224,7 @@ class Increment:
         return done, dict(zip(used, increment.sloped([*used.values()]), strict=True))
 
     def _back(self, depth: Sequence[Field], after: Sequence[Field]) -> _Back:
-        """Go back from derivatives in the depths and the states after."""
+        """Return derivatives before it from derivatives in the depths and states after."""
         total: list[Field] = [0.0] * (3 + len(depth))
         seeded, count = list[_Seeded](), len(after)
         parts, slopes = self._retraced
@@ -244,23 +244,23 @@ class Increment:
 
 
 def _dot(seeds: Sequence[Field], now: Arrays, before: Arrays) -> float:
-    """Return what changes make, from derivatives in what changes."""
+    """Return the change of the objective by changes of fields, from derivatives in them."""
     changes = zip(seeds, now, before, strict=True)
     return sum(float(np.sum(seed * (new - old))) for seed, new, old in changes)
 
 
 def _summed(field: Field) -> Field:
-    """Return the sum over each contact of what is known by cell."""
+    """Return the sum of a field over the cells of each contact."""
     return over(np.sum(field, CELLS)) if np.ndim(field) else field
 
 
 def increments(
     model: Model, carriers: Mapping[str, Carrier], touched: Box, record: Pressed
 ) -> list[Increment]:
-    """Return the increment of a record in parts that do not touch each other.
+    """Return the increment of a record in independent parts.
 
-    There is one for each body, unless they share what lies between them. `touched` holds all
-    contacts of the run.
+    There is one for each body, unless interfacial effects couple them. `touched` holds all contacts
+    of the run.
     """
     slid, cells = record.slid, model.grid.cells
     assert slid is not None
@@ -283,5 +283,5 @@ def increments(
     if not (model.laws.effects or model.laws.filling):
         return [part(Box.of(record.region, cells), name) for name in names]
     together = part(touched, *names)
-    # What is remembered elsewhere may come back into the contact.
+    # A state elsewhere may return into the contact.
     return [together if together.is_pointwise else part(whole(cells), *names)]

@@ -1,4 +1,4 @@
-"""How rates follow what they are asked at: at each point, beside it, the load, and Σp²."""
+"""Derivatives of rates in their inputs: at each point, next to it, in the load and in Σp²."""
 
 from __future__ import annotations
 
@@ -11,33 +11,33 @@ from tribo import Array
 from tribo.kernel_api import CELLS, over
 
 NUDGE = 3e-5
-"""Part of a value by which it is varied up and down to find a derivative, or once for a second."""
+"""Part of a value by which it is varied up and down for a derivative, or for a second one."""
 ASIDE = 1e-7
 """The same where it is varied to one side only, or a derivative may soon change."""
 EVENLY = 1e-6
-"""Part of a pressure by which it is varied up and down where a rate follows it alone."""
+"""Part of a pressure by which it is varied up and down where a rate depends on it alone."""
 LEAST = 0.1
-"""Part of a cell's pressure that must be varied to find what follows it."""
+"""Part of a cell's pressure that must be varied for a derivative in it."""
 MOST = 25
-"""Points around one, itself among them, that it may follow."""
+"""Largest number of points, itself included, that a point may depend on."""
 
 Arrays = list[Array]
 Field = Array | float
-"""Values at each cell or point, or one that they all have."""
+"""Values at each cell or point, or one value for all."""
 Rates = Callable[[Array], Arrays]
 """Rates at pressures, shape (positions, nx, ny), or at other values."""
 Offset = tuple[int, int]
 """Cells along x and y from a point to another one."""
 ALONE = (0, 0)
-"""How many cells apart along x and y points are that follow each other, where they do not."""
+"""Reach of points that do not depend on each other, in cells along x and y."""
 
 
 @dataclass(frozen=True)
 class Response:
     """The derivatives of a rate at each cell, of the shape (…, positions, nx, ny) or 0.
 
-    In the value of that cell, and of those `beside` it, by how far they lie from it; and in the sum
-    of the pressures of all at its position, and in half the sum of their squares.
+    In its `own` value, and in the values of cells `beside` it, by their offset; and in the sum of
+    all pressures at its position, and in half the sum of their squares.
     """
 
     own: Field
@@ -46,14 +46,14 @@ class Response:
     beside: Mapping[Offset, Array] = field(default_factory=dict)
 
     def change(self, pressure: Array, by: Array) -> Array:
-        """Return what a change of the pressures, or of other values, adds to the rate."""
+        """Return the change of the rate for a change of the pressures, or of other values."""
         found: Array = self.own * by + self.load * over(np.sum(by, CELLS))
         for offset, slope in self.beside.items():
             found = found + slope * np.roll(by, (-offset[0], -offset[1]), CELLS)
         return found + self.square * over(np.sum(pressure * by, CELLS))
 
     def at(self, stage: int) -> Response:
-        """Return those of one of several stages, which are on the first axis."""
+        """Return the response of one of several stages, which are on the first axis."""
         own, load, square = (
             each[stage] if isinstance(each, np.ndarray) else each
             for each in (self.own, self.load, self.square)
@@ -62,7 +62,7 @@ class Response:
 
 
 def back(seeds: Sequence[Field], responses: Sequence[Response]) -> Field:
-    """Return derivatives in the values at each cell from those in rates."""
+    """Return derivatives in the values at each cell from derivatives in rates."""
     found: Field = 0.0
     for seed, response in zip(seeds, responses, strict=True):
         if not np.ndim(seed):
@@ -75,9 +75,9 @@ def back(seeds: Sequence[Field], responses: Sequence[Response]) -> Field:
 
 
 def local(rates: Rates, found: Arrays, pressure: Array, reach: Offset = ALONE) -> list[Response]:
-    """Return the responses of rates that follow the pressures of their own cell, and near it.
+    """Return the responses of rates that depend on the pressures of their own cell, and near it.
 
-    Of their own cell alone it is a central difference, whose errors do not make it uneven.
+    For their own cell alone it is a central difference, whose errors are even.
     """
     if reach != ALONE:
         return near(rates, found, pressure, ASIDE * pressure, reach)
@@ -98,8 +98,8 @@ def near(
     """Return the responses of rates in values that lie on cells.
 
     `found` are the rates at the values, each of which is varied by its `nudge`. Cells so far apart
-    that nothing follows two of them are varied at once. Of values that lie on a body `seen` tells
-    how they lie where the rates do.
+    that nothing depends on two of them are varied at once. `seen` maps values on a body to the
+    cells of the rates.
     """
     # What is added is not quite the nudge: its last digits are lost.
     span = (values + nudge) - values
@@ -131,9 +131,9 @@ def near(
 
 
 def _colours(shape: Sequence[int], reach: Offset) -> Array:
-    """Return numbers from 0 on, alike only on cells that are too far apart for one to follow both.
+    """Return numbers from 0, equal only on cells so far apart that no cell depends on both.
 
-    Those at one end of the window may lie beside those at the other.
+    Cells at one end of the window may be neighbours of cells at the other.
     """
     *_, rows, columns = shape
     along, across = _in_row(rows, reach[0]), _in_row(columns, reach[1])
@@ -148,9 +148,9 @@ def _in_row(count: int, far: int) -> Array:
 
 
 def shared(rates: Rates, pressure: Array) -> list[Response]:
-    """Return the responses of rates that also follow the load and the mean of squares.
+    """Return the responses of rates that also depend on the load and the mean of squares.
 
-    As effects do that share the load, or that are uniform over a contact of this load and area.
+    Such rates come from effects that share the load, or that are uniform over the contact.
     """
     stripes = _balanced(pressure)
     steeper = pressure**2 / over(np.max(pressure, CELLS))

@@ -1,4 +1,4 @@
-"""The rates of an increment at its stages, and their derivatives in all that they follow."""
+"""The rates of an increment at its stages, and their derivatives in all inputs."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ from tribo_inverse.recording.local import localised
 
 
 class Reach(NamedTuple):
-    """How many cells apart points are that follow each other's pressure, and each state.
+    """Distance, in cells, over which points depend on the pressure, and on each state.
 
-    Without one for the pressure they follow their own, the load and the area.
+    None for the pressure: points depend on their own pressure, the load and the area.
     """
 
     pressure: Offset | None
@@ -63,15 +63,15 @@ class Sloping(Stages):
 
     @cached_property
     def reach(self) -> Reach:
-        """How far points follow each other, as the effects declare it."""
+        """The reach that the effects declare."""
         across = held_effects(self.model)
         if across and len(self.model.cycle) > 1:
             raise CaseError(
-                f"{across[0]} reaches across the contact, and no gradient goes through that at "
-                'several positions; set kinematics.positions = "average"',
+                f"{across[0]} reaches across the contact, which has no gradient at several "
+                'positions; set kinematics.positions = "average"',
                 "kinematics.positions",
             )
-        # Of those that state a product only the rates of their states follow what is near.
+        # Of effects with a `pull_back` only the rates of their states depend on cells nearby.
         asked = (e for e in self.model.laws.effects if e not in across or e.state_fields)
         effects = [effect.component for effect in asked]
         declared = [effect.reach for effect in effects]
@@ -90,8 +90,8 @@ class Sloping(Stages):
         if whole or (2 * along + 1) * (2 * across + 1) > MOST:
             who = ", ".join(repr(effect.type) for effect in effects)
             raise CaseError(
-                f"what {who} makes of a point follows points beside it and the load or the area "
-                f"too, or more than {MOST} points, through which no gradient goes",
+                f"the fields of {who} at a point depend on neighbours and on the load or the area, "
+                f"or on more than {MOST} points, which has no gradient; leave it out",
                 "effects",
             )
         return Reach(
@@ -109,9 +109,9 @@ class Sloping(Stages):
         return [self.holding(stage)._sloped([stage], self.reach)[0] for stage in stages]
 
     def seen(self, slopes: Slopes, seeds: Sequence[Field]) -> list[Field]:
-        """Return derivatives in the rates of each cell from those in their means over points.
+        """Return derivatives in the rates of each cell from derivatives in their means over points.
 
-        After them come those in what effects were told, the last ones first gone through.
+        After them come derivatives in the inputs of effects, computed from the last effect back.
         """
         found = [
             carrier.part(self.box) * carrier.seen(seed, self.box)
@@ -133,10 +133,10 @@ class Sloping(Stages):
         return found
 
     def behind(self, slopes: Slopes, seeds: Sequence[Field]) -> tuple[list[Field], list[Field]]:
-        """Return derivatives in what rates follow, from those in the rates of depths and states.
+        """Return derivatives in the inputs of the rates of depths and states.
 
-        The first are in the pressure of each cell, the load and Σp²/2 of each position, still by
-        cell, and factors on the bodies' rates; the second in the states.
+        The first are in the pressure of each cell, the load and Σp²/2 of each position, not yet
+        summed over cells, and factors on the bodies' rates; the second in the states.
         """
         seen = self.seen(slopes, seeds)
 
@@ -161,14 +161,14 @@ class Sloping(Stages):
     def _gathered(
         self, carrier: Carrier, seen: Sequence[Field], responses: Sequence[Response]
     ) -> Field:
-        """Return derivatives at the points of a carrier from those in the rates of each cell."""
+        """Return derivatives at the points of a carrier from derivatives in rates of each cell."""
         found = back(seen, responses)
         if not np.ndim(found):
             return found
         return carrier.gathered(over(self.shares) * found, self.box)
 
     def _sloped(self, stages: Sequence[RateStage], reach: Reach) -> list[Slopes]:
-        """Return stages with their derivatives, of all at once, where points reach so far."""
+        """Return stages with their derivatives, all at once, for a reach of points."""
         states, rates = (together([vars(s)[of] for s in stages]) for of in ("states", "rates"))
         passed = [stage.passed for stage in stages]
         by_state = [
@@ -294,7 +294,7 @@ class Sloping(Stages):
 
 
 def _on(carrier: Carrier, reach: Offset) -> Offset:
-    """Return how far that is on a body: what is one along a track reaches no further along it."""
+    """Return a reach on a body: 0 along the track where it is averaged along it."""
     return reach if carrier.weights is None else (0, reach[1])
 
 

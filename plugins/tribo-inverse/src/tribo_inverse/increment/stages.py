@@ -1,4 +1,4 @@
-"""The rates of an increment at its stages: at the states, pressures and numbers asked for."""
+"""The rates of an increment at its stages, at given states, pressures and numbers."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ from tribo_inverse.increment.response import ASIDE, Arrays
 from tribo_inverse.recording.tape import Slid
 
 AT_ONCE = 1 << 18
-"""Cells of which laws are asked at once, so that what they compute does not grow with a step."""
+"""Largest number of cells in one call of a law, so that memory does not grow with a step."""
 
 
 @dataclass(frozen=True)
 class RateStage:
-    """Rates where a part of an increment has `passed`, at states that are held to their limits.
+    """Rates after a part of an increment has `passed`, at states clipped to their limits.
 
-    The rates are those at each cell of each position, and `means` those over each point of what
-    they change. `inside` has by state where it was within its limits already. Behind the rates
-    is what effects were told for their `answers`.
+    `rates` hold at each cell of each position, and `means` at each point of the depths and states.
+    `inside` has, by state, where it was within its limits before. After the rates in `rates` come
+    the inputs of effects for their `answers`.
     """
 
     passed: float
@@ -53,22 +53,21 @@ class RateStage:
 
 @dataclass(frozen=True)
 class Stages:
-    """The rates of an increment of the bodies of a model that wear.
+    """The rates of an increment of the wearing bodies of a model.
 
     Parameters
     ----------
     model, carriers : Model, Mapping of Carrier by body
-        Whose bodies, and how their surfaces meet the window.
+        The model, and the carriers of its bodies.
     box : Box
-        The part of the window that is looked at: all of it where effects reach beyond a point;
-        else what touches, in this increment or any, beyond which nothing that presses follows what
-        there is.
+        The part of the window for the rates: all of it where effects reach beyond a point; else
+        the contact, in this increment or any, as no pressure depends on cells beyond it.
     pressure : ndarray, shape (positions, nx, ny)
         The pressures, on the box.
     slid : Slid
         The increment.
     along : bool
-        Whether rates are integrated along it, as where any body remembers.
+        Whether rates are integrated along it, as with states of any body.
     """
 
     model: Model
@@ -85,32 +84,32 @@ class Stages:
 
     @cached_property
     def kept(self) -> Sequence[Carrier]:
-        """The carriers of what is remembered, in the order of `Memory.values`."""
+        """The carriers of the states, in the order of `Memory.values`."""
         of_laws = [self.carriers[name] for name, of in self.slid.before.laws.items() for _ in of]
         between = carriers_between(self.model, self.carriers).values()
         return [*of_laws, *between]
 
     @property
     def begin(self) -> Arrays:
-        """What is remembered as the increment begins."""
+        """The states at the beginning of the increment."""
         return self.slid.before.values
 
     @cached_property
     def loads_change(self) -> bool:
-        """Whether laws are told pressures in proportion to loads that may change along it.
+        """Whether laws get pressures in proportion to loads that may change along it.
 
-        Loads that are alike at both ends in the case need not be so with another number.
+        Loads that are equal at both ends in the case may differ with another number.
         """
         return self.along and not isinstance(self.model.case.load.normal, float)
 
     @cached_property
     def limits(self) -> list[Kept]:
-        """The limits of what is remembered, and at what its rates jump."""
+        """The limits and breaks of the states."""
         return kept_in(self.model, self.slid.before)
 
     @property
     def sums(self) -> list[Sum]:
-        """The depths worn, as the integrator has them where they lie."""
+        """The depths worn, as sums of the integrator, where they lie."""
         return [Sum(place(self.model, name)) for name in self.model.laws.wear]
 
     @cached_property
@@ -125,10 +124,10 @@ class Stages:
     def nudges(
         self, states: Sequence[Array], rates: Arrays, passed: Sequence[float], part: float = ASIDE
     ) -> Arrays:
-        """Return by how much each state is varied, past no limit or break, to find what follows it.
+        """Return the variation of each state for derivatives in it, past no limit or break.
 
-        By a part of the largest value that it has, or comes to at these rates over its part of the
-        increment: over all of one in many parts that may be far beyond what it is.
+        It is a part of the largest value of the state, now or at these rates after its part of the
+        increment; over a whole increment of many parts that value may be far too large.
         """
         nudges, lengths = [], over(np.array([*map(self.part_after, passed)]))
         for state, rate, of in zip(states, rates[len(self.own) :], self.limits, strict=False):
@@ -139,19 +138,19 @@ class Stages:
         return nudges
 
     def part_after(self, passed: float) -> float:
-        """Return how long the part (m) of the increment is of which so much has passed."""
+        """Return the length (m) of the part of the increment around the share `passed`."""
         shares = [share for share, _ in self.slid.plan.parts]
         at = np.searchsorted(np.cumsum(shares), passed, side="right")
         return self.slid.interval.length * shares[min(int(at), len(shares) - 1)]
 
     @cached_property
     def counts(self) -> Sequence[tuple[Carrier, Array]]:
-        """The carriers of all rates, and what each cell of the box counts for in their means."""
+        """The carriers of all rates, and the weight of each cell of the box in their means."""
         shares = over(self.shares)
         return [(each, shares * each.part(self.box)) for each in (*self.own, *self.kept)]
 
     def means(self, rates: Arrays) -> Arrays:
-        """Return the mean rates of the depths and of what is remembered, where these lie."""
+        """Return the mean rates of the depths and states, where these lie."""
         pairs = zip(self.counts, rates, strict=False)
         return [carrier.gathered(counts * rate, self.box) for (carrier, counts), rate in pairs]
 
@@ -162,7 +161,7 @@ class Stages:
         return full
 
     def at(self, states: Sequence[Array], passed: float) -> RateStage:
-        """Return the stage at some states, where a part of the increment has passed."""
+        """Return the stage at some states after a part of the increment."""
         within = self.held(states)
         inside = [given == kept for given, kept in zip(states, within, strict=True)]
         rates = [each[0] for each in self.rates([state[None] for state in within], [passed])]
@@ -170,10 +169,10 @@ class Stages:
         return RateStage(passed, within, inside, rates, self.means(rates), answers)
 
     def told(self, passed: Sequence[float], pressure: Array | None = None) -> Array:
-        """Return the pressures that laws are told at some stages, (stages, positions, nx, ny).
+        """Return the pressures for laws at some stages, (stages, positions, nx, ny).
 
-        They are in proportion to a load that changes along the increment. Others may be given
-        instead of those of the increment, in the same shape.
+        They are in proportion to a load that changes along the increment. `pressure` replaces the
+        pressures of the increment, in the same shape.
         """
         if pressure is None:
             pressure = np.broadcast_to(self.pressure, (len(passed), *self.pressure.shape))
@@ -194,19 +193,19 @@ class Stages:
     ) -> Arrays:
         """Return the rates at each position at some stages, (stages, positions, nx, ny).
 
-        Behind them is what effects that state a product were told. Laws are pointwise: where there
-        are no effects they are asked of all stages at once.
+        After them come the inputs of effects with a `pull_back`. Laws are pointwise: without
+        effects they are evaluated at all stages at once.
 
         Parameters
         ----------
         states : sequence of ndarray, shape (stages, rows, ny)
-            What is remembered.
+            The states.
         passed : sequence of float
-            How much of the increment has passed.
+            Share of the increment that has passed.
         told : ndarray, shape (stages, positions, nx, ny), optional
-            The pressures; those of `told` if left out.
+            The pressures; the result of `told` if left out.
         model : Model, optional
-            One with another number.
+            A model with another number.
         """
         model = model or self.model
         if told is None:
@@ -222,7 +221,7 @@ class Stages:
         ]
 
     def holding(self, stage: RateStage) -> Self:
-        """Return the same with effects that state a product and answer as at a stage."""
+        """Return the same stages, with effects held at their answers of a stage."""
         if not stage.answers:
             return self
         return replace(self, model=held(self.model, stage.answers))
@@ -240,7 +239,7 @@ class Stages:
     def _in_window(
         self, model: Model, states: Arrays, passed: Sequence[float], told: Array
     ) -> Arrays:
-        """Return the rates at one stage, of laws and of effects, which see the whole window."""
+        """Return the rates of laws and effects at one stage, with the whole window as input."""
         memory = self.slid.before.with_values(state[0] for state in states)
         moment = self.slid.interval.at(passed[0])
         shown = told[0] if self.box.is_window else self.embedded(told[0])
@@ -334,11 +333,11 @@ class Stages:
 
 
 def together(states: Sequence[Sequence[Array]]) -> Arrays:
-    """Return the states of several stages one below the other, shape (stages, rows, ny)."""
+    """Return the stacked states of several stages, shape (stages, rows, ny)."""
     return [np.stack(each) for each in zip(*states, strict=True)]
 
 
 def _contacts(pressures: Array) -> list[ContactSolution]:
-    """Return contacts of given pressures, as laws are asked in them."""
+    """Return contacts of given pressures, as inputs of laws."""
     nothing = np.zeros(pressures.shape[1:]), 0, Residuals(0.0, 0.0, 0.0)
     return [ContactSolution(readonly(each), 0.0, *nothing) for each in pressures]

@@ -1,4 +1,4 @@
-"""Wear laws with a factor at each cell of their body's surface, and what they look at."""
+"""Wear laws with a factor at each cell of their body's surface, and the inputs that they read."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tribo import Array, CaseError, LocalConditions, Material, WearRate
 from tribo.kernel_api import PLACE_X, PLACE_Y, GuardedLaw, Model, times
 
 SPEED = "speed"
-"""What a law may be told of the motion."""
+"""The input of a law from the motion."""
 
 
 class LocalLaw(GuardedLaw):
@@ -51,7 +51,7 @@ class LocalLaw(GuardedLaw):
 class WatchedLaw(GuardedLaw):
     """A law of a body that notes in `seen` which properties of its material, and `SPEED`, it read.
 
-    Copies of what it is told count as read.
+    Copying its input counts as reading it.
     """
 
     def __init__(self, law: GuardedLaw) -> None:

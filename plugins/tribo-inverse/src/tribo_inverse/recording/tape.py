@@ -1,4 +1,4 @@
-"""The steps of a run, kept to be gone through backwards."""
+"""The recorded steps of a run, for its adjoint."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ IN_MEMORY = 1 << 24
 
 @dataclass(frozen=True)
 class Slid:
-    """What a step slid, or how long it rested.
+    """The interval that a step slid or rested.
 
-    `before` is what laws and effects remembered, and `plan` how the step was divided for that, and
-    is to be again; `ahead` tells whether it wore under contacts that were solved before it.
+    `before` has the states of laws and effects, and `plan` the division of the step, to be used
+    again; `ahead` is whether it wore under contacts solved before it.
     """
 
     interval: Interval
@@ -46,11 +46,11 @@ class Slid:
 
 @dataclass(frozen=True)
 class Pressed:
-    """The contacts of a cycle, in a region of the window that holds all their pressure.
+    """The contacts of a cycle, in a region of the window that contains all their pressure.
 
     Pressures, and depths by which the bodies overlap at the hardness (None where nothing yields),
     have the shape (positions, rows, columns). The method `load` of `tribo.core.loads.Loads` gave
-    their loads when asked for `times` (s), and the step `slid` wore the bodies under them, if any.
+    their loads at `times` (s), and the step `slid` wore the bodies under them, if any.
     """
 
     region: Region
@@ -69,21 +69,21 @@ class Pressed:
 
 @dataclass(frozen=True)
 class Gave:
-    """What overlapped at some positions became plastic depth."""
+    """The overlap at some positions became plastic depth."""
 
     places: Sequence[int]
 
 
 @dataclass(frozen=True)
 class Enveloped:
-    """The plastic depth of averaged bodies, by name, became that of one row at each y."""
+    """The plastic depth of averaged bodies, by name, became the depth of one row at each y."""
 
     rows: Mapping[str, NDArray[np.intp]]
 
 
 @dataclass(frozen=True)
 class Saved:
-    """A state that an objective looks at."""
+    """A state that is the input of an objective."""
 
     time: float
 
@@ -104,7 +104,7 @@ class Tape:
         self.touched: Region | None = None
 
     def append(self, record: Record) -> None:
-        """Write a record after those there are."""
+        """Append a record."""
         if isinstance(record, Pressed):
             self.touched = union(self.touched or record.region, record.region)
         pickle.dump(record, self._file, pickle.HIGHEST_PROTOCOL)
@@ -116,14 +116,14 @@ class Tape:
             yield pickle.load(self._file)
 
     def close(self) -> None:
-        """Give up the records."""
+        """Discard the records."""
         self._file.close()
 
 
 def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float, State]:
-    """Run a model, recorded on a tape; return the states at times (s) that are saved.
+    """Run a model, recorded on a tape; return the states at saved times (s).
 
-    That at the model's own end is the last one, also where a depth ends the run sooner.
+    The state for the model's own end is the last state, also where a depth ends the run sooner.
     """
     heard: list[Event] = []
     states: dict[float, State] = {}
@@ -143,8 +143,8 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
     for each in state.findings:
         if each.kind == "stop" and not each.place.startswith("stop"):
             raise CaseError(
-                f"a model ends the run at {state.time:g} s ({each.words}), of which no gradient is "
-                "known; let stop.depth or the motion end it",
+                f"a model ends the run at {state.time:g} s ({each.words}), which has no gradient; "
+                "let stop.depth or the motion end it",
                 each.place,
             )
     missing = [time for time in looked_at if time not in states]
@@ -152,13 +152,13 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
         raise CaseError("is reached before the run begins; give a larger depth", "stop.depth")
     if missing and state.time < missing[0] <= model.end_time:
         raise CaseError(
-            f"a depth ends the run at {state.time:g} s, before {missing[0]:g} s, at which an "
-            "objective is to look; give a larger depth, or let it look at a save before that",
+            f"a depth ends the run at {state.time:g} s, before the time {missing[0]:g} s of an "
+            "objective; give a larger depth, or an earlier saved time",
             "stop.depth",
         )
     if missing:
         raise CaseError(
-            f"nothing is saved at {missing[0]:g} s, which an objective is to look at; add it to "
+            f"nothing is saved at {missing[0]:g} s, the time of an objective; add it to "
             "output.save_times"
         )
     return states
@@ -167,7 +167,7 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
 def _keep(
     tape: Tape, model: Model, heard: list[Event], load: str, time: float, begun: float
 ) -> None:
-    """Write down what was heard up to an accepted state, without the steps that were rejected."""
+    """Record the events up to an accepted state, without the steps that were rejected."""
     steps = [i for i, event in enumerate(heard) if isinstance(event, Worn)]
     if steps:
         for event in heard[: steps[0]]:

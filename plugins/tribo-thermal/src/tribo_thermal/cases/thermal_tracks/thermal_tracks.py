@@ -13,7 +13,7 @@ ONCE = {
 
 
 def found(part: float) -> dict[str, float]:
-    """Return the rise in units of that of a source that does not come back."""
+    """Return the rise, relative to a source that does not return."""
     return {
         name: 1 + kept_per_power(1.0, 1.0, peclet, length, name.startswith("to and fro")) / once
         for name, (length, peclet, once) in ONCE.items()
