@@ -38,8 +38,8 @@ class Drive(Table):
     """How far the motion goes to each side: a number, or a list of stages, each a table with
     `until` and `amplitude`."""
     stiffness: Annotated[float, Quantity("N/m", above=0, usual=(1e2, 1e12))] | None = None
-    """Stiffness of the rig in series with the contact, along x: the amplitude is then that of the
-    rig; a rigid rig if left out."""
+    """Stiffness of the rig in series with the contact, along x: `amplitude` then moves the
+    rig. A rigid rig if left out."""
     force_amplitude: Annotated[float, Quantity("N", above=0)] | None = None
     """Tangential force at which the motion turns back before its amplitude is reached."""
     direction: Literal["free", "along"] = "along"
@@ -88,7 +88,7 @@ class Drive(Table):
         amplitude δ is less, if Q reaches it.
 
         The limit μp (Pa) has the shape of the grid, the amplitude δ is in m. The answer has both
-        components of the traction, and beyond the contact the slip of a point that comes to touch.
+        components of the traction, and beyond the contact the slip of a point that begins to touch.
         """
         compliances = tangential_compliances(materials.values())
         return _first_loading(self, grid, compliances, limit.tobytes(), amplitude)
