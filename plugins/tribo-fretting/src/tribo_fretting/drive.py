@@ -25,17 +25,17 @@ class AmplitudeStage(Table):
     until: Annotated[float, Quantity("s", above=0)]
     """When it ends."""
     amplitude: Amplitude
-    """How far the motion goes to each side."""
+    """Amplitude of the motion to each side."""
 
 
 class Drive(Table):
-    """What drags a contact to and fro along x."""
+    """The drive of a contact to and fro along x."""
 
     amplitude: Annotated[
         Annotated[Amplitude, Tag(NUMBER)] | Annotated[tuple[AmplitudeStage, ...], Tag(STAGES)],
         ONE_OR_STAGES,
     ]
-    """How far the motion goes to each side: a number, or a list of stages, each a table with
+    """Amplitude of the motion to each side: a number, or a list of stages, each a table with
     `until` and `amplitude`."""
     stiffness: Annotated[float, Quantity("N/m", above=0, usual=(1e2, 1e12))] | None = None
     """Stiffness of the rig in series with the contact, along x: `amplitude` then moves the
@@ -71,7 +71,7 @@ class Drive(Table):
 
     @property
     def components(self) -> int:
-        """How many components the traction has."""
+        """Number of components of the traction."""
         return 2 if self.direction == "free" else 1
 
     def rig(self, grid: Grid) -> float:

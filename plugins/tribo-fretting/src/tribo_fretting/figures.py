@@ -27,7 +27,7 @@ def loops(cycles: list[SavedCycle], frequency: float) -> Figure:
 
 
 def slip_map(cycle: SavedCycle) -> Figure:
-    """Draw how far points slip from one end of the stroke to the other, and where they stick."""
+    """Draw the slip of points from one end of the stroke to the other, and the stick zone."""
 
     def edge(axes: Axes, shown: Layout) -> Sequence[Artist]:
         if cycle.stuck.any():

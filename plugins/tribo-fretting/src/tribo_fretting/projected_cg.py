@@ -93,7 +93,7 @@ def dragged(operator: Cerruti, displacement: float, limit: Array) -> Drag:
 
 
 def tangent(vectors: Array, normal: Array) -> Array:
-    """Return vectors without what lies along a normal, all (components, nx, ny)."""
+    """Return vectors without their normal part, all (components, nx, ny)."""
     return np.asarray(vectors - np.sum(vectors * normal, axis=0) * normal)
 
 
