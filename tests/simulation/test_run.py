@@ -89,6 +89,16 @@ def test_only_a_stopped_run_of_the_same_case_is_resumed(tmp_path):
         Simulation(case(**SHORT)).resume(path)
 
 
+def test_the_checkpoint_of_another_case_is_not_gone_on_with(tmp_path):
+    ours, theirs = tmp_path / "ours.h5", tmp_path / "theirs.h5"
+    for path, load in ((ours, 100.0), (theirs, 80.0)):
+        with pytest.raises(Interrupted):
+            Simulation(case(load=load)).run(path, observers=[Stopper(after=5)])
+    theirs.replace(ours)
+    with pytest.raises(CaseError, match="belongs to another case"):
+        Simulation(case(load=80.0)).resume(ours)
+
+
 def test_an_existing_result_is_replaced_only_when_told(tmp_path):
     path = tmp_path / "run.h5"
     path.write_text("mine")

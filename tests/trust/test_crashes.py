@@ -1,10 +1,13 @@
 """A crash before any file operation costs no acknowledged save, and no bit."""
 
+import shutil
 from functools import partial
 
+import numpy as np
 import pytest
 import sweeps
 from command_line import tribo
+from made_results import quick_reports
 from paper_models import half_space, motion, pair, small
 from strangers.debris import Debris
 from strangers.running_in import RunningIn
@@ -13,6 +16,7 @@ from trust.trial import contents, same
 
 import tribo.simulation.run as tribo_run
 from tribo import CaseError, Grid, Implicit, Result, Simulation, sweep
+from tribo.config.write import to_toml
 from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
 from tribo.stepping.explicit import Explicit
@@ -186,3 +190,50 @@ def test_runs_side_by_side_end_alike_from_a_crash_before_each_file_operation(tmp
         assert all(".h5.run" in name or name.endswith((".lock", ".new")) for name in left), left
         for name, result in results.items():
             assert same(contents(folder / name), result), f"{crash.how} before {crash.at}"
+
+
+COMMANDS = {
+    "export": ("export", "run.h5"),
+    "plot": ("plot", "run.h5"),
+    "report": ("report", "run.h5"),
+    "new": ("new", "ball_on_flat", "mine.toml"),
+    "plugins new": ("plugins", "new", "acme-law", "--kind", "wear-law"),
+    "calibrate": ("calibrate", "run.toml", "--measured", "weighed.toml", "-o", "fitted.toml"),
+    "scar": ("scar", "scar.npy", "--ideal", "flat", "--pitch", "14.6 um", "-o", "a.png"),
+}
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """A folder with a case, its result, what was weighed, and a map of a scar."""
+    folder = tmp_path_factory.mktemp("made") / "made"
+    folder.mkdir()
+    (folder / "run.toml").write_text(CASE)
+    weighed = {"body": "ball", "quantity": "volume", "value": "1e-4 mm^3", "uncertainty": "5 %"}
+    (folder / "weighed.toml").write_text(to_toml({"measured": [weighed]}))
+    far = np.hypot(*Grid((0.7e-3, 0.7e-3), (48, 48)).mesh)
+    noise = 1e-8 * np.random.default_rng(0).standard_normal(far.shape)
+    np.save(folder / "scar.npy", noise - np.maximum(1e-6 - 40 * far**2, 0))
+    averaged().run(folder / "run.h5").close()
+    return folder
+
+
+@pytest.mark.parametrize("command", COMMANDS.values(), ids=COMMANDS)
+def test_a_command_leaves_whole_files_at_a_crash_before_each_operation(
+    made, tmp_path, monkeypatch, command
+):
+    quick_reports(monkeypatch)
+    folder = tmp_path / "work"
+    shutil.copytree(made, folder)
+    with recorded(folder) as work:
+        done = tribo(*command, cwd=folder)
+    assert done.returncode == 0, done.stderr
+    after = contents_of(folder)
+    crashes = work.crashes()
+    assert len(crashes) > 4
+    for crash in crashes:
+        for name, held in crash.files.items():
+            if not name.endswith(".new"):
+                assert held in (work.before.get(name, b"\0"), after[name]), (crash.how, name)
+    assert crashes[-1].files == after
+    assert not any(name.endswith(".new") for name in after)
