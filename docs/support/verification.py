@@ -9,11 +9,13 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from itertools import groupby
+from pathlib import Path
 from typing import Any
 
 from IPython.display import Markdown
 
 NOTHING = "–"
+MUTANTS = Path(os.environ["TRIBO_REPOSITORY"]) / "docs/_data/mutants.json"
 
 
 def verified() -> dict[str, Any]:
@@ -56,6 +58,16 @@ def _lines(rows: list[dict[str, Any]]) -> Iterator[str]:
             ]
             yield f"| {' | '.join(cell.replace('|', '/') for cell in cells)} |"
             title = ""
+
+
+def mistakes() -> Markdown:
+    """Return the mutants, each with its file and what finds it."""
+    rows = json.loads(MUTANTS.read_text(encoding="utf-8"))
+    lines = [
+        f"| {row['mutant']} | `{row['file'].split('/src/')[-1]}` | `{row['case']}` |"
+        for row in rows
+    ]
+    return Markdown("\n".join(["| Mistake | In | Found by |", "| --- | --- | --- |", *lines]))
 
 
 def _value(value: float | None, unit: str) -> str:
