@@ -63,7 +63,7 @@ nb_execution_mode = "off" if "doctest" in sys.argv else "force"
 suppress_warnings = ["myst-nb.lexer"] if nb_execution_mode == "off" else []
 nb_execution_in_temp = True
 nb_execution_raise_on_error = True
-nb_execution_timeout = 240
+nb_execution_timeout = 600
 nb_merge_streams = True
 nb_render_markdown_format = "gfm"
 
