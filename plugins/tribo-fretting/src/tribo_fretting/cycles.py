@@ -48,17 +48,6 @@ class SavedCycle:
         """Where the contact sticks."""
         return np.asarray((self.pressure > 0) & (self.slip == 0))
 
-    @property
-    def force(self) -> float:
-        """Amplitude of the tangential force, in N."""
-        return float(np.sum(self._kept("traction_x"))) * self.result.grid.cell_area
-
-    @property
-    def energy(self) -> float:
-        """Energy that the cycle dissipates, in J."""
-        traction = np.hypot(self._kept("traction_x"), self._kept("traction_y"))
-        return 2 * float(np.sum(traction * self.slip)) * self.result.grid.cell_area
-
     @cached_property
     def friction(self) -> Array:
         """Coefficient of friction at each point."""

@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from tribo import LOCAL_SLIP, Array, CaseError, ContactConditions, ContactSystem, Effect, Field
+from tribo import (
+    LOCAL_SLIP,
+    Array,
+    CaseError,
+    Column,
+    ContactConditions,
+    ContactSystem,
+    Effect,
+    Field,
+    Snapshot,
+)
 
 from tribo_fretting.cerruti import dundurs_beta
 from tribo_fretting.drive import Drive
@@ -44,6 +54,14 @@ class PartialSlip(Effect, Drive):
     type = "fretting.partial_slip"
     provides = (LOCAL_SLIP, TRACTION_X, TRACTION_Y)
     requires = ("friction_coefficient",)
+
+    @property
+    def columns(self) -> Sequence[Column]:  # type: ignore[override]
+        """The tangential force and the energy of a cycle, at each step."""
+        return (
+            Column("tangential_force", "N", "Amplitude of the tangential force", _force),
+            Column("cycle_energy", "J", "Energy that a cycle dissipates", self._energy),
+        )
 
     def check(self, system: ContactSystem, swept: frozenset[str], solver: str) -> None:
         """Refuse all but two half-spaces whose points stay in contact."""
@@ -92,6 +110,11 @@ class PartialSlip(Effect, Drive):
             **numbers,
         }
 
+    def _energy(self, snapshot: Snapshot) -> float:
+        slip, x, y = (next(iter(snapshot.effects[each.name].values())) for each in self.provides)
+        path = 4 * self.amplitude_at(snapshot.measures.time)
+        return path * _carried(snapshot, np.hypot(x, y) * slip)
+
     def _loaded(self, contact: ContactConditions) -> tuple[Array, Drag, float]:
         """Return the limit μp, the first loading and the amplitude."""
         friction = next(iter(contact.fields["friction_coefficient"].values()))
@@ -133,3 +156,13 @@ class PartialSlip(Effect, Drive):
                 "cells wide at least: take a larger amplitude, or smaller cells",
                 path,
             )
+
+
+def _carried(snapshot: Snapshot, traction: Array) -> float:
+    """Return the force of a traction: it is to the load as their sums are."""
+    pressure = snapshot.state.contact.pressure
+    return float(snapshot.measures.load * np.sum(traction) / np.sum(pressure))
+
+
+def _force(snapshot: Snapshot) -> float:
+    return _carried(snapshot, next(iter(snapshot.effects["traction_x"].values())))

@@ -39,19 +39,20 @@ def tribo_lab_rows(result: Result) -> list[LabRow]:
     if motion is None:
         return []
     cycle = SavedCycle(result, motion, -1)
+    last = {name: float(column[-1]) for name, column in result.table("saves").items()}
     stuck, part = cycle.stuck, float(np.sum(cycle.stuck) / np.sum(cycle.pressure > 0))
     rows = [
-        LabRow("tangential force", cycle.force, "N"),
-        LabRow("energy of a cycle", 1e6 * cycle.energy, "µJ"),
+        LabRow("tangential force", last["tangential_force_N"], "N"),
+        LabRow("energy of a cycle", 1e6 * last["cycle_energy_J"], "µJ"),
         LabRow("stick part of the contact (0: gross slip)", part, ""),
     ]
     for axis, spacing in enumerate(result.grid.spacing):
         width = 0.5e6 * spacing * np.count_nonzero(stuck.any(axis=1 - axis))
         rows.append(LabRow(f"half-width of the stick zone along {'xy'[axis]}", width, "µm"))
-    energy = result.table("history")["friction_energy_J"][-1]
+    energy = last["friction_energy_J"]
     if energy > 0:
         volume = sum(body["wear_volume_m3"] for body in result.saves()[-1]["bodies"].values())
-        rows.append(LabRow("worn volume per energy", 1e9 * volume / float(energy), "mm³/J"))
+        rows.append(LabRow("worn volume per energy", 1e9 * volume / energy, "mm³/J"))
     coupling = abs(dundurs_beta(cycle.materials.values())) * float(np.max(cycle.friction))
     if coupling > 0:
         rows.append(LabRow("coupling of traction and pressure", coupling, "", COUPLED))
