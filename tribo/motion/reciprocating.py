@@ -216,8 +216,8 @@ class Reciprocating(Kinematics):
         return (
             f"the groove{f' of {self.swept}' if self.swept else ''} is {too_deep(excess)} at "
             f"mid-stroke, because tribo averages over the stroke ({1e3 * stroke:.3g} mm, {many} of "
-            f"the {2e3 * half_width_x:.3g} mm contact); resolve the stroke by a number of "
-            "kinematics.positions"
+            f"the {2e3 * half_width_x:.3g} mm contact); resolve the stroke by "
+            "kinematics.positions = 33 or more"
         )
 
     def check_contact(self, half_width_x: float) -> None:
