@@ -70,6 +70,8 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
     NumericalError
         If the run on a coarse grid fails, or takes over 30 s.
     """
+    if not model.laws.wear:
+        raise CaseError("no body has a wear law, so nothing wears", "bodies")
     if not model.case.contact.accepts_wear_compliance:
         raise CaseError(
             f"{model.case.contact.type!r} takes explicit steps only, a coarse run implicit ones",
