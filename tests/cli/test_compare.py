@@ -145,6 +145,6 @@ def test_names_of_files_are_shown_as_they_are_and_go_below_each_other(made):
     assert text.count("contact solves") == 2
     assert "relative to [m]." in text
     # Only one has other cells.
-    assert f"Note: {names[1]}: not on the grid of [m]," in text.replace("\n", " ")
+    assert f"Note: {names[1]}: not on the grid of [m];" in text.replace("\n", " ")
     assert row(text, "pressure sections")[0] == "–"
     assert "pressure map" in text

@@ -84,7 +84,7 @@ def test_where_the_newest_checkpoint_is_damaged_the_one_before_is_used(
     flip(RunFolder(killed).path / name, at)
     with Result.open(killed) as result:
         np.testing.assert_array_equal(result.times, [0, 5])
-        assert re.search(rf"{name} is damaged.*holds$", result.warnings[-1])
+        assert re.search(rf"{name} is damaged.*before it$", result.warnings[-1])
     with pytest.warns(TriboWarning, match=rf"{name} is .*from the .* before, at 5 s$") as told:
         go_on = simulation().reopen(killed)
     assert len(told) == 1

@@ -242,7 +242,7 @@ def test_a_map_can_be_planned_with_before_it_is_measured(two_loads):
         ({"depth": "beside.npy"}, ".0.depth", "50 × 50 µm"),
         ({"depth": "upwards.npy"}, ".0.depth", "sign"),
         ({"depth": "missing.npy"}, ".0.depth", "missing"),
-        ({"uncertainty": None}, ".0", "how well"),
+        ({"uncertainty": None}, ".0", "uncertainty"),
         ({"uncertainty": "1e-13 m"}, ".0.depth", "1 µm"),
         ({"body": "disk"}, ".0.quantity", "does not wear in this case"),
     ],
