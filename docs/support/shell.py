@@ -28,7 +28,7 @@ def sh(command: str, code: int = 0, lines: int | None = None) -> None:
     with (
         mock.patch.object(sys, "argv", [program, *arguments]),
         mock.patch.dict(os.environ, COLUMNS),
-        # A terminal's tables, not those of a notebook.
+        # Tables as on a terminal, also in a notebook.
         mock.patch("rich.console._is_jupyter", return_value=False),
         redirect_stdout(printed),
         redirect_stderr(printed),

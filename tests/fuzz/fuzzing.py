@@ -52,7 +52,7 @@ class Fuzz:
 
 
 def fuzz(count, seed, *, workers=None, numbers=None):
-    """Try `count` cases of `seed`, or those of certain numbers; TimeoutError if one hangs."""
+    """Try `count` cases of `seed`, or the cases of these numbers; TimeoutError if one hangs."""
     done, begun = Fuzz(), time.monotonic()
     numbers = range(count) if numbers is None else numbers
     with processes(workers) as executor:

@@ -84,7 +84,7 @@ def test_both_schemes_come_to_the_same_in_few_solves(stepping):
     last = states(model(effects=[Debris(length="0.5 m")], stepping=stepping))[-1]
     middle = last.between["debris_thickness"][10, 10]
     assert middle == pytest.approx(1.0052e-7, rel=5e-3, abs=0)
-    # Without the slopes through what is remembered implicit steps take 37.
+    # Without the slopes through states implicit steps take 37.
     assert last.contact_solves <= 26
 
 

@@ -23,7 +23,7 @@ from tribo.registry.registry import Registry
 TIMES = 30
 """CPU time of a plugin's import over the import of tribo, which takes 0.6 s: SciPy takes 1 time."""
 WAIT = 200.0
-"""Time (s) after which a waiting import is ended: thirty imports of tribo, ten beside it."""
+"""Time (s) after which a waiting import is ended: ten times the CPU time that TIMES allows."""
 LIMIT = "TRIBO_PLUGIN_TIME_LIMIT"
 
 _LATE = -getattr(signal, "SIGPROF", 0) or None

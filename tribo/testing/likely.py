@@ -18,7 +18,7 @@ a length left out in one of the two: compliance_is_the_average_of_a_linear_law
 shares of time for shares of the path, or another amplitude: speeds_share_the_path
 a sign, growth by itself, or no term that ends it: states_can_last
 a threshold that is not declared: depth_does_not_jump rates_jump_at_breaks_alone
-a name in the code, or the last body: bodies_may_have_any_names
+a name in the code, or the last body: bodies_may_have_any_names bodies_change_places_as_named
 what is left out, or a number in its place: what_is_declared_matters
 a name that is not in requires: only_declared_fields_are_asked_for
 problem.wear, or a part of it, left out: wear_compliance_adds_its_depth
