@@ -58,18 +58,11 @@ def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path, monkeypatch):
     assert "Traceback" not in err
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["study.toml", "--scheduler", "tcp://a:1", "--jobs", "2"], "has workers of its own"),
-        (["study.toml", "--jobs", 0], "0 is not in the range x>=1"),
-    ],
-)
-def test_bad_input_is_one_message(tmp_path, options, message):
+def test_bad_input_is_one_message(tmp_path):
     sweeps.study(tmp_path)
-    code, out, err = tribo("sweep", *options, cwd=tmp_path)
+    code, out, err = tribo("sweep", "study.toml", "--jobs", 0, cwd=tmp_path)
     assert (code, out) == (2, "")
-    assert message in err
+    assert "0 is not in the range x>=1" in err
     assert {path.name for path in tmp_path.iterdir()} == {"case.toml", "study.toml"}
 
 

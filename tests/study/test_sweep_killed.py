@@ -1,22 +1,20 @@
 """A killed sweep, parent or worker, goes on; nothing is lost, nothing done twice."""
 
-import json
 import os
 import signal
-import socket
 import time
+from concurrent.futures import Executor, Future
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from pathlib import Path
-from threading import Thread
 
 import pandas
 import pytest
 import sweeps
 
 from tribo import Result, sweep
-from tribo.core.errors import CaseError
-from tribo.study.sweeping.executors import on_scheduler, processes
+from tribo.core.errors import CaseError, OutputError
+from tribo.study.sweeping.executors import processes
 
 # Of checkpoints that were not whole when their process was killed.
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::tribo.TriboWarning")]
@@ -164,59 +162,18 @@ def test_the_death_of_a_worker_costs_no_other_run():
         assert executor.submit(abs, -1).result(PATIENCE) == 1
 
 
-@pytest.fixture
-def cluster(tmp_path):
-    """Yield the address of a scheduler, then its process and those of its two workers."""
-    pytest.importorskip("distributed", reason="dask.distributed is not installed")
-    where = tmp_path / "scheduler.json"
-    worker = ("worker", "--nthreads", 1, "--no-nanny")
-    processes = [
-        sweeps.start(
-            ["-m", f"distributed.cli.dask_{name}", "--scheduler-file", where, *options], tmp_path
-        )
-        for name, *options in (("scheduler", "--port", 0, "--no-dashboard"), worker, worker)
-    ]
-    try:
-        told = until(lambda: where.exists() and where.read_text(), "scheduler")
-        yield json.loads(told)["address"], *processes
-    finally:
-        for process in processes:
-            process.kill()
-            process.communicate()
+class Dropping(Executor):
+    """An executor that ends before its calls do."""
+
+    def submit(self, fn, /, *args, **kwargs):
+        future = Future()
+        future.cancel()
+        future.set_running_or_notify_cancel()
+        return future
 
 
-def test_a_sweep_survives_a_killed_worker_and_the_end_of_dask(tmp_path, whole, cluster):
-    address, scheduler, first, _ = cluster
-    process, _ = swept(tmp_path, "--scheduler", address)
-    first.kill()
-    until(lambda: done(tmp_path), "run of the other worker")
-    scheduler.kill()
-    code, _, err = finished(process)
-    assert code == 3
-    assert "the same command continues" in err
-    assert_ends_as(whole, tmp_path)
-
-
-def answered_with(listener, content):
-    def answer():
-        connection, _ = listener.accept()
-        with connection:
-            connection.sendall(content)
-            connection.recv(1)
-
-    Thread(target=answer, daemon=True).start()
-
-
-# Of the banner of an SSH server dask makes the length of what follows, 2.8 EiB.
-@pytest.mark.parametrize("content", [None, b"", b"SSH-2.0-OpenSSH_9.6\r\n"])
-def test_an_address_without_a_scheduler_is_named_in_time(content):
-    pytest.importorskip("distributed", reason="dask.distributed is not installed")
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        address = f"tcp://127.0.0.1:{listener.getsockname()[1] if content is not None else 1}"
-        if content:
-            answered_with(listener, content)
-        with (
-            pytest.raises(CaseError, match=f"no scheduler answers at {address} within 0.2 s"),
-            on_scheduler(address, patience=0.2),
-        ):
-            pass
+def test_an_executor_that_ends_is_an_error_of_writing(tmp_path):
+    sweeps.study(tmp_path)
+    with pytest.raises(OutputError, match="the executor dropped its runs"):
+        sweep(tmp_path / "study.toml", tmp_path / "out", executor=Dropping())
+    assert not done(tmp_path)

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from tribo.cli.options import JSON, PATH, PLUGIN, echo_json
-from tribo.core.errors import CaseError, NumericalError
+from tribo.core.errors import NumericalError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from concurrent.futures import Executor
 
 NAMED = 5
 
@@ -23,7 +22,6 @@ NAMED = 5
 @click.argument("study", type=PATH)
 @click.option("-o", "--output", type=PATH, help="Write to this folder, by default STUDY-sweep.")
 @click.option("-j", "--jobs", type=click.IntRange(1), help="Parallel runs, by default one a core.")
-@click.option("--scheduler", metavar="ADDRESS", help="Run on this dask scheduler's workers.")
 @click.option("--retry", is_flag=True, help="Repeat failed runs.")
 @click.option("--yes", is_flag=True, help="Allow more than 1000 runs.")
 @JSON
@@ -32,7 +30,6 @@ def sweep(
     study: Path,
     output: Path | None,
     jobs: int | None,
-    scheduler: str | None,
     retry: bool,
     yes: bool,
     as_json: bool,
@@ -53,8 +50,8 @@ def sweep(
     """
     from tribo.study.sweeping.sweep import sweep as run
 
-    with _executor(scheduler, jobs) as executor, _shown() as tell:
-        swept = run(study, output, executor=executor, jobs=jobs, retry=retry, many=yes, tell=tell)
+    with _shown() as tell:
+        swept = run(study, output, jobs=jobs, retry=retry, many=yes, tell=tell)
     total, reasons = len(swept.runs), swept.failures()
     failed = sum(map(len, reasons.values()))
     if as_json:
@@ -77,18 +74,6 @@ def sweep(
         if len(reasons) > NAMED:
             lines.append(f"  for other reasons see {swept.folder / 'runs.csv'}")
         raise NumericalError("\n".join(lines))
-
-
-def _executor(scheduler: str | None, jobs: int | None) -> AbstractContextManager[Executor | None]:
-    if not scheduler:
-        return nullcontext()
-    if jobs:
-        raise CaseError(
-            "--scheduler has workers of its own; leave out --jobs, which starts some here"
-        )
-    from tribo.study.sweeping.executors import on_scheduler
-
-    return on_scheduler(scheduler)
 
 
 @contextmanager

@@ -1,8 +1,7 @@
-"""Executors of a sweep: processes on this machine, or dask workers."""
+"""The executor of a sweep: processes on this machine."""
 
 from __future__ import annotations
 
-import logging
 import os
 import signal
 import sys
@@ -17,7 +16,7 @@ from multiprocessing import get_context
 from multiprocessing.connection import wait
 from typing import Any, ParamSpec, TypeVar
 
-from tribo.core.errors import CaseError, TriboWarning, warn
+from tribo.core.errors import TriboWarning
 from tribo.registry.plugin_file import add_files, added_files
 
 P = ParamSpec("P")
@@ -31,8 +30,6 @@ THREADS = (
     "VECLIB_MAXIMUM_THREADS",
     "NUMEXPR_NUM_THREADS",
 )
-PATIENCE = 15.0
-"""How long a scheduler may take to answer, in s."""
 
 
 @contextmanager
@@ -50,18 +47,6 @@ def processes(count: int | None = None) -> Iterator[Executor]:
             ours.close()
             executor.shutdown(cancel_futures=True)
             raise
-
-
-@contextmanager
-def on_scheduler(address: str, patience: float = PATIENCE) -> Iterator[Executor]:
-    """Connect to the dask scheduler at an address, as ``"tcp://host:8786"``.
-
-    CaseError if none answers within `patience`, in s.
-    """
-    with _connected(address, patience) as client:
-        if not client.scheduler_info(n_workers=-1)["workers"]:
-            warn(f"the scheduler at {address} has no workers yet; the runs wait for some")
-        yield client.get_executor(pure=False)
 
 
 class _Processes(ThreadPoolExecutor):
@@ -130,35 +115,3 @@ def _begin(lifeline: Any, files: Sequence[str]) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=end, daemon=True).start()
     add_files(files)
-
-
-def _connected(address: str, patience: float) -> Any:
-    """Return a client of dask, or give up in time whatever answers at the address."""
-    try:
-        import distributed
-    except ImportError:
-        raise CaseError(
-            "dask.distributed is not installed; install it with: pip install dask distributed"
-        ) from None
-    # Errors are reported as our own; dask would log them with tracebacks.
-    for name in (*logging.root.manager.loggerDict, "asyncio"):
-        if name.split(".")[0] in ("distributed", "tornado", "asyncio"):
-            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
-    answer: Future[Any] = Future()
-
-    def connect() -> None:
-        try:
-            answer.set_result(distributed.Client(address, timeout=patience))  # type: ignore[no-untyped-call]
-        except Exception as error:
-            # If another program answers, dask may raise anything.
-            answer.set_exception(error)
-
-    # Dask's own time limit covers the connection only, not the first answer.
-    threading.Thread(target=connect, daemon=True).start()
-    try:
-        return answer.result(patience + 1.0)
-    except Exception:
-        raise CaseError(
-            f"no scheduler answers at {address} within {patience:g} s; start one with "
-            "'dask scheduler', and give the address that it prints"
-        ) from None
