@@ -20,6 +20,14 @@ class Coating:
     T. C. O'Sullivan, R. B. King, "Sliding contact stress field due to a spherical
     indenter on a layered elastic half-space", J. Tribol. 110 (1988) 235-240; T. Nogi,
     T. Kato, J. Tribol. 119 (1997) 493-500.
+
+    Examples
+    --------
+    >>> hard = tribo.Material(young="300 GPa", poisson=0.2)
+    >>> coating = tribo.Coating(thickness=2e-6, layer=hard, base=tribo.materials["100Cr6"])
+    >>> long, short = coating.influence(2 * np.pi / np.array([1e-3, 1e-6]))
+    >>> round(float(long), 2), round(float(short), 2)  # 1 mm long waves reach the base
+    (0.35, 0.0)
     """
 
     thickness: float
