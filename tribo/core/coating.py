@@ -15,11 +15,18 @@ from tribo.core.material import Material
 class Coating:
     """A layer of one material bonded to a half-space of another.
 
+    Parameters
+    ----------
+    thickness : float
+        Thickness of the layer, in m.
+    layer, base : Material
+        Materials of the layer, and of the body below it.
+
     References
     ----------
-    T. C. O'Sullivan, R. B. King, "Sliding contact stress field due to a spherical
-    indenter on a layered elastic half-space", J. Tribol. 110 (1988) 235-240; T. Nogi,
-    T. Kato, J. Tribol. 119 (1997) 493-500.
+    T. C. O'Sullivan, R. B. King, "Sliding contact stress field due to a spherical indenter on a
+    layered elastic half-space", J. Tribol. 110 (1988) 235-240; T. Nogi, T. Kato, J. Tribol. 119
+    (1997) 493-500.
 
     Examples
     --------
@@ -31,10 +38,8 @@ class Coating:
     """
 
     thickness: float
-    """In m."""
     layer: Material
     base: Material
-    """Of the layer, and of the body below it."""
 
     @cached_property
     def modulus(self) -> float:
