@@ -35,7 +35,15 @@ if TYPE_CHECKING:
 
 
 class Layer(Table):
-    """A layer of a body, with what differs from the body below it."""
+    """A layer of a body, with what differs from the body below it.
+
+    Examples
+    --------
+    >>> coating = tribo.Layer(thickness="2 um", young="300 GPa")
+    >>> known = coating.material(below=tribo.materials["100Cr6"])
+    >>> known.young, known.poisson  # its own; of the body below
+    (300000000000.0, 0.3)
+    """
 
     thickness: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1e-2))]
     """Thickness of the layer."""
@@ -55,7 +63,16 @@ class Layer(Table):
 
 
 class Body(Table):
-    """One of the two bodies."""
+    """One of the two bodies.
+
+    Examples
+    --------
+    >>> soft, hard = tribo.Archard(k="3e-7 mm^3/(N m)"), tribo.Archard(k="1e-8 mm^3/(N m)")
+    >>> coating = tribo.Layer(thickness="2 um", wear=hard)
+    >>> disk = tribo.Body(surface=tribo.Flat(), material="100Cr6", wear=soft, layers=[coating])
+    >>> disk.laws() == (hard, soft)  # from the top
+    True
+    """
 
     surface: Surface
     """Shape before wear."""
@@ -98,14 +115,26 @@ def _of_own_material(body: Any, own: Mapping[str, Material]) -> Any:
 
 
 class Friction(Table):
-    """Friction, for the laws and effects that ask for it; it does not act on the contact."""
+    """Friction, for the laws and effects that ask for it; it does not act on the contact.
+
+    Examples
+    --------
+    >>> tribo.Friction(coefficient=0.6).coefficient
+    0.6
+    """
 
     coefficient: Annotated[float, Quantity("1", at_least=0, usual=(1e-4, 2.0))]
     """Coefficient of friction, uniform and constant."""
 
 
 class Begin(Table):
-    """The result with whose worn bodies a run begins; a path alone is short for it."""
+    """The result with whose worn bodies a run begins; a path alone is short for it.
+
+    Examples
+    --------
+    >>> tribo.Begin(result="run_in.h5", time="10 min").time
+    600.0
+    """
 
     result: str
     """The result file; a relative name starts at the current directory."""
@@ -118,7 +147,13 @@ SaveTime = Annotated[float | str, Quantity("s", at_least=0, also=("m", "lap"))]
 
 
 class Output(Table):
-    """The output times."""
+    """The output times.
+
+    Examples
+    --------
+    >>> tribo.Output(save_times=["10 min", "100 m"]).save_times
+    (600.0, '100 m')
+    """
 
     save_times: tuple[SaveTime, ...] = ()
     """When all fields are saved, by time or by the path slid until then, as ``"100 m"`` or
@@ -126,7 +161,13 @@ class Output(Table):
 
 
 class Stop(Table):
-    """Ends the run at the first condition that is met."""
+    """Ends the run at the first condition that is met.
+
+    Examples
+    --------
+    >>> tribo.Stop(depth="5 um", body="ball").whose(["ball", "disk"])
+    ['ball']
+    """
 
     distance: Annotated[float | str, Quantity("m", above=0, also=("lap",))] | None = None
     """Sliding distance, in m or in laps."""
@@ -147,7 +188,14 @@ class Stop(Table):
 
 
 class Case(Table):
-    """A case: two bodies, a load, a motion, and how to compute."""
+    """A case: two bodies, a load, a motion, and how to compute.
+
+    Examples
+    --------
+    >>> case = tribo.load_case("examples/ball_on_disk.toml")
+    >>> case.kinematics.end_time, case.bodies["ball"].material.hardness  # in s and Pa
+    (3600.0, 4000000000.0)
+    """
 
     if TYPE_CHECKING:
 
@@ -298,7 +346,6 @@ class Case(Table):
 
         Examples
         --------
-        >>> import tribo
         >>> case = tribo.load_case("examples/ball_on_disk.toml")
         >>> case.with_values({"load.normal": "50 N", "contact.type": "winkler"}).load.normal
         50.0

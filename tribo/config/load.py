@@ -35,10 +35,21 @@ def load_case(
     registry : Registry, optional
         Where to look components up; the installed plugins if left out.
 
+    Returns
+    -------
+    Case
+        The valid case.
+
     Raises
     ------
     CaseError
         If the file cannot be read or the case is wrong; one line for each error.
+
+    Examples
+    --------
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides="load.normal=50 N")
+    >>> case.load.normal, case.bodies["ball"].surface.radius
+    (50.0, 0.005)
     """
     tables = read_toml(path)
     if overrides:

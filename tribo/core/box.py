@@ -14,7 +14,16 @@ _SMALLEST = 8
 
 @dataclass(frozen=True)
 class Box:
-    """A rectangle of cells: its first cell, its cells, and the window's cells, by axis."""
+    """A rectangle of cells: its first cell, its cells, and the window's cells, by axis.
+
+    Examples
+    --------
+    >>> contact = tribo.Box(first=(1, 2), shape=(1, 3), window=(3, 6))
+    >>> contact.embed(np.array([[7.0, 8.0, 7.0]]))
+    array([[0., 0., 0., 0., 0., 0.],
+           [0., 0., 7., 8., 7., 0.],
+           [0., 0., 0., 0., 0., 0.]])
+    """
 
     first: tuple[int, int]
     shape: tuple[int, int]

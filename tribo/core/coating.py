@@ -15,18 +15,31 @@ from tribo.core.material import Material
 class Coating:
     """A layer of one material bonded to a half-space of another.
 
+    Parameters
+    ----------
+    thickness : float
+        Thickness of the layer, in m.
+    layer, base : Material
+        Materials of the layer, and of the body below it.
+
     References
     ----------
-    T. C. O'Sullivan, R. B. King, "Sliding contact stress field due to a spherical
-    indenter on a layered elastic half-space", J. Tribol. 110 (1988) 235-240; T. Nogi,
-    T. Kato, J. Tribol. 119 (1997) 493-500.
+    T. C. O'Sullivan, R. B. King, "Sliding contact stress field due to a spherical indenter on a
+    layered elastic half-space", J. Tribol. 110 (1988) 235-240; T. Nogi, T. Kato, J. Tribol. 119
+    (1997) 493-500.
+
+    Examples
+    --------
+    >>> hard = tribo.Material(young="300 GPa", poisson=0.2)
+    >>> coating = tribo.Coating(thickness=2e-6, layer=hard, base=tribo.materials["100Cr6"])
+    >>> long, short = coating.influence(2 * np.pi / np.array([1e-3, 1e-6]))
+    >>> round(float(long), 2), round(float(short), 2)  # 1 mm long waves reach the base
+    (0.35, 0.0)
     """
 
     thickness: float
-    """In m."""
     layer: Material
     base: Material
-    """Of the layer, and of the body below it."""
 
     @cached_property
     def modulus(self) -> float:

@@ -31,6 +31,14 @@ class Column:
         quantities.
     of_bodies : bool, optional
         Whether each body has one: `read` is given the name of a body too.
+
+    Examples
+    --------
+    >>> mean = tribo.Column(
+    ...     "mean_pressure", "Pa", "load over area", lambda at: at.measures.load / at.measures.area
+    ... )
+    >>> mean.label
+    'mean_pressure_Pa'
     """
 
     name: str

@@ -34,6 +34,13 @@ class WearCompliance:
     swept : ndarray, shape (ny,)
         Depth per line load on bodies swept through the contact, in 1/Pa;
         not negative.
+
+    Examples
+    --------
+    >>> k, slid = 1e-15, 2.0  # Archard's law, in 1/Pa, over 2 m
+    >>> ball = tribo.WearCompliance(local=np.full((1, 1), k * slid), swept=np.zeros(1))
+    >>> float(1e6 * ball.depth(np.full((1, 1), 1e9), dx=1e-5)[0, 0].round(9))  # µm
+    2.0
     """
 
     local: Array
@@ -76,6 +83,14 @@ class CycleCompliance:
     mirrored : bool, optional
         Whether each position stands for another too, that mirrors it along x; one in the middle of
         the cycle for itself, twice.
+
+    Examples
+    --------
+    >>> disk = np.full((3, 1), 1e-15)  # 3 rows, of which the window is on 2 at a time
+    >>> cycle = tribo.CycleCompliance(np.array([0.5, 0.5]), [(disk, [(0, 0), (1, 0)])], slice(0, 2))
+    >>> worn = cycle.depth(np.full((2, 2, 1), 1e9), dx=1e-5)
+    >>> (1e6 * worn[:, :, 0]).round(3).tolist()  # µm: both positions wear the middle row
+    [[0.5, 1.0], [1.0, 0.5]]
     """
 
     shares: Array
@@ -160,6 +175,14 @@ class ContactSystem:
         The bodies' materials, by name; empty where only E* is known.
     coatings : Mapping[str, Coating]
         The elastic layers on them, by name of the body; `modulus` does not know of these.
+
+    Examples
+    --------
+    >>> layer = tribo.Material(young="300 GPa", poisson=0.2)
+    >>> hard = tribo.Coating(2e-6, layer, base=tribo.materials["100Cr6"])
+    >>> system = tribo.ContactSystem(tribo.Grid("1 mm", 64), 115e9, 10.0, coatings={"ball": hard})
+    >>> round(1e-9 * system.surface_modulus)  # in GPa, above the modulus of steel on steel
+    132
     """
 
     grid: Grid
@@ -206,6 +229,15 @@ class ContactProblem:
     cap : ndarray, shape (nx, ny), optional
         Largest pressure at each point, in Pa, in place of the system's: it differs where a layer is
         worn through. Given only to solvers with `takes_cap_map`.
+
+    Examples
+    --------
+    >>> grid = tribo.Grid("0.4 mm", 64)
+    >>> system = tribo.ContactSystem(grid, modulus=115e9, load=10.0)
+    >>> gap = -tribo.Sphere(radius="5 mm").height(grid)
+    >>> solution = tribo.DcFft().solve(tribo.ContactProblem(system, gap, load=10.0))
+    >>> float(f"{1e-6 * solution.pressure.max():.3g}")  # in MPa; Hertz: 1008
+    1010.0
     """
 
     system: ContactSystem
@@ -229,6 +261,11 @@ class Residuals:
         the range of the gap there if that is more.
     penetration : float
         Largest overlap where there is no pressure, over ``scale``.
+
+    Examples
+    --------
+    >>> tribo.Residuals(force=1e-12, complementarity=3e-9, penetration=0.0).worst
+    3e-09
     """
 
     force: float
@@ -258,6 +295,15 @@ class ContactSolution:
         Iterations on the full grid.
     residuals : Residuals
         Conditions at exit.
+
+    Examples
+    --------
+    >>> grid = tribo.Grid("0.4 mm", 64)
+    >>> system = tribo.ContactSystem(grid, modulus=115e9, load=10.0)
+    >>> gap = -tribo.Sphere(radius="5 mm").height(grid)
+    >>> solution = tribo.DcFft().solve(tribo.ContactProblem(system, gap, load=10.0))
+    >>> round(1e6 * solution.approach, 2)  # in µm; Hertz: 0.95
+    0.95
     """
 
     pressure: Array

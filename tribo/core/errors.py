@@ -14,6 +14,14 @@ class TriboError(Exception):
 
     The message is one clear statement for a user: what was given, what is
     allowed, what to do.
+
+    Examples
+    --------
+    >>> try:
+    ...     tribo.Material(young="210 mm", poisson=0.3)
+    ... except tribo.TriboError as error:
+    ...     print(error)
+    young: '210 mm' is a length [m]; a pressure [Pa] is needed, as in '210 GPa'
     """
 
     exit_code: ClassVar[int] = 1
@@ -28,6 +36,12 @@ class CaseError(TriboError):
         What was given, what is allowed and what to do.
     path : str, optional
         Where in the case, as ``bodies.ball.material.young``.
+
+    Examples
+    --------
+    >>> error = tribo.CaseError("the ball is softer than the disk", "bodies.ball.material")
+    >>> print(error)
+    bodies.ball.material: the ball is softer than the disk
     """
 
     exit_code: ClassVar[int] = 2
@@ -42,7 +56,13 @@ class WrongValues(CaseError, ValueError):
 
 
 class NumericalError(TriboError):
-    """A solve or a step could not be carried out to its tolerance."""
+    """A solve or a step could not be carried out to its tolerance.
+
+    Examples
+    --------
+    >>> tribo.NumericalError.exit_code  # of `tribo run`
+    3
+    """
 
     exit_code: ClassVar[int] = 3
 
@@ -58,7 +78,13 @@ class TooWorn(OutOfWindow):
 
 
 class PluginError(NumericalError):
-    """A component raised an unexpected error."""
+    """A component raised an unexpected error.
+
+    Examples
+    --------
+    >>> issubclass(tribo.PluginError, tribo.NumericalError)  # one clause catches both
+    True
+    """
 
 
 class BadValues(PluginError):
@@ -76,7 +102,13 @@ class OverTime(TriboError):
 
 
 class OutputError(TriboError):
-    """A file, or standard output, could not be written."""
+    """A file, or standard output, could not be written.
+
+    Examples
+    --------
+    >>> tribo.OutputError.exit_code  # of a command whose disk is full
+    3
+    """
 
     exit_code: ClassVar[int] = 3
 
@@ -85,6 +117,11 @@ class Interrupted(KeyboardInterrupt):
     """The run was stopped from outside and can be resumed.
 
     Like Ctrl-C, it passes through code that handles errors.
+
+    Examples
+    --------
+    >>> issubclass(tribo.Interrupted, Exception), tribo.Interrupted.exit_code
+    (False, 130)
     """
 
     exit_code: ClassVar[int] = 130
@@ -97,7 +134,18 @@ class ReaderGone(TriboError):
 
 
 class TriboWarning(UserWarning):
-    """A warning for the user of a run that does not stop."""
+    """A warning for the user of a run that does not stop.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> coarse = ["grid.cells=16", "contact.type=winkler", "stop.depth=1 um"]
+    >>> with warnings.catch_warnings(record=True, category=tribo.TriboWarning) as caught:
+    ...     warnings.simplefilter("always")
+    ...     result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> str(caught[0].message).partition(",")[0]
+    'resolution: the first contact is only 2.4 cells wide'
+    """
 
 
 _INSIDE = ("tribo", "pydantic", "pluggy")

@@ -37,6 +37,11 @@ class Field:
     breaks : tuple of float, optional
         Values of a state at which a rate jumps, rising. A step ends at a point where its state
         reaches a break, and a new one starts there; at the break itself the rates above it hold.
+
+    Examples
+    --------
+    >>> print(tribo.Field("film_thickness", "m", "Thickness of the oil film.", at_least=0.0))
+    film_thickness [m] Thickness of the oil film.
     """
 
     name: str
@@ -172,6 +177,14 @@ class LocalConditions:
         The fields the law requires, as its effects and the case provide them.
     state : Mapping[str, ndarray]
         The law's own state fields, at the points now in contact.
+
+    Examples
+    --------
+    >>> pressure = np.array([[[0.0, 1e9]]])
+    >>> local = tribo.LocalConditions(pressure, speed=0.1, material=tribo.materials["100Cr6"])
+    >>> rate = tribo.Archard(k="1e-6 mm^3/(N m)").rate(local)
+    >>> (1e6 * rate.depth_rate).round(3).tolist()  # µm per metre of sliding
+    [[[0.0, 1.0]]]
     """
 
     pressure: Array
@@ -197,6 +210,13 @@ class WearRate:
         is found by difference, through all fields.
     state_rates : Mapping[str, ndarray]
         Change of each state field per metre of sliding; 0 where the pressure is 0.
+
+    Examples
+    --------
+    >>> pressure, k = np.array([[[0.0, 1e9]]]), 1e-15
+    >>> rate = tribo.WearRate(k * pressure, depth_slope=np.full_like(pressure, k))
+    >>> float(1e6 * rate.at(0).depth_rate.max().round(9))  # µm per metre of sliding
+    1.0
     """
 
     depth_rate: Array
@@ -242,6 +262,15 @@ class ContactConditions:
     wear_rates : Mapping[str, ndarray]
         Depth that each body loses per metre of sliding, in m/m, by name; empty for `Effect.fields`,
         on which these depend.
+
+    Examples
+    --------
+    >>> system = tribo.ContactSystem(tribo.Grid("1 mm", 4), modulus=115e9, load=10.0)
+    >>> pressure = np.full((4, 4), 10e6)
+    >>> contact = tribo.ContactConditions(system, pressure, 0.1, 0.0, 0.0, swept=frozenset())
+    >>> heat = 0.3 * contact.pressure * contact.speed * contact.grid.cell_area
+    >>> round(float(heat.sum()), 3)  # power of friction in W, at a coefficient of 0.3
+    0.3
     """
 
     system: ContactSystem

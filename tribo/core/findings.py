@@ -47,6 +47,12 @@ class Finding:
         Where in the case, as its path or the name of a body; empty for all of it.
     time, distance : float, optional
         From when on it holds, in s, and from which sliding distance on, in m.
+
+    Examples
+    --------
+    >>> found = tribo.Finding("flash", "the contact is above 600 °C", value=905.0, limit=873.15)
+    >>> print(found.at(time=60.0, distance=6.0))
+    flash: at 60 s (6 m) the contact is above 600 °C
     """
 
     kind: str

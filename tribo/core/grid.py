@@ -31,6 +31,12 @@ class Grid(Table):
 
     Arrays on a grid have shape ``cells`` = (nx, ny), axis 0 along the sliding
     direction x, and hold values at cell centres.
+
+    Examples
+    --------
+    >>> grid = tribo.Grid(size=("2 mm", "1 mm"), cells=(256, 128))
+    >>> grid.spacing  # in m
+    (7.8125e-06, 7.8125e-06)
     """
 
     in_order: ClassVar[bool] = True

@@ -70,6 +70,12 @@ class Stage(Table):
     """A stage of a load that changes over time: held until a time, or reached in a straight line.
 
     Give either time, the first `at` as 0 s.
+
+    Examples
+    --------
+    >>> stages = tribo.Stage(until="10 min", normal="5 N"), tribo.Stage(until="1 h", normal="20 N")
+    >>> [stage.time for stage in tribo.Load(normal=stages).normal]
+    [600.0, 3600.0]
     """
 
     until: Annotated[float, Quantity("s", above=0)] | None = None
@@ -94,7 +100,14 @@ class Stage(Table):
 
 
 class Place(Table):
-    """A place along the stroke, and the load there."""
+    """A place along the stroke, and the load there.
+
+    Examples
+    --------
+    >>> ends = tribo.Place(at="-5 mm", share=0.8), tribo.Place(at="5 mm", share=1.2)
+    >>> [place.share * tribo.Load(normal="10 N", along=ends).normal for place in ends]  # in N
+    [8.0, 12.0]
+    """
 
     at: Annotated[float, Quantity("m")]
     """Position of the moving body along x, from the middle of its stroke or path."""
@@ -103,7 +116,13 @@ class Place(Table):
 
 
 class Load(Table):
-    """The load on the contact."""
+    """The load on the contact.
+
+    Examples
+    --------
+    >>> tribo.Load(normal="1.5 kN").normal
+    1500.0
+    """
 
     normal: Annotated[
         Annotated[NormalLoad, Tag(NUMBER)] | Annotated[tuple[Stage, ...], Tag(STAGES)],

@@ -26,6 +26,12 @@ class Material(Table):
 
     A name alone stands for the numbers that are known by it, as ``"100Cr6"`` does; a table that
     lacks `young` or `poisson` has them from its name, other keys replace what is known.
+
+    Examples
+    --------
+    >>> steel = tribo.Material(name="100Cr6", hardness="7 GPa")
+    >>> steel.young, steel.hardness  # known by its name; given here
+    (210000000000.0, 7000000000.0)
     """
 
     name: str | None = None
@@ -82,7 +88,6 @@ class Materials:
 
     Examples
     --------
-    >>> import tribo
     >>> tribo.materials["100Cr6"].poisson
     0.3
     """

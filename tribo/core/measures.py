@@ -19,6 +19,13 @@ class BodyMeasures:
 
     The volume belongs to the whole scar, or to the whole track. `roughness` has the parameters of
     `tribo.lab.roughness.Roughness` within the contact, for a rough body.
+
+    Examples
+    --------
+    >>> ball = tribo.BodyMeasures(4e-6, 4e-6, wear_volume=3e-13, max_plastic_depth=0.0)
+    >>> force, path = 100.0, 10.0
+    >>> round(1e9 * ball.wear_volume / (force * path), 12)  # specific wear rate in mm³/(N m)
+    3e-07
     """
 
     max_wear_depth: float
@@ -41,6 +48,11 @@ class Invariants:
         Depth by which a point has grown back, in m.
     chattering : float
         Share of the load that the step hands back to the cells from which the step before took it.
+
+    Examples
+    --------
+    >>> tribo.Invariants(chattering=0.6).chattering > 0.5  # a run warns
+    True
     """
 
     volume: float = 0.0
@@ -50,7 +62,19 @@ class Invariants:
 
 @dataclass(frozen=True)
 class Measures:
-    """Scalars of one moment, in SI units."""
+    """Scalars of one moment, in SI units, as the columns of a result describe them.
+
+    Examples
+    --------
+    >>> class Peak(tribo.Observer):
+    ...     type = "my.peak"
+    ...     def on_finish(self, snapshot, reason):
+    ...         print(f"{1e-6 * snapshot.measures.max_pressure:.0f} MPa")
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> result = case.run(observers=[Peak()])
+    2146 MPa
+    """
 
     time: float
     distance: float

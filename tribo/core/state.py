@@ -31,6 +31,12 @@ class BodyState:
     missed : ndarray or None, optional
         Estimate of the wear that more positions of the cycle would add to `wear`, in m, of its
         shape; None without an estimate.
+
+    Examples
+    --------
+    >>> disk = tribo.BodyState(wear=np.full((1, 4), 2e-6), plastic=np.zeros((4, 4)), law={})
+    >>> disk.wear.shape  # averaged along its track
+    (1, 4)
     """
 
     wear: Array
@@ -48,10 +54,11 @@ class State:
     time, distance : float
         Time in s and sliding distance in m.
     bodies : Mapping[str, BodyState]
-        By name.
+        Their wear and states, by name.
     between : Mapping[str, ndarray]
-        State fields of the effects, by name: shape (nx, ny) in the contact frame, where one state
-        serves all positions of a cycle, as `BodyState.wear` on a body, (1, 1) if uniform.
+        State fields of the effects, by name, as ``"film of disk"`` on a body: shape (nx, ny) in the
+        contact frame, where one state serves all positions of a cycle, as `BodyState.wear` on a
+        body, (1, 1) if uniform.
     contacts : tuple of ContactSolution
         The solved contact at each position of a cycle; they belong to the geometry
         of `bodies` and are the start of the next solves.
@@ -64,15 +71,11 @@ class State:
         Load times sliding distance, summed over the steps, in N m.
     friction_energy : float
         Work of friction, summed over the steps, in J; 0 without a coefficient of friction.
-    steps, rejected_steps, contact_solves, solver_iterations : int
+    steps, rejected_steps, contact_solves, solver_iterations, saves : int
         Counted from the beginning of the run.
-    saves : int
-        Number of saves passed.
     rates : sequence of Mapping[str, WearRate]
         Rates of the laws at the end of the last implicit step, by position and body, in the
         contact frame: where the next one begins. Empty where there are none.
-    between : Mapping[str, ndarray]
-        State fields of effects, by name; one on a body as ``"film of disk"``.
     findings : tuple of Finding
         The findings of the run so far, each once.
     invariants : Invariants
@@ -85,6 +88,14 @@ class State:
         soon after.
     load_factor : float
         Factor of effects on the normal load, in the contacts and in the next step.
+
+    Examples
+    --------
+    >>> from tribo.kernel_api import begin
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides="contact.type=winkler")
+    >>> state = begin(tribo.Simulation(case).model)
+    >>> round(1e6 * state.contact.approach, 1)  # of the first contact, in µm
+    2.2
     """
 
     time: float
@@ -162,6 +173,13 @@ class BodyInfo:
         Whether it is more than a smooth form at first.
     straight : bool, optional
         Whether its points pass along x alone, if they do.
+
+    Examples
+    --------
+    >>> disk = tribo.BodyInfo("disk", swept=True, density=7850.0, height=np.zeros((4, 4)), rows=1)
+    >>> volume = 2e-12
+    >>> round(1e6 * disk.density * volume, 4)  # mass of 0.002 mm³, in mg
+    0.0157
     """
 
     name: str
@@ -184,10 +202,8 @@ class RunInfo:
         The constants of the contact: window, load, modulus.
     bodies : tuple of BodyInfo
         In the order of the case.
-    end_time : float
-        End of the run if nothing stops it, in s.
-    end_distance : float
-        The sliding distance by then, in m.
+    end_time, end_distance : float
+        End of the run if nothing stops it, in s, and the sliding distance by then, in m.
     case : Mapping[str, object]
         The full configuration, as plain data.
     provenance : Mapping[str, object]
@@ -202,6 +218,17 @@ class RunInfo:
         The state a resumed run starts from.
     wall_time : float
         Time spent before the run was resumed, in s.
+
+    Examples
+    --------
+    >>> class Plan(tribo.Observer):
+    ...     type = "my.plan"
+    ...     def on_start(self, run):
+    ...         print(f"{run.end_distance:g} m under {run.system.load:g} N")
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> result = case.run(observers=[Plan()])
+    360 m under 100 N
     """
 
     system: ContactSystem
@@ -232,6 +259,19 @@ class Snapshot:
         and body, shape (nx, ny). Empty except at saves, unless a model or observer has columns.
     columns : Mapping, optional
         Values of the columns of models and observers, by name: a number, or numbers by body.
+
+    Examples
+    --------
+    >>> class Deepest(tribo.Observer):
+    ...     type = "my.deepest"
+    ...     def on_save(self, snapshot):
+    ...         depth = snapshot.measures.bodies["ball"].max_wear_depth
+    ...         print(f"{1e6 * depth:.2f} µm at {snapshot.state.time:.1f} s")
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> result = case.run(observers=[Deepest()])
+    0.00 µm at 0.0 s
+    1.00 µm at 13.2 s
     """
 
     state: State

@@ -46,7 +46,18 @@ class _TableClass(ModelMetaclass):
 
 
 class Table(BaseModel, metaclass=_TableClass):
-    """A frozen table that refuses unknown keys, and explains errors in the words of a case."""
+    """A frozen table that refuses unknown keys, and explains errors in the words of a case.
+
+    Examples
+    --------
+    >>> class Spring(tribo.Table):
+    ...     stiffness: float
+    >>> try:
+    ...     Spring(stifness=2.0)
+    ... except tribo.CaseError as error:
+    ...     print(error)
+    stifness: unknown key 'stifness'; did you mean 'stiffness'? Allowed: stiffness
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 

@@ -238,6 +238,14 @@ class Quantity:
     also : tuple of str, optional
         Units of other quantities that a motion converts to this one, such as ``"lap"`` for a
         length. Text in them is checked and left as text; for a number, laps are the number.
+
+    Examples
+    --------
+    >>> stroke = tribo.Quantity("m", above=0, usual=(1e-6, 1.0))
+    >>> stroke.read("5 mm")
+    0.005
+    >>> stroke.doubt(5.0)
+    "5 m, usual are 1 µm to 1 m, written as in '5 mm': is the unit wrong or missing?"
     """
 
     unit: str

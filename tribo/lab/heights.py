@@ -43,6 +43,12 @@ class Heights:
     CaseError
         If it is no map of 16 × 16 pixels or more, has no height at all, or heights that differ by
         more than the map is wide, as fill values do and heights in µm taken for m.
+
+    Examples
+    --------
+    >>> disk = tribo.Heights(np.zeros((40, 30)), pitch=(2e-6, 2e-6))
+    >>> tuple(round(1e6 * edge) for edge in disk.grid.size)  # in µm
+    (80, 60)
     """
 
     heights: Array
@@ -97,10 +103,25 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
     pitch : tuple of float, optional
         Distance between pixels along x and y, in m; the file's if left out.
 
+    Returns
+    -------
+    Heights
+        The map.
+
     Raises
     ------
     CaseError
         If it cannot be read, or states no pitch and none is given.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     np.save(Path(folder, "disk.npy"), np.zeros((40, 30)))
+    ...     disk = tribo.read_heights(Path(folder, "disk.npy"), pitch=(2e-6, 2e-6))
+    >>> disk.heights.shape
+    (40, 30)
     """
     path = Path(path)
     try:

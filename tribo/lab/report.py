@@ -42,6 +42,14 @@ class BodyReport(NamedTuple):
     density. The scar is 0 wide where nothing is worn; the scar of a swept body
     is the whole track, which has no extent along the sliding direction, and a
     section instead.
+
+    Examples
+    --------
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> ball = result.report().bodies["ball"]
+    >>> round(ball.specific_wear_rate_mm3_per_Nm, 12), round(1e3 * ball.scar_across_m, 2)
+    (3.11e-07, 0.32)
     """
 
     specific_wear_rate_mm3_per_Nm: float | None  # noqa: N815
@@ -58,6 +66,14 @@ class FirstContact(NamedTuple):
     contact, over the pressure at which a Hertz contact first yields beneath the
     surface, and `load_ratio` the load over Hertz's load of first yield; None
     without a hardness or a Hertz contact.
+
+    Examples
+    --------
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> first = result.report().first_contact
+    >>> round(first.max_pressure_Pa / first.hertz_peak_pressure_Pa, 2)  # springs against Hertz
+    1.31
     """
 
     hertz_peak_pressure_Pa: float | None  # noqa: N815
@@ -74,6 +90,14 @@ class LabReport:
     `inferred` are the volumes by a lab's formulas, with their errors; ``rows``
     are from the plugins of its models. `worn_through` lists the layers worn
     through, and when; `findings` are from the run, and from rows beyond their limit.
+
+    Examples
+    --------
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> report = result.report()
+    >>> {name: f"{1e6 * body.mass_kg:.1g} mg" for name, body in report.bodies.items()}
+    {'ball': '0.0003 mg', 'disk': '0.0003 mg'}
     """
 
     bodies: Mapping[str, BodyReport]

@@ -92,6 +92,13 @@ class Plot:
     draws one in the style that is set in matplotlib, and returns its axes, or an array of them;
     a notebook shows it. ``ax`` are axes to draw on, one for each panel; ``time`` is a saved time,
     in s. `dir` lists the pictures of this result.
+
+    Examples
+    --------
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> result.plot
+    <Plot of the result: history, pressure, profiles, scar, sections, worn_section>
     """
 
     def __init__(self, result: Result) -> None:

@@ -36,6 +36,12 @@ class LabRow(NamedTuple):
 
     A model that holds up to a `limit` is reported to be beyond it. The value of a quantity has a
     `key` in tables and JSON.
+
+    Examples
+    --------
+    >>> row = tribo.LabRow("wear depth over approach", 1.3, "", limit=1.0)
+    >>> print(row.finding)
+    validity: wear depth over approach is 1.3, beyond 1
     """
 
     label: str
@@ -56,7 +62,17 @@ class LabRow(NamedTuple):
 
 
 class ExportFormat(NamedTuple):
-    """A format of `tribo export`: its name, what it holds, and a function that writes it."""
+    """A format of `tribo export`: its name, what it holds, and a function that writes it.
+
+    Examples
+    --------
+    >>> def write(result, path):
+    ...     path.write_text(f"{result.distances[-1]:g} m")
+    ...     return [path]
+    >>> @tribo.hookimpl
+    ... def tribo_export_formats():
+    ...     return [tribo.ExportFormat("path", "the path slid", write)]
+    """
 
     name: str
     summary: str
@@ -64,7 +80,16 @@ class ExportFormat(NamedTuple):
 
 
 class HeightFormat(NamedTuple):
-    """A format of measured height maps: its name, what it holds, and a function that reads it."""
+    """A format of measured height maps: its name, what it holds, and a function that reads it.
+
+    Examples
+    --------
+    >>> def read(path):
+    ...     return tribo.Heights(1e-9 * np.fromfile(path).reshape(512, 512), (1e-6, 1e-6))
+    >>> @tribo.hookimpl
+    ... def tribo_height_formats():
+    ...     return [tribo.HeightFormat("acme", "heights in nm on 512 × 512 pixels", read)]
+    """
 
     name: str
     summary: str
@@ -72,7 +97,16 @@ class HeightFormat(NamedTuple):
 
 
 class CaseTemplate(NamedTuple):
-    """A case of `tribo new`: its name, what it is, and its text, in TOML."""
+    """A case of `tribo new`: its name, what it is, and its text, in TOML.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> @tribo.hookimpl
+    ... def tribo_templates():
+    ...     text = Path(__file__).with_name("rig.toml").read_text("utf-8")
+    ...     return [tribo.CaseTemplate("acme.rig", "the rig of our lab", text)]
+    """
 
     name: str
     summary: str
@@ -83,6 +117,12 @@ class Command(NamedTuple):
     """A command of `tribo`: its name, what it does, and where it lies, as ``"acme.fit:fit"``.
 
     The click command in that module is imported when it is called.
+
+    Examples
+    --------
+    >>> @tribo.hookimpl
+    ... def tribo_commands():
+    ...     return [tribo.Command("fit", "fit k to masses", "acme.fit:fit")]
     """
 
     name: str

@@ -39,6 +39,12 @@ class Plugin:
     in lists, a name that two plugins declare is in ``conflict``. `names` are those that its entry
     points declare, `classes` the components by name once `load`, which returns the object that
     carries the hooks, has imported it.
+
+    Examples
+    --------
+    >>> own = tribo.Registry.with_plugins().plugins[0]
+    >>> own.origin, own.status, "archard" in own.names
+    ('built-in', 'loaded', True)
     """
 
     distribution: str

@@ -47,6 +47,14 @@ class Registry:
     ------
     TypeError, ValueError
         If a plugin given as an object breaks the contract.
+
+    Examples
+    --------
+    >>> registry = tribo.Registry.with_plugins()
+    >>> registry.lookup("wear_law", "archard")
+    <class 'tribo.wear.archard.Archard'>
+    >>> registry.names("contact_solver")
+    ['dcfft', 'periodic', 'winkler']
     """
 
     def __init__(self, plugins: Iterable[Plugin]) -> None:

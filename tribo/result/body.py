@@ -33,6 +33,14 @@ class BodyResult:
     effects : Mapping[str, ndarray]
         What the effects provided at each save, such as a temperature, by
         name, shape (saves, nx, ny). NaN where an effect failed.
+
+    Examples
+    --------
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> ball = result.body("ball")
+    >>> (1e6 * ball.wear_depth.max(axis=(1, 2))).round(2).tolist()  # µm at each saved time
+    [0.0, 1.0]
     """
 
     name: str

@@ -53,6 +53,13 @@ class Result:
         The file; most users call `tribo.open`.
     name : str
         What to call it in messages.
+
+    Examples
+    --------
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> result.status, round(1e-6 * float(result.pressure.sel(time=0).max()))  # at first, in MPa
+    ('done', 2815)
     """
 
     def __init__(self, source: Path | BytesIO, name: str) -> None:

@@ -58,8 +58,11 @@ class Simulation:
 
     Examples
     --------
-    >>> from tribo import Simulation
-    >>> result = Simulation("examples/ball_on_disk.toml").run()  # doctest: +SKIP
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> result = tribo.Simulation(case).run()
+    >>> f"1 µm is worn after {result.distances[-1]:.2f} m"
+    '1 µm is worn after 1.32 m'
     """
 
     def __init__(

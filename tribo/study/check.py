@@ -50,6 +50,13 @@ class Check:
         The first contact, the end of a run on a coarse grid, time, memory and file, in words.
     data : Mapping
         The same as plain data, in SI units; unknown values are None.
+
+    Examples
+    --------
+    >>> coarse = ["grid.cells=16", "contact.type=winkler", "stop.depth=1 um"]
+    >>> check = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).check()
+    >>> [problem.kind for problem in check.problems], check.exit_code  # a run would only warn
+    (['resolution'], 0)
     """
 
     problems: tuple[Finding, ...]

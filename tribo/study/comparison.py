@@ -47,6 +47,14 @@ class Comparison:
     own_names : Mapping, optional
         Names of the bodies of each result in its file, by label and by their
         names here. The same if left out.
+
+    Examples
+    --------
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> with tribo.compare(case, {"load.normal": ["50 N", "100 N"]}) as loads:
+    ...     {label: f"{result.distances[-1]:.1f} m" for label, result in loads.results.items()}
+    {'50 N': '1.8 m', '100 N': '1.3 m'}
     """
 
     results: Mapping[str, Result]
@@ -264,11 +272,10 @@ def compare(
 
     Examples
     --------
-    >>> import tribo
-    >>> contacts = {"contact.type": ["winkler", "dcfft"]}
-    >>> tribo.compare("examples/ball_on_disk.toml", contacts)  # doctest: +SKIP
-    >>> tribo.compare(["winkler.h5", "dcfft.h5"])  # doctest: +SKIP
-    >>> tribo.compare([case, other], labels=["mine", "theirs"])  # doctest: +SKIP
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> tribo.compare(case, {"bodies.ball.surface.radius": ["5 mm", "10 mm"]})
+    <Comparison of 5 mm, 10 mm>
     """
     if isinstance(what, Sequence) and not isinstance(what, str):
         if vary:

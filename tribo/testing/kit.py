@@ -60,6 +60,13 @@ class Outcome:
         ``passed``, ``failed`` or ``not applicable``.
     message : str
         What was found and what is needed, or why the check does not apply.
+
+    Examples
+    --------
+    >>> from tribo.testing import check
+    >>> outcome = check(tribo.Flat).outcomes[-1]
+    >>> outcome.check, outcome.status
+    ('curvature_is_that_of_the_heights', 'passed')
     """
 
     check: str
@@ -79,6 +86,12 @@ class Report:
         The class, its kind and its name in a case.
     outcomes : tuple of Outcome
         By configuration, then by check.
+
+    Examples
+    --------
+    >>> from tribo.testing import check
+    >>> check(tribo.Sphere, [{"radius": "5 mm"}]).ok
+    True
     """
 
     title: str
@@ -150,6 +163,12 @@ def check(
         If `cls` does not implement one interface.
     ValueError
         If there is no configuration, or one is not valid.
+
+    Examples
+    --------
+    >>> from tribo.testing import check
+    >>> str(check(tribo.Flat)).splitlines()[0]
+    'surface Flat (flat): 15 passed'
     """
     check_class(cls)
     outcomes = [
@@ -192,6 +211,11 @@ def parametrize_checks(
     ------
     TypeError, ValueError
         As `check`; also if `expected_failures` names no check.
+
+    Examples
+    --------
+    >>> from tribo.testing import parametrize_checks
+    >>> test_sphere = parametrize_checks(tribo.Sphere, [{"radius": "5 mm"}])
     """
     import pytest
 
@@ -239,6 +263,12 @@ def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
     ------
     ValueError
         If the schema cannot be made, or its examples are no list of tables.
+
+    Examples
+    --------
+    >>> from tribo.testing import example_configs
+    >>> example_configs(tribo.Sphere)
+    [{'radius': '5 mm'}]
     """
     try:
         examples = cls.model_json_schema().get("examples")

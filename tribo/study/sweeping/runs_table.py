@@ -19,7 +19,16 @@ from tribo.result.read import Result
 
 @dataclass(frozen=True)
 class Run:
-    """A run of a sweep: its number from 1, its settings in words, its case, its result file."""
+    """A run of a sweep: its number from 1, its settings in words, its case, its result file.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides="load.normal=50 N")
+    >>> run = tribo.Run(2, "load.normal = 50 N", case, Path("results/2.h5"))
+    >>> run.case.load.normal
+    50.0
+    """
 
     number: int
     label: str

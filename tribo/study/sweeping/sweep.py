@@ -45,6 +45,18 @@ class Sweep:
         In the order of the study.
     table : pandas.DataFrame
         The table in ``runs.csv``, one row per run.
+
+    Examples
+    --------
+    >>> from concurrent.futures import ThreadPoolExecutor
+    >>> from tempfile import TemporaryDirectory
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> study = {"case": case, "grid": {"load.normal": ["50 N", "100 N"]}}
+    >>> with TemporaryDirectory() as folder, ThreadPoolExecutor(1) as workers:
+    ...     swept = tribo.sweep(study, folder, executor=workers)
+    >>> swept.failures(), swept.table["distance_m"].round(1).tolist()  # until 1 µm is worn
+    ({}, [1.8, 1.3])
     """
 
     folder: Path
@@ -116,6 +128,17 @@ def sweep(
         If the folder cannot be written to, or the executor has broken.
     Interrupted
         If it was stopped from outside; calling it again continues.
+
+    Examples
+    --------
+    >>> from concurrent.futures import ThreadPoolExecutor
+    >>> from tempfile import TemporaryDirectory
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> study = {"case": case, "grid": {"bodies.ball.wear.k": [1e-16, 1e-15]}}
+    >>> with TemporaryDirectory() as folder, ThreadPoolExecutor(1) as workers:
+    ...     tribo.sweep(study, folder, executor=workers).table["distance_m"].round(1).tolist()
+    [4.2, 0.4]
     """
     if output is None:
         if isinstance(study, Mapping):

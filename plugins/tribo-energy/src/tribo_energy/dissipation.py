@@ -27,6 +27,16 @@ class Dissipation(WearLaw):
     energy description of wear mechanisms and its applications to oscillating
     sliding contacts, Wear 255, 287-298. Reye, T. (1860), Zur Theorie der
     Zapfenreibung, Der Civilingenieur 4, 235-255.
+
+    Examples
+    --------
+    >>> from tribo_energy.dissipation import Dissipation
+    >>> pressure = np.array([[[100e6, 1e9]]])
+    >>> traction = {"friction_traction": 0.3 * pressure, "friction_traction_slope": 0.3}
+    >>> local = tribo.LocalConditions(pressure, 0.1, tribo.materials["100Cr6"], traction)
+    >>> law = Dissipation(alpha="3e-6 mm^3/J", threshold_traction="50 MPa")
+    >>> (1e9 * law.rate(local).depth_rate).round(3).tolist()  # in nm per metre of sliding
+    [[[0.0, 750.0]]]
     """
 
     examples = (

@@ -22,6 +22,18 @@ class FrictionTraction(Effect):
     References
     ----------
     Johnson, K. L. (1985), Contact Mechanics, Cambridge, section 7.1.
+
+    Examples
+    --------
+    >>> from tribo_energy.traction import FrictionTraction
+    >>> steel = dict.fromkeys(("ball", "disk"), tribo.materials["100Cr6"])
+    >>> system = tribo.ContactSystem(tribo.Grid("1 mm", 4), 115e9, load=10.0, materials=steel)
+    >>> fields = {"friction_coefficient": dict.fromkeys(steel, np.full((1, 1), 0.3))}
+    >>> pressure, swept = np.full((4, 4), 10e6), frozenset({"disk"})
+    >>> contact = tribo.ContactConditions(system, pressure, 0.1, 0.0, 0.0, swept, fields=fields)
+    >>> traction = FrictionTraction().fields(contact)["friction_traction"]["disk"]
+    >>> round(float(1e-6 * traction.max()), 3)  # in MPa
+    3.0
     """
 
     type = "energy.friction_traction"

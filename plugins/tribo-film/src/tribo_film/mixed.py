@@ -54,6 +54,14 @@ class Mixed(Effect):
     lubrication, Wear 19, 91-108. Greenwood, J. A., Tripp, J. H. (1970), The contact of two
     nominally flat rough surfaces, Proc. IMechE 185, 625-633. Olver, A. V., Spikes, H. A. (1998),
     Prediction of traction in elastohydrodynamic lubrication, Proc. IMechE J 212, 321-332.
+
+    Examples
+    --------
+    >>> from tribo_film.mixed import Mixed
+    >>> oil = {"viscosity": "0.1 Pa s", "pressure_viscosity": "20 1/GPa"}
+    >>> film = Mixed(**oil, radius="5 mm", roughness="0.2 um")
+    >>> [round(float(film.share(ratio)), 2) for ratio in (0.0, 1.0, 3.0)]  # of the load, at Λ
+    [0.0, 0.87, 1.0]
     """
 
     examples = ({**EXAMPLE, "roughness": "0.2 um"},)

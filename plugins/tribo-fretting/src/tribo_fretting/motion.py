@@ -20,6 +20,13 @@ class Fretting(Kinematics, Drive):
 
     Points of both bodies stay in the contact. How much of the path each point slips is the partial
     slip that the motion brings along, `fretting.partial_slip`.
+
+    Examples
+    --------
+    >>> from tribo_fretting.motion import Fretting
+    >>> motion = Fretting(amplitude="3 um", frequency="20 Hz", cycles=1e5)
+    >>> round(motion.distance_at(motion.end_time), 3)  # in m
+    1.2
     """
 
     examples = ({"amplitude": "3 um", "frequency": "20 Hz", "cycles": 1e5},)

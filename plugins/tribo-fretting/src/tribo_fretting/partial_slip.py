@@ -48,6 +48,13 @@ class PartialSlip(Effect, Drive):
     ----------
     Masing, G. (1926), Eigenspannungen und Verfestigung beim Messing, Proc. 2nd Int. Congr. Appl.
     Mech., 332-335. Johnson, K. L. (1985), Contact Mechanics, chapters 3 and 7.
+
+    Examples
+    --------
+    >>> from tribo_fretting.partial_slip import PartialSlip
+    >>> slip = PartialSlip(amplitude=[{"until": "1 h", "amplitude": "3 um"}])
+    >>> slip.amplitude_at(time=60.0)
+    3e-06
     """
 
     examples = ({"amplitude": "10 um"},)

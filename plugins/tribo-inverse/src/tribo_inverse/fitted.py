@@ -40,6 +40,19 @@ def fit_picture(data: pd.DataFrame, points: pd.DataFrame | None = None) -> Figur
         ``time_s``, ``position_m`` and ``below`` where it has them.
     points : DataFrame, optional
         A row for each point, as its `data`; its profiles and maps are drawn, each in a panel.
+
+    Returns
+    -------
+    Figure
+        The values in its first axes, a panel below for each profile and map.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> from tribo_inverse import fit_picture
+    >>> row = {"body": "ball", "quantity": "mass", "measured": 2e-9, "sigma": 1e-10}
+    >>> fit_picture(pd.DataFrame([row | {"computed": 1.9e-9}])).axes[0].get_xlabel()
+    'Relative to the measured value'
     """
     fields = [] if points is None else _fields(points)
     measured, computed = data["measured"].to_numpy(float), data["computed"].to_numpy(float)

@@ -59,9 +59,14 @@ def write_report(
 
     Examples
     --------
-    >>> import tribo_report
-    >>> tribo_report.write_report("my.h5", "report.html")  # doctest: +SKIP
-    >>> tribo_report.write_report(["winkler.h5", "dcfft.h5"], "report.html")  # doctest: +SKIP
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from tribo_report import write_report
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> with TemporaryDirectory() as folder:
+    ...     write_report(result, Path(folder, "report.html")).stat().st_size < 4e6
+    True
     """
     path = Path(path)
     check_output(path)

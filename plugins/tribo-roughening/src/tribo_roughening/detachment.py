@@ -35,6 +35,13 @@ class Detachment(WearLaw):
     Archard, J. F. (1953), Contact and rubbing of flat surfaces, J. Appl. Phys. 24, 981-988.
     Khrushchov, M. M. (1974), Principles of abrasive wear, Wear 28, 69-88. Sugimura, J., Kimura, Y.
     (1984), Characterization of topographical changes during lubricated wear, Wear 98, 101-116.
+
+    Examples
+    --------
+    >>> from tribo_roughening.detachment import Detachment
+    >>> law = Detachment(k="3e-16 1/Pa", diameter="10 um", thickness="0.5 um")
+    >>> print(law.facts()["particles"])
+    10 µm wide, 0.5 µm thick, a spread of 0.5
     """
 
     examples = ({"k": "3.11e-16 1/Pa", "diameter": "10 um", "thickness": "0.5 um"},)

@@ -84,6 +84,15 @@ class MeasuredScar:
         without a length, and for a scar that ends within the map.
     inferred : tuple of InferredVolume
         Volumes by formulas, and their difference from the measured one.
+
+    Examples
+    --------
+    >>> from tribo_scar import measured_scar
+    >>> x, y = tribo.Grid("0.2 mm", 100).mesh
+    >>> worn = np.maximum(1e-6 * (1 - (x**2 + y**2) / 40e-6**2), 0)
+    >>> scar = measured_scar(tribo.Flat(), tribo.Heights(-worn, pitch=(2e-6, 2e-6)))
+    >>> scar.is_track, round(1e6 * scar.along), round(1e6 * scar.across)  # widths in µm
+    (False, 80, 80)
     """
 
     registration: Registration
@@ -169,6 +178,11 @@ def measured_scar(
         Order of the polynomial form that is removed from the difference: 1 for tilt, 2 for
         curvature as well, such as from an instrument, or from an uncertain radius of a ball.
 
+    Returns
+    -------
+    MeasuredScar
+        Volumes, depth and widths with uncertainties, and the depth map.
+
     Raises
     ------
     CaseError
@@ -176,9 +190,12 @@ def measured_scar(
 
     Examples
     --------
-    >>> import tribo
-    >>> maps = [tribo.read_heights(f, (1e-6, 1e-6)) for f in ("a.npy", "b.npy")]  # doctest: +SKIP
-    >>> tribo_scar.measured_scar(*maps, radius=5e-3).volume  # doctest: +SKIP
+    >>> from tribo_scar import measured_scar
+    >>> x, y = tribo.Grid("0.2 mm", 100).mesh
+    >>> worn = np.maximum(1e-6 * (1 - (x**2 + y**2) / 40e-6**2), 0)
+    >>> scar = measured_scar(tribo.Flat(), tribo.Heights(-worn, pitch=(2e-6, 2e-6)))
+    >>> round(1e18 * scar.volume), round(1e6 * scar.depth, 2)  # in µm³ and µm
+    (2513, 1.0)
     """
     if form not in (1, 2):
         raise CaseError(f"form is 1 (a tilt) or 2 (a curvature as well), not {form}", "form")

@@ -28,7 +28,17 @@ MISSING = "#e0b080"
 
 
 def measured_scar_map(found: MeasuredScar) -> Figure:
-    """Draw the depth of a measured scar, outlined as what is piled up, and missing pixels."""
+    """Draw the depth of a measured scar, outlined as what is piled up, and missing pixels.
+
+    Examples
+    --------
+    >>> from tribo_scar import measured_scar, measured_scar_map
+    >>> x, y = tribo.Grid("0.2 mm", 100).mesh
+    >>> worn = np.maximum(1e-6 * (1 - (x**2 + y**2) / 40e-6**2), 0)
+    >>> scar = measured_scar(tribo.Flat(), tribo.Heights(-worn, pitch=(2e-6, 2e-6)))
+    >>> measured_scar_map(scar).axes[0].get_xlabel()
+    'Along sliding, x (µm)'
+    """
     unit, factor = height_unit(found.depth), size(height_unit(found.depth))
     known = np.isfinite(found.depths)
     most = float(np.max(smoothed(found.depths)[found.scar]))

@@ -43,6 +43,14 @@ class Tamaas(ContactSolver):
     L. Frérot, G. Anciaux, V. Rey, S. Pham-Ba, J.-F. Molinari, "Tamaas: a
     library for elastic-plastic contact of periodic rough surfaces", J. Open
     Source Softw. 5 (2020) 2121.
+
+    Examples
+    --------
+    >>> from tribo_tamaas import Tamaas
+    >>> system = tribo.ContactSystem(tribo.Grid("0.4 mm", 64), modulus=115e9, load=10.0)
+    >>> ours, theirs = tribo.DcFft(), Tamaas()
+    >>> ours.smallest_compliance(system) == theirs.smallest_compliance(system)
+    True
     """
 
     type = "tamaas.half_space"

@@ -22,6 +22,15 @@ class Arrhenius(WearLaw):
     ----------
     Quinn, T. F. J. (1983), Review of oxidational wear, Part I, Tribology
     International 16, 257-271.
+
+    Examples
+    --------
+    >>> from tribo_thermal.arrhenius import Arrhenius
+    >>> law = Arrhenius(k=1e-16, activation_energy="50 kJ/mol", reference_temperature="90 degC")
+    >>> hot = {"temperature": np.array([363.15, 383.15])}
+    >>> local = tribo.LocalConditions(np.full(2, 1e9), 0.1, tribo.materials["100Cr6"], hot)
+    >>> (1e9 * law.rate(local).depth_rate).round(1).tolist()  # in nm/m, at 90 and 110 °C
+    [100.0, 237.4]
     """
 
     examples = (

@@ -91,6 +91,17 @@ class Flash(Effect):
     (1937), Proc. General Discussion on Lubrication, IMechE 2, 222-235.
     Ashby, M. F., Abulawi, J., Kong, H. S. (1991), Temperature maps for
     frictional heating in dry sliding, Tribology Transactions 34, 577-587.
+
+    Examples
+    --------
+    >>> from tribo_thermal.flash import Flash
+    >>> steel = dict.fromkeys(("ball", "disk"), tribo.materials["100Cr6"])
+    >>> system = tribo.ContactSystem(tribo.Grid("0.1 mm", 4), 115e9, load=10.0, materials=steel)
+    >>> fields = {"friction_coefficient": dict.fromkeys(steel, np.full((1, 1), 0.3))}
+    >>> pressure, swept = np.full((4, 4), 1e9), frozenset({"disk"})
+    >>> contact = tribo.ContactConditions(system, pressure, 1.0, 0.0, 0.0, swept, fields=fields)
+    >>> {name: round(rise) for name, rise in Flash(ambient=293).rises(contact).items()}  # in K
+    {'ball': 99, 'disk': 99}
     """
 
     examples = (

@@ -21,6 +21,15 @@ class Softening(WearLaw):
     ----------
     Archard, J. F. (1953), J. Appl. Phys. 24, 981-988. Lim, S. C., Ashby, M. F.
     (1987), Wear-mechanism maps, Acta Metallurgica 35, 1-24.
+
+    Examples
+    --------
+    >>> from tribo_thermal.softening import Softening
+    >>> law = Softening(K=1e-6, hardness="5 GPa", softening="0.001 1/K", reference_temperature=293)
+    >>> hot = {"temperature": np.array([293.0, 493.0])}
+    >>> local = tribo.LocalConditions(np.full(2, 1e9), 0.1, tribo.materials["100Cr6"], hot)
+    >>> (1e9 * law.rate(local).depth_rate).round(1).tolist()  # in nm/m, at 20 and 220 °C
+    [200.0, 250.0]
     """
 
     examples = ({"K": 1.24e-6, "softening": "0.001 1/K", "reference_temperature": "20 degC"},)

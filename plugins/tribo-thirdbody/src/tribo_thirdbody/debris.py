@@ -19,6 +19,18 @@ class Debris(Effect):
     and is too soft to abrade.
 
     Sources: Godet (1984), Wear 100, 437-452; Fillot et al. (2007), Wear 262, 949-957.
+
+    Examples
+    --------
+    >>> from tribo_thirdbody.debris import Debris
+    >>> steel = dict.fromkeys(("ball", "disk"), tribo.materials["100Cr6"])
+    >>> system = tribo.ContactSystem(tribo.Grid("1 mm", 4), 115e9, load=10.0, materials=steel)
+    >>> layer = {"debris_thickness": np.full((4, 4), 1e-6)}
+    >>> pressure = np.full((4, 4), 10e6)
+    >>> contact = tribo.ContactConditions(system, pressure, 0.1, 0.0, 0.0, frozenset(), state=layer)
+    >>> share = Debris(ejection_length="0.5 m", cover="1 um").fields(contact)["load_share"]["ball"]
+    >>> round(float(share.max()), 2)  # of the load is on 1 µm of debris
+    0.63
     """
 
     examples = ({"ejection_length": "0.5 m", "cover": "1 um"},)

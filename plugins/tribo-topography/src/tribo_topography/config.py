@@ -13,7 +13,15 @@ PositiveLength = Annotated[float, Quantity("m", above=0)]
 
 
 class MeasuredFile(Table):
-    """A height map from an instrument's file: where it is and how to take it."""
+    """A height map from an instrument's file: where it is and how to take it.
+
+    Examples
+    --------
+    >>> from tribo_topography import MeasuredFile, describe
+    >>> waves = "plugins/tribo-topography/tests/data/waves.asc"
+    >>> round(1e6 * describe(MeasuredFile(path=waves, height_scale=2)).range, 2)  # in µm
+    5.14
+    """
 
     path: Path
     """The file; a relative path starts at the current directory."""

@@ -42,6 +42,13 @@ class Facts:
         What was taken off.
     sha256 : str
         Of the file.
+
+    Examples
+    --------
+    >>> from tribo_topography import describe
+    >>> waves = describe("plugins/tribo-topography/tests/data/waves.asc")
+    >>> waves.pixels, f"Sq {1e6 * waves.sq:.2f} µm"
+    ((30, 30), 'Sq 0.54 µm')
     """
 
     path: Path
@@ -85,10 +92,22 @@ def describe(what: MeasuredFile | str | Path) -> Facts:
     what : MeasuredFile or path
         The surface of a case, or a file that states its own scale.
 
+    Returns
+    -------
+    Facts
+        Its pixels, size and roughness.
+
     Raises
     ------
     CaseError
         If it cannot be read.
+
+    Examples
+    --------
+    >>> from tribo_topography import describe
+    >>> waves = describe("plugins/tribo-topography/tests/data/waves.asc")
+    >>> waves.stated()["heights"]
+    'over 2.568 µm, tilt removed'
     """
     config = what if isinstance(what, MeasuredFile) else MeasuredFile(path=Path(what))
     return facts(read(config), config)

@@ -20,6 +20,15 @@ class MeasuredSurface(Surface, MeasuredFile):
 
     A warning tells the scale of a file whose size and range the case does not
     state as expected.
+
+    Examples
+    --------
+    >>> from tribo_topography import MeasuredSurface
+    >>> path = "plugins/tribo-topography/tests/data/waves.asc"
+    >>> waves = MeasuredSurface(path=path, expect_size=("1.5 mm", "1.5 mm"), expect_range="2.57 um")
+    >>> heights = waves.height(tribo.Grid("1 mm", 20))
+    >>> f"{1e6 * float(np.ptp(heights)):.1f} µm on the window"
+    '2.5 µm on the window'
     """
 
     type = "topography.file"

@@ -35,6 +35,17 @@ class CrossShear(WearLaw):
     orthopaedic implants and its relationship to wear, Wear 301, 168-174: work to remove a volume
     6.4 times as large along as across. Wang, A. (2001), A unified theory of wear for ultra-high
     molecular weight polyethylene in multi-directional sliding, Wear 248, 38-47.
+
+    Examples
+    --------
+    >>> from tribo_uhmwpe.cross_shear import CrossShear
+    >>> law = CrossShear(k_along="1e-6 mm^3/(N m)", k_across="6.4e-6 mm^3/(N m)")
+    >>> path, zero = np.ones(2), np.zeros(2)  # 1 m straight, and 1 m round a circle
+    >>> state = {"slid_path": path, "slid_cosine": np.array([1.0, 0.0]), "slid_sine": zero}
+    >>> heading = {"heading_x": path, "heading_y": zero}
+    >>> local = tribo.LocalConditions(5e6 * path, 0.1, tribo.materials["UHMWPE"], heading, state)
+    >>> (1e9 * law.rate(local).depth_rate).round(2).tolist()  # in nm per metre of sliding
+    [5.0, 18.5]
     """
 
     examples = ({"k_along": "1e-6 mm^3/(N m)", "k_across": "6.4e-6 mm^3/(N m)"},)

@@ -47,6 +47,15 @@ class Gradient:
         By body: in the depth worn before the run, on its own surface, in 1/m.
     refused : Mapping[str, str]
         By path: why the objective has no derivative in this number.
+
+    Examples
+    --------
+    >>> from tribo_inverse import EndTime, gradient
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> life = gradient(case, EndTime(), ["bodies.ball.surface.radius", "kinematics.frequency"])
+    >>> {path: round(percent, 1) for path, percent in life.relative.items()}  # for 1 % each
+    {'bodies.ball.surface.radius': 0.7, 'kinematics.frequency': -1.0}
     """
 
     value: float
@@ -113,6 +122,14 @@ def gradient(
         without a derivative.
     NumericalError
         If the run fails.
+
+    Examples
+    --------
+    >>> from tribo_inverse import Volume, gradient
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> round(gradient(case, Volume("ball"), ["stop.depth"]).relative["stop.depth"], 1)  # % for 1 %
+    1.2
     """
     factors = factors or {}
     model = localised(covered(Simulation(case).model), factors)
@@ -288,6 +305,11 @@ def value_and_gradient(
     wear_rate : sequence of str, optional
         Bodies whose wear rate has a factor at each cell.
 
+    Returns
+    -------
+    callable
+        A function of the vector of unknowns, with `start` and `at`.
+
     Raises
     ------
     CaseError
@@ -295,9 +317,13 @@ def value_and_gradient(
 
     Examples
     --------
-    >>> from tribo_inverse import Volume, value_and_gradient
-    >>> fit = value_and_gradient("case.toml", Volume("ball"), ["load.normal"])  # doctest: +SKIP
-    >>> value, slope = fit(fit.start)  # doctest: +SKIP
+    >>> from tribo_inverse import EndDistance, value_and_gradient
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> fit = value_and_gradient(case, EndDistance(), ["bodies.*.wear.k"])
+    >>> distance, slope = fit(fit.start)
+    >>> round(distance, 2), slope.round(2).tolist()  # half of it for twice k
+    (1.32, [-1.32])
     """
     return ValueAndGradient(case, objective, wrt, wear_rate)
 

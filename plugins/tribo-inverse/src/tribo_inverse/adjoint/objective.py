@@ -17,7 +17,16 @@ def _check_place(x: float, y: float) -> None:
 
 @dataclass(frozen=True)
 class Volume:
-    """The volume worn off a body, in m³."""
+    """The volume worn off a body, in m³.
+
+    Examples
+    --------
+    >>> from tribo_inverse import Volume, gradient
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> round(1e9 * gradient(case, Volume("ball"), ["stop.depth"]).value, 6)  # in mm³
+    4.1e-05
+    """
 
     body: str
 
@@ -38,6 +47,20 @@ class Depth:
     """The depth worn off a body at a place, in m: of the cell nearest to `x` and `y`, in m.
 
     Places count from the middle of its own surface; `x` has no effect on an averaged body.
+
+    Raises
+    ------
+    CaseError
+        If a place is not a finite number.
+
+    Examples
+    --------
+    >>> from tribo_inverse import Depth, gradient
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> found = gradient(case, Depth("ball", x=1e-4), ["stop.depth"])
+    >>> round(1e6 * found.value, 2)  # in µm, where 1 µm is worn in the middle
+    0.52
     """
 
     body: str
@@ -60,6 +83,19 @@ class Deepest:
     """The largest depth worn off a body, in m, made smooth: Σ wᵐ / Σ wᵐ⁻¹ with m = `order`.
 
     It is below the largest depth, by 1/m of it for a scar with a round bottom.
+
+    Raises
+    ------
+    CaseError
+        If the order is below 2.
+
+    Examples
+    --------
+    >>> from tribo_inverse import Deepest, gradient
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> round(1e6 * gradient(case, Deepest("ball", order=10), ["stop.depth"]).value, 2)  # of 1 µm
+    0.93
     """
 
     body: str
@@ -91,6 +127,19 @@ class Width:
     It is √20 times the standard deviation of the worn section through the middle. It is exact for a
     parabola, the loss of a ball worn flat; for a groove with a toe it is some 6 % less than the
     width between the edges. `axis` is 0 along the sliding direction, 1 across it.
+
+    Raises
+    ------
+    CaseError
+        If the axis is neither 0 nor 1.
+
+    Examples
+    --------
+    >>> from tribo_inverse import Width, gradient
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> round(1e3 * gradient(case, Width("ball"), ["stop.depth"]).value, 2)  # in mm, across
+    0.32
     """
 
     body: str
@@ -134,6 +183,20 @@ class Misfit:
         The measured depth, in m, of the shape of `View.wear`; NaN where nothing was measured.
     uncertainty : float, optional
         Divisor of each difference, in m.
+
+    Raises
+    ------
+    CaseError
+        If the depth is infinite somewhere or NaN everywhere, or the uncertainty not above 0.
+
+    Examples
+    --------
+    >>> from tribo_inverse import Misfit, gradient
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> measured = case.run().body("ball").wear_depth[-1]
+    >>> gradient(case, Misfit("ball", measured), ["stop.depth"]).value < 1e-24  # it is what it fits
+    True
     """
 
     body: str
@@ -169,6 +232,20 @@ class Pressure:
     """The pressure in the middle of the cycle at a place, in Pa: of the cell nearest to it, in m.
 
     A cell that just touches has the derivative of an open cell, 0.
+
+    Raises
+    ------
+    CaseError
+        If a place is not a finite number.
+
+    Examples
+    --------
+    >>> from tribo_inverse import Pressure, gradient
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> middle = gradient(case, Pressure(), ["load.normal"])
+    >>> round(1e-6 * middle.value), round(middle.relative["load.normal"], 2)  # MPa, % for 1 %
+    (2146, 0.55)
     """
 
     x: float = 0.0
@@ -186,7 +263,21 @@ class Pressure:
 
 @dataclass(frozen=True)
 class EndTime:
-    """The time at which a depth ends a run, in s: the life of a body."""
+    """The time at which a depth ends a run, in s: the life of a body.
+
+    Raises
+    ------
+    CaseError
+        If no depth ended the run.
+
+    Examples
+    --------
+    >>> from tribo_inverse import EndTime, gradient
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> round(gradient(case, EndTime(), ["load.normal"]).relative["load.normal"], 2)  # % for 1 %
+    -0.45
+    """
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the time, and 1; `CaseError` if no depth has ended the run."""
@@ -196,7 +287,21 @@ class EndTime:
 
 @dataclass(frozen=True)
 class EndDistance:
-    """The distance slid when a depth ends a run, in m: the life of a body as a distance."""
+    """The distance slid when a depth ends a run, in m: the life of a body as a distance.
+
+    Raises
+    ------
+    CaseError
+        If no depth ended the run.
+
+    Examples
+    --------
+    >>> from tribo_inverse import EndDistance, gradient
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> round(gradient(case, EndDistance(), ["load.normal"]).value, 2)  # in m, until 1 µm is worn
+    1.32
+    """
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the distance, and 1; `CaseError` if no depth has ended the run."""

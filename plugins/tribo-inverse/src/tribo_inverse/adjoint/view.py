@@ -23,6 +23,17 @@ class View:
         The composed case.
     state : State
         The state.
+
+    Examples
+    --------
+    >>> from tribo_inverse import Seeds, gradient
+    >>> def mean_depth(view):
+    ...     wear = view.wear("ball")
+    ...     return float(wear.mean()), Seeds({"ball": np.full_like(wear, 1 / wear.size)})
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> round(1e9 * gradient(case, mean_depth, ["stop.depth"]).value, 1)  # in nm, over the window
+    10.3
     """
 
     model: Model
@@ -82,6 +93,14 @@ class Seeds:
         By the time of the state, in 1/s.
     distance : float, optional
         By the distance slid until then, in 1/m.
+
+    Examples
+    --------
+    >>> from tribo_inverse import Seeds
+    >>> wear = np.array([[1e-6, 3e-6]])
+    >>> value, seeds = wear.mean(), Seeds({"ball": np.full_like(wear, 1 / wear.size)})
+    >>> seeds.wear["ball"].tolist()  # how the mean depth follows each cell
+    [[0.5, 0.5]]
     """
 
     wear: Mapping[str, Array] = field(default_factory=dict)

@@ -46,7 +46,19 @@ SIGMA_CHANGE = 0.05
 
 @dataclass(frozen=True, eq=False)
 class Calibration:
-    """Estimates, the data, and predictions; in SI units."""
+    """Estimates, the data, and predictions; in SI units.
+
+    Examples
+    --------
+    >>> from tribo_inverse import calibrate
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "output={}", "kinematics.duration=2"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> mass = {"body": "ball", "quantity": "mass", "value": "0.2 ug", "uncertainty": "10 ng"}
+    >>> found = calibrate(case, {"measured": [mass], "fit": [{"path": "bodies.ball.wear.k"}]})
+    >>> k = found.parameters.iloc[0]
+    >>> f"{found.level:.0%} interval of k: {k.lower:.2g} to {k.upper:.2g} 1/Pa"
+    '95% interval of k: 1.1e-15 to 1.4e-15 1/Pa'
+    """
 
     level: float
     """Confidence level of the intervals."""
@@ -170,6 +182,16 @@ def calibrate(
     ------
     CaseError, NumericalError
         If the case or the measured values are wrong, a run fails, or the fit does not converge.
+
+    Examples
+    --------
+    >>> from tribo_inverse import calibrate
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "output={}", "kinematics.duration=2"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> mass = {"body": "ball", "quantity": "mass", "value": "0.2 ug", "uncertainty": "10 ng"}
+    >>> found = calibrate(case, {"measured": [mass], "fit": [{"path": "bodies.ball.wear.k"}]})
+    >>> {path: f"{k:.3g} 1/Pa" for path, k in found.settings.items()}  # by 100 N over 0.2 m
+    {'bodies.ball.wear.k': '1.27e-15 1/Pa'}
     """
     if not 0 < level < 1:
         raise CaseError(f"the level, {level:g}, must lie between 0 and 1, as 0.95 does")

@@ -29,7 +29,17 @@ SAME = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """Several cases calibrated to the same data, and their comparison."""
+    """Several cases calibrated to the same data, and their comparison.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> from tribo_inverse import Choice
+    >>> cases = pd.DataFrame({"case": ["archard", "power"], "weight": [0.97, 0.03]})
+    >>> found = Choice(cases, {}, tribo.Finding("chosen", "the data support archard"))
+    >>> found.verdict, found.cases["case"][0]
+    ('the data support archard', 'archard')
+    """
 
     cases: pd.DataFrame
     """One row per case, the best first: `case`, its name; `bic`, Schwarz's criterion,
@@ -71,6 +81,11 @@ def choose_case(
     level, on_run
         As for `calibrate`; `on_run` gets the name of the case first.
 
+    Returns
+    -------
+    Choice
+        The calibrations, and the case that the data support.
+
     Raises
     ------
     CaseError, NumericalError
@@ -80,6 +95,18 @@ def choose_case(
     ----------
     Schwarz (1978), Ann. Stat. 6, 461-464. Kass and Raftery (1995), J. Am. Stat. Assoc. 90, 773-795.
     Vehtari, Gelman and Gabry (2017), Stat. Comput. 27, 1413-1432.
+
+    Examples
+    --------
+    >>> from tribo_inverse import choose_case
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "output={}", "kinematics.duration=2"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> cases = {"5 mm": case, "10 mm": case.with_values({"bodies.ball.surface.radius": "10 mm"})}
+    >>> mass = {"body": "ball", "quantity": "mass", "value": "0.05 ug", "uncertainty": "5 ng"}
+    >>> scar = {"body": "ball", "quantity": "scar_across", "value": "0.3 mm", "uncertainty": "5 um"}
+    >>> asked = {"measured": [mass, scar], "fit": [{"path": "bodies.ball.wear.k"}]}
+    >>> choose_case(cases, asked).cases["case"][0]  # the radius of the ball, by its scar
+    '5 mm'
     """
     if len(cases) < 2:
         raise CaseError("give two cases or more to choose from")

@@ -26,7 +26,19 @@ _POWER = 4
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """The fewest tests of each kind that give intervals of a wanted width."""
+    """The fewest tests of each kind that give intervals of a wanted width.
+
+    Examples
+    --------
+    >>> from tribo_inverse import plan_tests
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "output={}", "kinematics.duration=2"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> mass = {"body": "ball", "quantity": "mass", "uncertainty": "10 ng"}
+    >>> asked = {"measured": [mass], "fit": [{"path": "bodies.ball.wear.k"}], "repeatability": 0.2}
+    >>> plan = plan_tests(case, asked, within=0.2)
+    >>> int(plan.tests["count"][0]), f"±{plan.parameters['half_width'][0]:.0%}"
+    (11, '±19%')
+    """
 
     level: float
     """Confidence level of the intervals."""
@@ -73,10 +85,25 @@ def plan_tests(
     on_run : callable, optional
         Called after each round of runs with the number of runs.
 
+    Returns
+    -------
+    Plan
+        The number of tests of each kind, and the intervals to expect.
+
     Raises
     ------
     CaseError, NumericalError
         If the case or the tests are wrong, 1000 are not enough, or a run fails.
+
+    Examples
+    --------
+    >>> from tribo_inverse import plan_tests
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "output={}", "kinematics.duration=2"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> mass = {"body": "ball", "quantity": "mass", "uncertainty": "10 ng"}
+    >>> asked = {"measured": [mass], "fit": [{"path": "bodies.ball.wear.k"}], "repeatability": 0.1}
+    >>> plan_tests(case, asked, within=0.2).tests["count"].tolist()  # for k within 20 %
+    [8]
     """
     asked = (("level", level, 0.95), ("half-width of the interval", within, 0.1))
     for what, part, example in asked:
