@@ -27,15 +27,10 @@ from tribo.core.contact import (
 class PeriodicHalfSpace:
     """Elastic half-space under a pressure that repeats beyond the window; given as a `HalfSpace`.
 
-    A mode of wavenumber q displaces the surface by 2/(E* q) per pressure, the
-    mean pressure by nothing: displacements count from their mean. Between the
-    cells' centres the pressure is the trigonometric polynomial through them.
-
-    References
-    ----------
-    H. M. Stanley, T. Kato, "An FFT-based method for rough surface contact",
-    J. Tribol. 119 (1997) 481-485; K. L. Johnson, Contact Mechanics (1985),
-    section 13.2.
+    A mode of wavenumber q displaces the surface by 2/(E* q) per pressure (Johnson 1985, Contact
+    Mechanics, section 13.2; Stanley & Kato 1997), the mean pressure by nothing: displacements count
+    from their mean. Between the cells' centres the pressure is the trigonometric polynomial
+    through them.
     """
 
     def __init__(

@@ -31,10 +31,9 @@ def solve_foundation(
 ) -> ContactSolution:
     """Solve contact on a foundation whose pressure is `modulus` times the depth.
 
-    With C = 1/K_w + local the pressure is clip((δ − gap − swept P)/C, 0, cap), where
-    P(y) is the line load of its row. P at a given δ, and δ at a given load, are
-    roots of increasing piecewise linear functions; Newton's method within a
-    bracket finds them in finitely many passes.
+    With C = 1/K_w + local the pressure is clip((δ − gap − swept P)/C, 0, cap), where P(y) is the
+    line load of its row. P at a given δ, and δ at a given load, are roots of increasing piecewise
+    linear functions; Newton's method within a bracket finds them in finitely many passes.
 
     Exact to round-off. `modulus` is K_w, in Pa/m, `cap` the largest pressure, in Pa, and `guess` an
     approach to start from, in m. It raises as `tribo.contact.bounded_cg.solve_together`.
@@ -255,19 +254,14 @@ class Winkler(ContactSolver):
 def matched_modulus(system: ContactSystem, match: Match) -> float:
     """Return the foundation modulus, in Pa/m, that shares one feature with Hertz's contact.
 
-    On a paraboloid of curvatures cx, cy a foundation carries F = π K_w δ²/√(cx cy)
-    on an ellipse of area 2πδ/√(cx cy) with the peak K_w δ; on a cylinder of
-    curvature c, F' = (4/3) K_w δ b with b = √(2δ/c).
+    On a paraboloid of curvatures cx, cy a foundation carries F = π K_w δ²/√(cx cy) on an ellipse of
+    area 2πδ/√(cx cy) with the peak K_w δ; on a cylinder of curvature c, F' = (4/3) K_w δ b with
+    b = √(2δ/c).
 
     `system` gives curvatures, load and contact modulus; for a line contact also the window, whose
     length along the line bears the load. For an ellipse "contact_radius" keeps its area, for a line
-    its half-width.
-
-    Raises
-    ------
-    CaseError
-        If the surfaces state no convex curvature, or for the approach of a
-        line contact, which half-spaces do not have.
+    its half-width. `CaseError` if the surfaces state no convex curvature, or for the approach of a
+    line contact, which half-spaces do not have.
     """
     curvature = system.curvature
     if curvature is None or min(curvature) < 0 or max(curvature) == 0:
