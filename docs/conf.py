@@ -58,6 +58,8 @@ html_show_sourcelink = False
 myst_enable_extensions = ["dollarmath", "amsmath", "deflist", "colon_fence"]
 myst_heading_anchors = 3
 
+doctest_global_setup = "import numpy as np\nimport tribo"
+
 # The doctest builder needs no executed pages.
 nb_execution_mode = "off" if "doctest" in sys.argv else "force"
 suppress_warnings = ["myst-nb.lexer"] if nb_execution_mode == "off" else []

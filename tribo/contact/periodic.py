@@ -68,11 +68,20 @@ class PeriodicHalfSpace:
 class Periodic(ElasticSolver):
     """Contact of two half-spaces that repeats with the window, for nominally flat surfaces.
 
-    The window is one period along x and y, and its mean pressure the load over
-    its area (Stanley & Kato 1997, J. Tribol. 119, 481-485). Far from the
-    surface a mean pressure moves the whole body, so the approach counts from
-    the mean of the deformed surface. The hardness limits the pressure as in
-    `dcfft`.
+    The window is one period along x and y, and its mean pressure the load over its area (Stanley &
+    Kato 1997, J. Tribol. 119, 481-485). Far from the surface a mean pressure moves the whole body,
+    so the approach counts from the mean of the deformed surface. The hardness limits the pressure
+    as in `dcfft`.
+
+    Examples
+    --------
+    >>> grid = tribo.Grid("1 mm", (4, 64))
+    >>> gap = -tribo.Waves(amplitude="0.1 um", wavelength="1 mm").height(grid)
+    >>> load = 0.5 * np.pi * 115e9 * 0.1e-6 / 1e-3 * 1e-6  # half of π E* A/λ, which closes the gap
+    >>> system = tribo.ContactSystem(grid, modulus=115e9, load=load)
+    >>> contact = tribo.Periodic().solve(tribo.ContactProblem(system, gap, load))
+    >>> round(float(np.mean(contact.pressure > 0)), 1)  # part of the window in contact
+    0.5
     """
 
     type = "periodic"

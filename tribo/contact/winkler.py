@@ -156,7 +156,14 @@ class Springs:
 
 
 class FoundationLayer(Table):
-    """A thin elastic layer bonded to a rigid body."""
+    """A thin elastic layer bonded to a rigid body (Johnson 1985, Contact Mechanics, section 5.8).
+
+    Examples
+    --------
+    >>> rubber = tribo.FoundationLayer(thickness="1 mm", young="5 MPa", poisson=0.45)
+    >>> round(rubber.foundation_modulus / 1e9, 1)  # MPa per mm of depth
+    19.0
+    """
 
     thickness: Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
     """Thickness of the layer."""
@@ -180,6 +187,15 @@ class Winkler(ContactSolver):
     Valid for a thin compliant layer on a stiff base (`layer`). For a half-space
     it is a fit: matched to one quantity of the first contact, it misses the
     others (Põdra & Andersson 1997, Wear 207, 79-85).
+
+    Examples
+    --------
+    >>> grid = tribo.Grid("0.4 mm", 32)
+    >>> system = tribo.ContactSystem(grid, modulus=115e9, load=10.0, curvature=(200.0, 200.0))
+    >>> radius = tribo.Winkler(match="contact_radius").foundation_modulus(system)
+    >>> peak = tribo.Winkler(match="peak_pressure").foundation_modulus(system)
+    >>> round(peak / radius, 4)  # Hertz's peak pressure needs softer springs than his radius
+    0.5625
     """
 
     type = "winkler"
