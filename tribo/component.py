@@ -39,14 +39,18 @@ KIND = "x-kind"
 class Component(Table, ABC):
     """A model: its fields are its configuration, its methods its physics.
 
-    It is frozen and refuses unknown keys. It may cache values in private
-    attributes, but never keeps what evolves in a run.
+    It is frozen and refuses unknown keys. It may cache values in private attributes, but never
+    keeps what evolves in a run.
 
-    A field declared as one of the interfaces (`WearLaw`, `Surface`, …) takes
-    any component of that kind: an object, a table whose ``type`` names its
-    class, or that name alone. Names are looked up in
-    ``context={"registry": …}`` of the validation, or else among the installed
-    plugins.
+    A field declared as one of the interfaces (`WearLaw`, `Surface`, …) takes any component of that
+    kind: an object, a table whose ``type`` names its class, or that name alone. Names are looked up
+    in ``context={"registry": …}`` of the validation, or else among the installed plugins.
+
+    Examples
+    --------
+    >>> law = tribo.Archard(k="1e-6 mm^3/(N m)")
+    >>> law.kind(), law.type, law.k  # k in 1/Pa
+    ('wear_law', 'archard', 1e-15)
     """
 
     type: ClassVar[str]
@@ -153,13 +157,8 @@ class Component(Table, ABC):
     def facts(self) -> Mapping[str, str]:
         """Return facts that a user should see before a run, such as how a file was read.
 
-        ``tribo check`` shows it, every result keeps it, and a run does not
-        resume where it has changed.
-
-        Returns
-        -------
-        Mapping[str, str]
-            Text by its name, as in ``{"size": "1.24 × 0.94 mm"}``.
+        They are texts by name, as in ``{"size": "1.24 × 0.94 mm"}``. ``tribo check`` shows them,
+        every result keeps them, and a run does not resume where they have changed.
         """
         return {}
 
@@ -174,12 +173,6 @@ class Component(Table, ABC):
         ----------
         snapshot : Snapshot
             The state, its scalars and the fields of the effects.
-
-        Examples
-        --------
-        >>> from tribo import Finding
-        >>> Finding("flash", "the contact is above 600 °C", value=905.0, limit=873.15)
-        Finding(kind='flash', ...
         """
         return ()
 

@@ -31,6 +31,7 @@ INTRODUCTION = f"""\
 
 Everything that a plugin needs is a name of the package `tribo`, and all of them are here. What
 lies in its modules is not part of [the contract](contract.md) and can change without notice.
+Examples assume `import numpy as np` and `import tribo`, and the files of the repository.
 
 ## Hooks
 

@@ -30,6 +30,11 @@ def test_a_value_is_stated_with_the_digits_that_it_was_given(given, unit, shown)
     assert stated(parse(given, unit), unit) == shown
 
 
+def test_a_schema_leaves_out_the_example_in_python():
+    assert ">>>" in Archard.__doc__
+    assert ">>>" not in Archard.model_json_schema()["description"]
+
+
 def test_values_without_names_are_refused_in_plain_words():
     with pytest.raises(TypeError, match=r"value of Sphere by its name, as Sphere\(radius=…\)"):
         Sphere(5e-3)

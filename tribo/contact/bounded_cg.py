@@ -32,11 +32,10 @@ def solve_bounded(
 ) -> ContactSolution:
     """Minimise ½ pᵀA p + gapᵀp over 0 <= p <= cap with sum(p) * cell area = load.
 
-    Preconditioned conjugate gradients on the cells strictly within the bounds,
-    which are left and entered as the iteration goes: a step as long as the last
-    one is projected onto the bounds, and the minimum sought along what is left
-    of it. Where that stalls, as it does when nearly all cells are at a bound,
-    projected Barzilai-Borwein steps take over until they stall in turn.
+    Preconditioned conjugate gradients on the cells strictly within the bounds. A step as long as
+    the last one is projected onto the bounds, and the minimum sought along the projected step.
+    Where that stalls, as when nearly all cells are at a bound, projected Barzilai-Borwein steps
+    take over until they stall in turn.
 
     Parameters
     ----------
@@ -53,27 +52,36 @@ def solve_bounded(
     start : ndarray, shape (nx, ny), optional
         A pressure to start from, in Pa; brought to the load and the bounds.
     tolerance : float, default 1e-8
-        What each of the `Residuals` must fall to. Their ``scale`` is the largest
-        displacement A p under pressure, or the range of the gap there if that
-        is more. Cells at the cap whose gap is open count as violations of
-        complementarity too.
+        Largest of the `Residuals`, in which the displacement is A p.
     max_iterations : int, default 500
         Each costs one call of the operator; the start costs one too.
+
+    Returns
+    -------
+    ContactSolution
+        On the operator's box.
 
     Raises
     ------
     CaseError
         If the load is not positive, or more than the box bears at the cap.
     NumericalError
-        If the gap is not finite, the load is lost in rounding, or the residuals
-        did not fall to the tolerance; the message says how far they came.
+        If the gap is not finite, the load is lost in rounding, or the residuals stay above the
+        tolerance; the message states them.
 
     References
     ----------
-    I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206-219; E. A. H. Vollebregt,
-    J. Optim. Theory Appl. 162 (2014) 931-953; V. Rey, G. Anciaux,
-    J.-F. Molinari, Comput. Mech. 60 (2017) 69-81; J. Barzilai, J. M. Borwein,
-    IMA J. Numer. Anal. 8 (1988) 141-148.
+    I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206-219; E. A. H. Vollebregt, J. Optim. Theory Appl.
+    162 (2014) 931-953; V. Rey, G. Anciaux, J.-F. Molinari, Comput. Mech. 60 (2017) 69-81;
+    J. Barzilai, J. M. Borwein, IMA J. Numer. Anal. 8 (1988) 141-148.
+
+    Examples
+    --------
+    >>> grid = tribo.Grid("0.4 mm", 64)
+    >>> steel = tribo.HalfSpace(grid.cells, grid.spacing, modulus=115e9)
+    >>> gap = -tribo.Sphere(radius="5 mm").height(grid)
+    >>> round(tribo.solve_bounded(steel, gap, load=10.0).approach * 1e6, 2)  # µm, as Hertz's
+    0.95
     """
     return solve_together(
         operator,

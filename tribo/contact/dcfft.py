@@ -32,14 +32,22 @@ _ROUGHLY = 0.1
 class DcFft(ElasticSolver):
     """Contact of two elastic half-spaces, yielding where the pressure reaches the hardness.
 
-    They may be coated. Each cell is under uniform pressure (Love 1929); the convolution is exact
-    in free space (DC-FFT: Liu, Wang & Liu 2000, Wear 243, 101-111). With a
-    hardness 0 <= p <= H, and what still overlaps at p = H is permanent
-    (Almqvist et al. 2007): no volume is conserved, and real onset of yield,
-    beneath the surface, comes at a lower load.
+    They may be coated. Each cell is under uniform pressure (Love 1929); the convolution is exact in
+    free space (DC-FFT: Liu, Wang & Liu 2000, Wear 243, 101-111). With a hardness 0 <= p <= H, and
+    what still overlaps at p = H is permanent (Almqvist et al. 2007): no volume is conserved, and
+    real onset of yield, beneath the surface, comes at a lower load.
 
     The solve runs on a box around the contact. In free space that is exact
     as long as no cell outside the box overlaps, which is checked.
+
+    Examples
+    --------
+    >>> grid = tribo.Grid("0.4 mm", 64)
+    >>> system = tribo.ContactSystem(grid, modulus=115e9, load=10.0)
+    >>> gap = -tribo.Sphere(radius="5 mm").height(grid)
+    >>> contact = tribo.DcFft().solve(tribo.ContactProblem(system, gap, load=10.0))
+    >>> round(float(contact.pressure.max()) / 1e9, 2)  # GPa, as Hertz's
+    1.01
     """
 
     type = "dcfft"

@@ -33,8 +33,7 @@ def wrapped_kernel(shape: tuple[int, int], spacing: tuple[float, float]) -> Arra
 def nyquist_compliance(spacing: tuple[float, float]) -> float:
     """Smallest eigenvalue of Love's kernel on an unbounded grid, for E* = 1.
 
-    It belongs to the chequerboard pressure (−1)^(i + j); square cells of edge
-    Δ have 0.58069 Δ.
+    It belongs to the chequerboard pressure (−1)^(i + j).
 
     Parameters
     ----------
@@ -45,6 +44,11 @@ def nyquist_compliance(spacing: tuple[float, float]) -> float:
     -------
     float
         Displacement amplitude per pressure amplitude for E* = 1, in m.
+
+    Examples
+    --------
+    >>> round(tribo.nyquist_compliance((1e-6, 1e-6)) * 1e6, 5)  # µm on square cells of 1 µm
+    0.58069
     """
     unit = min(spacing)
     reach = 64

@@ -13,6 +13,17 @@ class Operator(Protocol):
     """A symmetric positive definite map from pressure to displacement on a box of cells.
 
     Anything with these members can be given to `tribo.solve_bounded`.
+
+    Examples
+    --------
+    >>> class Springs:
+    ...     shape, spacing = (2, 2), (1e-3, 1e-3)
+    ...     def apply(self, pressure):
+    ...         return 1e-12 * pressure
+    ...     def symbol(self):
+    ...         return np.full((2, 2), 1e-12)
+    >>> tribo.solve_bounded(Springs(), np.zeros((2, 2)), load=4.0).approach  # 1 µm under 1 MPa
+    1e-06
     """
 
     @property

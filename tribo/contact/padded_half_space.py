@@ -38,6 +38,13 @@ class HalfSpace:
     ----------
     S. Liu, Q. Wang, G. Liu, "A versatile method of discrete convolution and FFT
     (DC-FFT) for contact analyses", Wear 243 (2000) 101-111.
+
+    Examples
+    --------
+    >>> steel = tribo.HalfSpace(shape=(33, 33), spacing=(1e-5, 1e-5), modulus=115e9)
+    >>> displacement = steel.apply(np.full((33, 33), 1e9))
+    >>> round(float(displacement[16, 16]) * 1e6, 2)  # µm: 1.122 p L/E* in the middle of a square
+    3.22
     """
 
     def __init__(

@@ -27,15 +27,10 @@ from tribo.core.contact import (
 class PeriodicHalfSpace:
     """Elastic half-space under a pressure that repeats beyond the window; given as a `HalfSpace`.
 
-    A mode of wavenumber q displaces the surface by 2/(E* q) per pressure, the
-    mean pressure by nothing: displacements count from their mean. Between the
-    cells' centres the pressure is the trigonometric polynomial through them.
-
-    References
-    ----------
-    H. M. Stanley, T. Kato, "An FFT-based method for rough surface contact",
-    J. Tribol. 119 (1997) 481-485; K. L. Johnson, Contact Mechanics (1985),
-    section 13.2.
+    A mode of wavenumber q displaces the surface by 2/(E* q) per pressure (Johnson 1985, Contact
+    Mechanics, section 13.2; Stanley & Kato 1997), the mean pressure by nothing: displacements count
+    from their mean. Between the cells' centres the pressure is the trigonometric polynomial
+    through them.
     """
 
     def __init__(
@@ -73,11 +68,20 @@ class PeriodicHalfSpace:
 class Periodic(ElasticSolver):
     """Contact of two half-spaces that repeats with the window, for nominally flat surfaces.
 
-    The window is one period along x and y, and its mean pressure the load over
-    its area (Stanley & Kato 1997, J. Tribol. 119, 481-485). Far from the
-    surface a mean pressure moves the whole body, so the approach counts from
-    the mean of the deformed surface. The hardness limits the pressure as in
-    `dcfft`.
+    The window is one period along x and y, and its mean pressure the load over its area (Stanley &
+    Kato 1997, J. Tribol. 119, 481-485). Far from the surface a mean pressure moves the whole body,
+    so the approach counts from the mean of the deformed surface. The hardness limits the pressure
+    as in `dcfft`.
+
+    Examples
+    --------
+    >>> grid = tribo.Grid("1 mm", (4, 64))
+    >>> gap = -tribo.Waves(amplitude="0.1 um", wavelength="1 mm").height(grid)
+    >>> load = 0.5 * np.pi * 115e9 * 0.1e-6 / 1e-3 * 1e-6  # half of π E* A/λ, which closes the gap
+    >>> system = tribo.ContactSystem(grid, modulus=115e9, load=load)
+    >>> contact = tribo.Periodic().solve(tribo.ContactProblem(system, gap, load))
+    >>> round(float(np.mean(contact.pressure > 0)), 1)  # part of the window in contact
+    0.5
     """
 
     type = "periodic"

@@ -43,8 +43,26 @@ def residuals(
 ) -> Residuals:
     """Return the errors of a pressure in the conditions of contact.
 
-    Pressure, gap and displacement have the shape (nx, ny); `total` is the sum that the pressure
-    should have, `limit` its upper bound, which may be infinite, both in Pa.
+    Parameters
+    ----------
+    pressure, gap, displacement : ndarray, shape (nx, ny)
+        In Pa and m; the displacement is A p.
+    approach : float
+        In the gap's own zero, in m.
+    total, limit : float
+        Wanted sum of the pressure, and its upper bound, which may be infinite, in Pa.
+
+    Returns
+    -------
+    Residuals
+        All 0 for the exact solution.
+
+    Examples
+    --------
+    >>> p, gap = np.array([[2e6, 0.0]]), np.array([[0.0, 3e-6]])
+    >>> springs = 1e-12 * p
+    >>> tribo.residuals(p, gap, springs, approach=2e-6, total=1.6e6, limit=np.inf).force
+    0.25
     """
     deformed = gap + displacement - approach
     return judged(pressure, gap, displacement, deformed, np.asarray(total), limit)[0]

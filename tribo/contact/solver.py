@@ -20,7 +20,22 @@ from tribo.core.contact import (
 
 
 class ContactSolver(Component):
-    """Solves the normal contact of two bodies under a given load."""
+    """Solves the normal contact of two bodies under a given load.
+
+    Examples
+    --------
+    >>> class Elastic(tribo.ContactSolver):
+    ...     def solve(self, problem, start=None):
+    ...         grid, modulus = problem.system.grid, problem.system.modulus
+    ...         half_space = tribo.HalfSpace(grid.cells, grid.spacing, modulus)
+    ...         return tribo.solve_bounded(half_space, problem.gap, problem.load)
+    >>> grid = tribo.Grid("0.4 mm", 32)
+    >>> system = tribo.ContactSystem(grid, modulus=115e9, load=10.0)
+    >>> gap = -tribo.Sphere(radius="5 mm").height(grid)
+    >>> contact = Elastic().solve(tribo.ContactProblem(system, gap, load=10.0))
+    >>> round(float(contact.pressure.max()) / 1e9, 1)  # GPa, as Hertz's
+    1.0
+    """
 
     accepts_wear_compliance: ClassVar[bool] = False
     """Whether `solve` honours ``problem.wear``; without it only `explicit` stepping works."""
@@ -123,12 +138,6 @@ class ContactSolver(Component):
         """Return K on a box with all touching cells of the window, or None when unknown.
 
         Gradients need it: with the cells in contact known, their pressure follows from K alone.
-
-        Parameters
-        ----------
-        system : ContactSystem
-            The constants of the contact.
-        touching : ndarray of bool, shape (nx, ny)
-            The cells with pressure.
+        `touching` marks the cells with pressure, shape (nx, ny).
         """
         return None

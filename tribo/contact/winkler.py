@@ -31,10 +31,9 @@ def solve_foundation(
 ) -> ContactSolution:
     """Solve contact on a foundation whose pressure is `modulus` times the depth.
 
-    With C = 1/K_w + local the pressure is clip((δ − gap − swept P)/C, 0, cap), where
-    P(y) is the line load of its row. P at a given δ, and δ at a given load, are
-    roots of increasing piecewise linear functions; Newton's method within a
-    bracket finds them in finitely many passes.
+    With C = 1/K_w + local the pressure is clip((δ − gap − swept P)/C, 0, cap), where P(y) is the
+    line load of its row. P at a given δ, and δ at a given load, are roots of increasing piecewise
+    linear functions; Newton's method within a bracket finds them in finitely many passes.
 
     Exact to round-off. `modulus` is K_w, in Pa/m, `cap` the largest pressure, in Pa, and `guess` an
     approach to start from, in m. It raises as `tribo.contact.bounded_cg.solve_together`.
@@ -157,7 +156,14 @@ class Springs:
 
 
 class FoundationLayer(Table):
-    """A thin elastic layer bonded to a rigid body."""
+    """A thin elastic layer bonded to a rigid body (Johnson 1985, Contact Mechanics, section 5.8).
+
+    Examples
+    --------
+    >>> rubber = tribo.FoundationLayer(thickness="1 mm", young="5 MPa", poisson=0.45)
+    >>> round(rubber.foundation_modulus / 1e9, 1)  # MPa per mm of depth
+    19.0
+    """
 
     thickness: Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
     """Thickness of the layer."""
@@ -181,6 +187,15 @@ class Winkler(ContactSolver):
     Valid for a thin compliant layer on a stiff base (`layer`). For a half-space
     it is a fit: matched to one quantity of the first contact, it misses the
     others (Põdra & Andersson 1997, Wear 207, 79-85).
+
+    Examples
+    --------
+    >>> grid = tribo.Grid("0.4 mm", 32)
+    >>> system = tribo.ContactSystem(grid, modulus=115e9, load=10.0, curvature=(200.0, 200.0))
+    >>> radius = tribo.Winkler(match="contact_radius").foundation_modulus(system)
+    >>> peak = tribo.Winkler(match="peak_pressure").foundation_modulus(system)
+    >>> round(peak / radius, 4)  # Hertz's peak pressure needs softer springs than his radius
+    0.5625
     """
 
     type = "winkler"
@@ -255,19 +270,14 @@ class Winkler(ContactSolver):
 def matched_modulus(system: ContactSystem, match: Match) -> float:
     """Return the foundation modulus, in Pa/m, that shares one feature with Hertz's contact.
 
-    On a paraboloid of curvatures cx, cy a foundation carries F = π K_w δ²/√(cx cy)
-    on an ellipse of area 2πδ/√(cx cy) with the peak K_w δ; on a cylinder of
-    curvature c, F' = (4/3) K_w δ b with b = √(2δ/c).
+    On a paraboloid of curvatures cx, cy a foundation carries F = π K_w δ²/√(cx cy) on an ellipse of
+    area 2πδ/√(cx cy) with the peak K_w δ; on a cylinder of curvature c, F' = (4/3) K_w δ b with
+    b = √(2δ/c).
 
     `system` gives curvatures, load and contact modulus; for a line contact also the window, whose
     length along the line bears the load. For an ellipse "contact_radius" keeps its area, for a line
-    its half-width.
-
-    Raises
-    ------
-    CaseError
-        If the surfaces state no convex curvature, or for the approach of a
-        line contact, which half-spaces do not have.
+    its half-width. `CaseError` if the surfaces state no convex curvature, or for the approach of a
+    line contact, which half-spaces do not have.
     """
     curvature = system.curvature
     if curvature is None or min(curvature) < 0 or max(curvature) == 0:

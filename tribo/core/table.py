@@ -80,6 +80,8 @@ class Table(BaseModel, metaclass=_TableClass):
     ) -> JsonSchemaValue:
         """Describe each key by the docstring of its field."""
         made = handler.resolve_ref_schema(handler(schema))
+        if "description" in made:
+            made["description"] = about(cls)
         keys = made.get("properties", {})
         for name, text in descriptions(cls).items():
             # A field that is left out of the schema has no key.
@@ -95,6 +97,12 @@ def given(table: BaseModel) -> dict[str, Any]:
     """Return the values of a table that are not at their defaults, by field."""
     fields = type(table).model_fields
     return {name: value for name, value in table if value != fields[name].default}
+
+
+def about(cls: type) -> str:
+    """Return the docstring of a class without its example in Python; empty if it has none."""
+    text = inspect.cleandoc(cls.__doc__) if isinstance(cls.__doc__, str) else ""
+    return text.partition("\n\nExamples\n---")[0]
 
 
 def descriptions(table: type[BaseModel]) -> dict[str, str]:

@@ -15,13 +15,25 @@ from tribo.core.state import Snapshot
 class Effect(Component):
     """An interfacial effect, such as a temperature, debris or a film.
 
-    It provides fields of the solved contact, which wear laws and other effects
-    read, and may own state that evolves with the run. Every pass of a step
-    evaluates it again, so its answers must depend on its configuration and its
-    input alone.
+    It provides fields of the solved contact, which wear laws and other effects read, and may own
+    state that evolves with the run. Every pass of a step evaluates it again, so its answers must
+    depend on its configuration and its input alone.
 
-    State is integrated inside each step, at the pressure of the step, to an
-    accuracy of its own; steps of the contact need not be short for it.
+    State is integrated inside each step, at the pressure of the step, to an accuracy of its own;
+    steps of the contact need not be short for it.
+
+    Examples
+    --------
+    >>> class Heat(tribo.Effect):
+    ...     provides = (tribo.Field("heat", "W/m^2", "Power of friction with μ = 0.25."),)
+    ...     def fields(self, contact):
+    ...         heat = 0.25 * contact.speed * contact.pressure
+    ...         return {"heat": dict.fromkeys(contact.materials, heat)}
+    >>> steel = {"ball": tribo.Material(name="100Cr6")}
+    >>> system = tribo.ContactSystem(tribo.Grid("1 mm", 4), 115e9, load=1.0, materials=steel)
+    >>> contact = tribo.ContactConditions(system, np.full((4, 4), 1e6), 0.5, 0, 0, frozenset())
+    >>> float(Heat().fields(contact)["heat"]["ball"][0, 0])  # W/m² under 1 MPa at 0.5 m/s
+    125000.0
     """
 
     provides: ClassVar[tuple[Field, ...]] = ()
@@ -115,8 +127,8 @@ class Effect(Component):
     def state_rates(self, contact: ContactConditions) -> Mapping[str, Array]:
         """Return the change of each state field per second.
 
-        A change by sliding is a rate per metre times `contact.speed`, which is 0
-        while the motion rests; a relaxation in time continues at rest.
+        A change by sliding is a rate per metre times `contact.speed`, which is 0 while the motion
+        rests; a relaxation in time continues at rest.
 
         Parameters
         ----------

@@ -23,7 +23,15 @@ from tribo.motion.stroke import WHOLE, Stroke, odd
 
 
 class SpeedStage(Table):
-    """A stage of a speed that changes over time: it is held until a time."""
+    """A stage of a speed that changes over time: it is held until a time.
+
+    Examples
+    --------
+    >>> stages = [tribo.SpeedStage(until="10 s", speed="0.1 m/s"), {"until": 30, "speed": 0}]
+    >>> motion = tribo.Unidirectional(speed=stages, track_radius="16 mm", duration="30 s")
+    >>> motion.distance_at(20.0)  # m, during the rest
+    1.0
+    """
 
     until: Annotated[float, Quantity("s", above=0)]
     """When it ends."""
@@ -156,6 +164,12 @@ class Unidirectional(ClosedTrack):
 
     For two bodies that repeat with the window, such as nominally flat rough ones, the path may be
     resolved into `positions`: positions over the window's length represent the whole track.
+
+    Examples
+    --------
+    >>> motion = tribo.Unidirectional(speed="60 rpm", track_radius="16 mm", distance="1 km")
+    >>> round(motion.end_time / 3600, 2)  # hours
+    2.76
     """
 
     examples = ({"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"},)
@@ -248,6 +262,13 @@ class Rotating(ClosedTrack):
     ρ = √(x² + (R + y)²); its distance and speed are ρ/R times as large. The swept body moves along
     rows, each a track of length 2π(R + y): its volume is exact, but its groove lies on straight
     lines in place of arcs, which are x²/2R apart. Valid for contacts short beside R.
+
+    Examples
+    --------
+    >>> motion = tribo.Rotating(speed="0.1 m/s", track_radius="16 mm", revolutions=1)
+    >>> (position,) = motion.cycle(tribo.Grid("4 mm", 4))
+    >>> position.reach[1].round(2).tolist()  # ρ/R: points near the axis slide less far
+    [0.91, 0.97, 1.03, 1.09]
     """
 
     examples = ({"speed": "0.1 m/s", "track_radius": "16 mm", "distance": "10 m"},)

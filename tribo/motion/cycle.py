@@ -32,6 +32,12 @@ class Position:
     heading : pair of float or of ndarray, shape (nx, ny), optional
         Direction of the moving body here: the x and y of a vector of length 1. Where it moves both
         ways, as on a stroke, one of them.
+
+    Examples
+    --------
+    >>> motion = tribo.Reciprocating(stroke="1 mm", frequency="5 Hz", cycles=9, positions=5)
+    >>> [at.share for at in motion.cycle(tribo.Grid("2 mm", 80))]
+    [0.125, 0.25, 0.25, 0.25, 0.125]
     """
 
     share: float = 1.0

@@ -19,6 +19,14 @@ class Exposure(ABC):
     `see` takes a field from the surface to the window, `gather` a rate from the window to the
     surface: its transpose, weighted as the average is. Fields on a body's surface have shape
     (rows, ny).
+
+    Examples
+    --------
+    >>> class Tooth(tribo.Stationary):
+    ...     def average(self, rate):
+    ...         return 0.1 * rate  # one of ten teeth, each in contact in its turn
+    >>> Tooth(tribo.Grid("1 mm", (2, 1))).average(np.array([[1.0], [2.0]])).tolist()
+    [[0.1], [0.2]]
     """
 
     swept: bool = False
@@ -114,21 +122,22 @@ class Exposure(ABC):
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance | None:
         """Return the wear per metre of sliding as a compliance, or None.
 
-        It is an approximation that the implicit step corrects to its exact
-        rate; None leaves the step to plain iteration.
-
-        Parameters
-        ----------
-        derivative : ndarray, shape (nx, ny)
-            Derivative of the depth per metre with respect to pressure, in 1/Pa.
-        pressure : ndarray, shape (nx, ny)
-            Pressure at which the derivative was taken, in Pa.
+        `derivative` is the derivative of the depth per metre at `pressure` (Pa), in 1/Pa, both of
+        shape (nx, ny). The implicit step corrects the approximation to its exact rate; None leaves
+        the step to plain iteration.
         """
         return None
 
 
 class Stationary(Exposure):
-    """The same material points stay in contact."""
+    """The same material points stay in contact, on all cells of `grid`, the window.
+
+    Examples
+    --------
+    >>> ball = tribo.Stationary(tribo.Grid("1 mm", 8))
+    >>> round(ball.volume(np.full((8, 8), 1e-6)) * 1e9, 6)  # mm³: 1 µm over 1 mm²
+    0.001
+    """
 
     def __init__(self, grid: Grid) -> None:
         self._grid = grid
@@ -155,13 +164,11 @@ class Stationary(Exposure):
 class Track(Exposure):
     """Points pass through the contact along x, all over a track of given length.
 
-    The mean over the track is (J r)(y) = (Δx/ℓ) Σₓ r(x, y), whatever the
-    window: equations 4 and 5 of Andersson, Almqvist & Larsson (2010) with N = L. Fields on
-    the body have shape (1, ny).
+    The mean over the track is (J r)(y) = (Δx/ℓ) Σₓ r(x, y), whatever the window: equations 4 and 5
+    of Andersson, Almqvist & Larsson (2010) with N = L. Fields on the body have shape (1, ny).
 
-    Valid on a closed track. Where the contact reverses inside the track it is
-    an approximation, too deep at mid-track (see
-    `tribo.motion.averaging_error.groove_excess`).
+    Valid on a closed track. Where the contact reverses inside the track it is an approximation, too
+    deep at mid-track (see `tribo.motion.averaging_error.groove_excess`).
 
     Parameters
     ----------
@@ -172,6 +179,13 @@ class Track(Exposure):
     shape_stays : bool, optional
         Whether the body turns, so that its shape stands still while its
         points pass: the disks of a twin-disk tester.
+
+    Examples
+    --------
+    >>> disk = tribo.Track(tribo.Grid("1 mm", 8), length=0.1)
+    >>> rate = disk.average(np.full((8, 8), 1e-6))
+    >>> round(float(rate[0, 0]) * 1e9, 6)  # nm a metre: 1 mm of contact on 100 mm of track
+    10.0
     """
 
     swept = True
@@ -228,6 +242,13 @@ class Passing(Stationary):
         Length of the path, in m.
     across : sequence of int, optional
         The column at which the window begins, at each position.
+
+    Examples
+    --------
+    >>> disk = tribo.Passing(tribo.Grid("1 mm", (2, 1)), starts=[0, 1, 2], length=1e-3)
+    >>> wear = sum(disk.gather(np.full((2, 1), 3e-9), at, part=1 / 3) for at in range(3))
+    >>> (wear[:, 0] * 1e9).round(6).tolist()  # nm a metre: most in the middle
+    [1.0, 2.0, 2.0, 1.0]
     """
 
     swept = True

@@ -19,7 +19,19 @@ if TYPE_CHECKING:
 
 
 class Kinematics(Component):
-    """A sliding motion along x."""
+    """A sliding motion along x.
+
+    Examples
+    --------
+    >>> class Slide(tribo.Kinematics):
+    ...     end_time = property(lambda self: 10.0)
+    ...     def distance_at(self, time):
+    ...         return 0.1 * time
+    ...     def exposures(self, grid, bodies):
+    ...         return {body: tribo.Stationary(grid) for body in bodies}
+    >>> round(Slide().time_at(0.5), 6)  # s until 0.5 m
+    5.0
+    """
 
     turns_back: ClassVar[bool] = False
     """Whether it goes to and fro along the track, rather than round it."""
@@ -89,14 +101,9 @@ class Kinematics(Component):
     def speeds(self) -> Sequence[tuple[float, float]] | None:
         """Return the sliding speeds of a cycle, each with its share of the distance.
 
-        Effects and wear laws are evaluated at each of these speeds, and their rates
-        averaged over the distance, whatever the length of a step.
-
-        Returns
-        -------
-        sequence of (float, float) or None
-            Speeds in m/s, and shares that add up to 1. None, unless overridden:
-            then they are evaluated at the mean speed over each step.
+        Speeds are in m/s, and the shares add up to 1. Effects and wear laws are evaluated at each
+        of these speeds, and their rates averaged over the distance, whatever the length of a step.
+        None, unless overridden: then they are evaluated at the mean speed over each step.
         """
         return None
 
@@ -104,12 +111,8 @@ class Kinematics(Component):
         """Return the positions of a cycle in which the contact is solved.
 
         One, unless overridden, with the `speeds` of the motion: the average over the cycle is left
-        to the exposures. A result shows the middle one.
-
-        Parameters
-        ----------
-        grid : Grid
-            The window; it has a `period` where the contact repeats with it.
+        to the exposures. A result shows the middle one. The window `grid` has a `period` where the
+        contact repeats with it.
         """
         return [Position(speeds=self.speeds())]
 

@@ -35,6 +35,13 @@ class Measured(Kinematics):
     the position: noise of the sensor counts as sliding, so smooth it before. The cycle is resolved
     into positions, each with the share of the whole path near it, the mean speed there and the
     time at rest; their order is not kept.
+
+    Examples
+    --------
+    >>> path = [(0, 0), (1, 1e-3), (2, 1e-3), (4, 0)]  # s and m: there, a rest, back
+    >>> motion = tribo.Measured(path=path, cycles=100)
+    >>> motion.end_time, round(motion.distance_at(motion.end_time), 6)  # s, m
+    (400.0, 0.2)
     """
 
     examples = ({"path": [[0, 0], [1, 1e-3], [2, 1e-3], [4, 0]], "cycles": 100},)

@@ -35,12 +35,18 @@ class Planar(Steady):
 
     The path is a circle, a square or an eight, each stretched to its extents along x and y, or the
     points of a file. It is divided into stretches of like length, a path of few points side by
-    side; the contact is solved in the middle of each, and the bodies wear at their place there.
-    The sliding direction is the direction of the path there (the fields `heading_x` and
-    `heading_y`).
+    side; the contact is solved in the middle of each, and the bodies wear at their place there. The
+    sliding direction is the direction of the path there (the fields `heading_x` and `heading_y`).
 
     A body has the columns of the window, which are counted round: the window must be at least as
     broad as the contact and the path together. Valid for gross sliding without spin.
+
+    Examples
+    --------
+    >>> circle = {"path": "circle", "extent": ("1 mm", "1 mm")}
+    >>> motion = tribo.Planar(**circle, speed="20 mm/s", revolutions=1000)
+    >>> round(motion.end_time, 1)  # s for 1000 π mm
+    157.1
     """
 
     examples = (

@@ -31,7 +31,16 @@ SAMPLES = 16
 
 
 class FrequencyStage(Table):
-    """A stage of a frequency that changes over time: it is held until a time."""
+    """A stage of a frequency that changes over time: it is held until a time.
+
+    Examples
+    --------
+    >>> slide = tribo.FrequencyStage(until="10 s", frequency="5 Hz")
+    >>> stages = [slide, tribo.FrequencyStage(until="30 s", frequency=0)]
+    >>> motion = tribo.Reciprocating(stroke="1 mm", frequency=stages, duration="30 s")
+    >>> motion.distance_at(20.0)  # m, during the rest
+    0.1
+    """
 
     until: Annotated[float, Quantity("s", above=0)]
     """When it ends."""
@@ -42,10 +51,9 @@ class FrequencyStage(Table):
 class Reciprocating(Kinematics):
     """Stroke S at frequency f: mean speed 2 S f, one body swept over the stroke.
 
-    With ``waveform = "sinusoidal"`` the position is −(S/2) cos(2πft) and the
-    speed ``πSf |sin(2πft)|``. The track average is over positions, so the waveform
-    changes only the distance at times inside a half cycle, and the speeds at which
-    effects and wear laws are asked.
+    With ``waveform = "sinusoidal"`` the position is −(S/2) cos(2πft) and the speed
+    ``πSf |sin(2πft)|``. The track average is over positions, so the waveform changes only the
+    distance at times inside a half cycle, and the speeds at which effects and laws are evaluated.
 
     The track average is the paper's model, and makes a groove too deep at mid-stroke. One as deep
     as the elastic approach is 4 % too deep where S is 10 half-widths of the contact and 12 % where
@@ -53,6 +61,12 @@ class Reciprocating(Kinematics):
     `tribo.motion.averaging_error`). Resolved into `positions`, as a run does by itself where the
     stroke is shorter than 20 lengths of the first contact, it holds for any stroke of two cells and
     more, gross slip in fretting among them.
+
+    Examples
+    --------
+    >>> motion = tribo.Reciprocating(stroke="2 mm", frequency="25 Hz", cycles=1000)
+    >>> motion.end_time, motion.distance_at(1.0)  # s, m in a second
+    (40.0, 0.1)
     """
 
     examples = ({"stroke": "2 mm", "frequency": "25 Hz", "cycles": 100},)

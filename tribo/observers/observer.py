@@ -11,6 +11,16 @@ class Observer(Component):
 
     An exception that an observer raises stops the run; in `on_finish` it is
     only a warning where the run did not finish.
+
+    Examples
+    --------
+    >>> class Bell(tribo.Observer):
+    ...     def on_finish(self, snapshot, reason):
+    ...         print(reason, "after", round(snapshot.measures.distance, 1), "m")
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> result = case.with_values({"observers": [Bell()]}).run()
+    done after 1.3 m
     """
 
     def on_start(self, run: RunInfo) -> None:

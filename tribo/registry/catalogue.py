@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from tribo.component import Component
 from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError
-from tribo.core.table import descriptions
+from tribo.core.table import about, descriptions
 from tribo.core.units import Quantity, parts
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.kinds import KINDS
@@ -72,7 +72,8 @@ def matching(registry: Registry, name: str) -> list[str]:
 
 def describe(cls: type[Component], plugin: Plugin) -> str:
     """Return the description of a component: its docstring, parameters and fields."""
-    lines = [f"{cls.type}: {_words(cls)} from {plugin}", "", _doc(cls) or "(it has no description)"]
+    text = about(cls) or "(it has no description)"
+    lines = [f"{cls.type}: {_words(cls)} from {plugin}", "", text]
     if parameters := list(_parameters(cls)):
         lines += ["", "Parameters", "----------", *parameters]
     lines.append("")
@@ -92,18 +93,13 @@ def _words(cls: type[Component]) -> str:
     return cls.kind().replace("_", " ")
 
 
-def _doc(cls: type[Component]) -> str:
-    """Return the docstring of a class; empty if it has none, or it is not text."""
-    return inspect.cleandoc(cls.__doc__) if isinstance(cls.__doc__, str) else ""
-
-
 def _row(name: str, plugin: Plugin, cls: type[Component] | None = None) -> dict[str, str]:
     facts = {key: plugin.facts[key] for key in ("distribution", "version", "status", "reason")}
     if plugin.status == "available" and (lacks := unmet(plugin.distribution)):
         facts |= {"status": "incompatible", "reason": lacks}
     kind, summary = "", f"(all of {plugin.distribution}) {plugin.summary}".rstrip()
     if cls is not None:
-        kind, summary = _words(cls), _doc(cls).partition("\n")[0]
+        kind, summary = _words(cls), about(cls).partition("\n")[0]
     return {"name": name, "kind": kind, **facts, "summary": summary}
 
 

@@ -88,8 +88,18 @@ class Result:
         Raises
         ------
         CaseError
-            If there is no such file, it is not a tribo result, or it is
-            damaged.
+            If there is no such file, it is not a tribo result, or it is damaged.
+
+        Examples
+        --------
+        >>> from tempfile import TemporaryDirectory
+        >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+        >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+        >>> with TemporaryDirectory() as folder:
+        ...     case.run(f"{folder}/my.h5").close()
+        ...     with tribo.open(f"{folder}/my.h5") as result:
+        ...         round(float(result.max_wear_depth[-1, 0]) * 1e6, 1)  # µm
+        1.0
         """
         return cls(source_of(Path(path)), str(path))
 

@@ -39,7 +39,17 @@ PLACE = "stepping.time_step"
 
 
 class Explicit(Scheme):
-    """Forward Euler with a fixed time step, as in the paper; limited by stability."""
+    """Forward Euler with a fixed time step, limited by stability.
+
+    Equation 3 of Andersson, Almqvist & Larsson (2010).
+
+    Examples
+    --------
+    >>> case = tribo.load_case("examples/ball_on_disk.toml")
+    >>> case.with_values({"stepping": tribo.Explicit(time_step="20 s")}).run()
+    Traceback (most recent call last):
+    tribo.core.errors.CaseError: ...the largest stable step is 2.234 s...
+    """
 
     type: Literal["explicit"] = "explicit"
     time_step: Annotated[float, Quantity("s", above=0)]

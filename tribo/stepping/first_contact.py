@@ -30,21 +30,8 @@ def first_contact(
 ) -> State:
     """Solve the contact before any sliding, plastic flow and the load of effects included.
 
-    Parameters
-    ----------
-    model : Model
-        The composed case.
-    worn : Mapping[str, BodyState], optional
-        The bodies, by name, if they are worn already.
-    between : Mapping[str, ndarray], optional
-        State fields of effects, as in `State`, that do not start at their initial values.
-
-    Raises
-    ------
-    CaseError
-        If the contact does not fit the window.
-    NumericalError
-        If the solver fails.
+    `worn` has bodies that are worn already, and `between` states of effects that do not start at
+    their initial values, as in `State`. `CaseError` if the contact does not fit the window.
     """
     state = State(
         time=0.0,

@@ -96,7 +96,18 @@ class Guess:
 
 
 class Implicit(Scheme):
-    """Backward Euler, with increments chosen by error; stable at any length."""
+    """Backward Euler, with increments chosen by error; stable at any length.
+
+    Examples
+    --------
+    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
+    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> for tolerance in (0.01, 0.001):
+    ...     run = case.with_values({"stepping": tribo.Implicit(depth_tolerance=tolerance)}).run()
+    ...     print(f"{run.distances[-1]:.2f} m")  # until a depth of 1 µm
+    1.33 m
+    1.32 m
+    """
 
     type: Literal["implicit"] = "implicit"
     depth_tolerance: Annotated[float, Quantity("1", above=0, at_most=0.1)] = 1e-3

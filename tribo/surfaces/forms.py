@@ -16,7 +16,13 @@ from tribo.surfaces.surface import Surface
 
 
 class Flat(Surface):
-    """z = 0."""
+    """z = 0.
+
+    Examples
+    --------
+    >>> tribo.Flat().curvature  # 1/m: the other body alone curves the gap
+    (0.0, 0.0)
+    """
 
     type = "flat"
 
@@ -31,7 +37,14 @@ class Flat(Surface):
 
 
 class Sphere(Surface):
-    """The exact cap z = √(R² − r²) − R of a ball of radius R, highest at the origin."""
+    """The exact cap z = √(R² − r²) − R of a ball of radius R, highest at the origin.
+
+    Examples
+    --------
+    >>> height = tribo.Sphere(radius="5 mm").height(tribo.Grid("1 mm", 101))
+    >>> round(float(height[0, 50]) * 1e6, 1)  # µm, at 0.495 mm from the top
+    -24.6
+    """
 
     examples = ({"radius": "5 mm"},)
     type = "sphere"
@@ -58,7 +71,13 @@ class Sphere(Surface):
 
 
 class Paraboloid(Surface):
-    """z = −x²/2Rx − y²/2Ry."""
+    """z = −x²/2Rx − y²/2Ry.
+
+    Examples
+    --------
+    >>> tribo.Paraboloid(radius_x="5 mm", radius_y="10 mm").curvature  # 1/m
+    (200.0, 100.0)
+    """
 
     examples = ({"radius": "5 mm"}, {"radius_x": "5 mm", "radius_y": "10 mm"})
     type = "paraboloid"
@@ -93,7 +112,13 @@ class Paraboloid(Surface):
 
 
 class Cylinder(Surface):
-    """The exact arc z = √(R² − t²) − R, with t across the cylinder's axis."""
+    """The exact arc z = √(R² − t²) − R, with t across the cylinder's axis.
+
+    Examples
+    --------
+    >>> tribo.Cylinder(radius="5 mm").curvature  # 1/m, along x and y
+    (200.0, 0.0)
+    """
 
     examples = ({"radius": "5 mm"}, {"radius": "5 mm", "axis": "x", "degrees": 30})
     type = "cylinder"

@@ -22,7 +22,14 @@ Line = Annotated[tuple[Annotated[float, Quantity("m")], ...], Field(min_length=2
 
 
 class HeightMap(Laid):
-    """Heights at the centres of the cells of a rectangle about the origin, and lines in between."""
+    """Heights at the centres of the cells of a rectangle about the origin, and lines in between.
+
+    Examples
+    --------
+    >>> ramp = tribo.HeightMap(size=(1e-3, 1e-3), heights=[[0, 0], [1e-6, 1e-6]])
+    >>> (ramp.height(tribo.Grid("1 mm", (4, 1)))[:, 0] * 1e6).round(2).tolist()  # µm
+    [0.0, 0.25, 0.75, 1.0]
+    """
 
     examples = (
         {

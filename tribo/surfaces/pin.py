@@ -26,6 +26,12 @@ class Pin(Surface):
     References
     ----------
     M. Ciavarella, Int. J. Solids Struct. 36 (1999) 4149-4181.
+
+    Examples
+    --------
+    >>> height = tribo.Pin(radius="3 mm", edge="0.5 mm").height(tribo.Grid("6 mm", 60))
+    >>> (height[:5, 30] * 1e6).round().tolist()  # µm, from the side inwards
+    [-283.0, -143.0, -67.0, -23.0, -3.0]
     """
 
     examples = ({"radius": "3 mm", "edge": "0.2 mm"},)

@@ -52,7 +52,14 @@ def check_resolved(shortest: float, spacing: float, field: str) -> None:
 
 
 class Waves(Laid):
-    """z = A cos(2π t/λ), with t along x or y and a crest at the origin."""
+    """z = A cos(2π t/λ), with t along x or y and a crest at the origin.
+
+    Examples
+    --------
+    >>> height = tribo.Waves(amplitude="1 um", wavelength="1 mm").height(tribo.Grid("1 mm", 64))
+    >>> round(float(height.std()) * 1e6, 3)  # Sq in µm: A/√2
+    0.707
+    """
 
     examples = ({"amplitude": "0.1 um", "wavelength": "0.4 mm"},)
     type = "waves"
@@ -80,6 +87,13 @@ class Texture(Laid):
 
     Dimples stand in a square lattice, t from their middle; grooves lie along x or y, t across. One
     lies at the origin.
+
+    Examples
+    --------
+    >>> dimples = tribo.Texture(depth="2 um", width="0.1 mm", pitch="0.25 mm")
+    >>> hollow = dimples.height(tribo.Grid("1 mm", 400)) < 0
+    >>> round(float(hollow.mean()), 3)  # part of the area, π/4 (w/pitch)²
+    0.126
     """
 
     examples = ({"depth": "2 um", "width": "0.1 mm", "pitch": "0.25 mm"},)

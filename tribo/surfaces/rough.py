@@ -33,6 +33,13 @@ class Rough(Laid):
     B. N. J. Persson, O. Albohr, U. Tartaglino, A. I. Volokitin, E. Tosatti, J. Phys.: Condens.
     Matter 17 (2005) R1-R62; T. D. B. Jacobs, T. Junge, L. Pastewka, Surf. Topogr.: Metrol. Prop. 5
     (2017) 013001.
+
+    Examples
+    --------
+    >>> ground = tribo.Rough(sq="50 nm", cut_off="0.4 mm", roll_off="1 mm")
+    >>> height = ground.height(tribo.Grid("8 mm", 80))  # one period
+    >>> round(float(height.std()) * 1e9, 3)  # nm
+    50.0
     """
 
     examples = ({"sq": "50 nm", "cut_off": "0.4 mm", "roll_off": "1 mm", "seed": 1},)

@@ -11,7 +11,16 @@ from tribo.core.grid import Grid
 
 
 class Surface(Component):
-    """The shape of a body before it wears."""
+    """The shape of a body before it wears.
+
+    Examples
+    --------
+    >>> class Step(tribo.Surface):
+    ...     def height(self, grid):
+    ...         return np.where(grid.mesh[0] > 0, 1e-6, np.zeros(grid.cells))
+    >>> Step().height(tribo.Grid("1 mm", (4, 1)))[:, 0].tolist()
+    [0.0, 0.0, 1e-06, 1e-06]
+    """
 
     smooth: ClassVar[bool] = False
     """Whether it is a smooth form whatever its heights are; else they tell."""

@@ -13,8 +13,17 @@ from tribo.core.material import Material
 class WearLaw(Component):
     """A pointwise law of wear.
 
-    It knows nothing of grids, strokes or the other body: averaging along a
-    track belongs to the kinematics.
+    It knows nothing of grids, strokes or the other body: averaging along a track belongs to the
+    kinematics.
+
+    Examples
+    --------
+    >>> class Threshold(tribo.WearLaw):
+    ...     def rate(self, local):
+    ...         return tribo.WearRate(1e-15 * np.maximum(local.pressure - 1e8, 0))
+    >>> local = tribo.LocalConditions(np.array([5e7, 2e8]), 0.1, tribo.Material(name="100Cr6"))
+    >>> Threshold().rate(local).depth_rate.round(9).tolist()  # m/m
+    [0.0, 1e-07]
     """
 
     requires: ClassVar[tuple[str | Field, ...]] = ()

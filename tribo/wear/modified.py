@@ -18,6 +18,18 @@ class ModifiedLaw(WearLaw):
 
     It requires the fields that `law` requires, keeps the states of `law` beside its own, and is
     refused where `law` is. A subclass writes `rate`; ``self.law.rate(local)`` is the other rate.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> class Lubricated(tribo.ModifiedLaw):
+    ...     def rate(self, local):
+    ...         rate = self.law.rate(replace(local, pressure=0.8 * local.pressure))
+    ...         return replace(rate, depth_slope=None)
+    >>> local = tribo.LocalConditions(np.array([1e9]), 0.1, tribo.Material(name="100Cr6"))
+    >>> law = Lubricated(law=tribo.Archard(k="1e-15 1/Pa"))
+    >>> law.rate(local).depth_rate.round(9).tolist()  # 0.8 µm a metre in place of 1 µm
+    [8e-07]
     """
 
     law: WearLaw
@@ -77,6 +89,13 @@ class Scaled(ModifiedLaw):
     """dh/ds = f r(p), with r another law: any law, times a factor.
 
     Valid where r is; the factor is a fit, for a lubricant, a coating or another test.
+
+    Examples
+    --------
+    >>> local = tribo.LocalConditions(np.array([1e9]), 0.1, tribo.Material(name="100Cr6"))
+    >>> oiled = tribo.Scaled(factor=0.2, law=tribo.Archard(k="1e-15 1/Pa"))
+    >>> oiled.rate(local).depth_rate.round(9).tolist()  # 0.2 µm a metre in place of 1 µm
+    [2e-07]
     """
 
     examples = ({"factor": 0.2, "law": {"type": "archard", "k": "3.11e-16 1/Pa"}},)
