@@ -1,4 +1,4 @@
-"""Show what `benchmarks/moving_contact.py` and `resolved_hour.py` found in an executed page."""
+"""Show what the studies `moving_contact` and `resolved_hour` found in an executed page."""
 
 from __future__ import annotations
 

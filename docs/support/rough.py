@@ -1,4 +1,4 @@
-"""Show what `benchmarks/rough_paper.py` found in an executed page."""
+"""Show what the study `rough_paper` found in an executed page."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Show what `benchmarks/all.py` measured in an executed page."""
+"""Show what `benchmarks.speed.all` measured in an executed page."""
 
 from __future__ import annotations
 

@@ -14,15 +14,16 @@ from sweeps import Inline
 from tribo import sweep
 from tribo.contact import bounded_cg
 
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
+ROOT = Path(__file__).parents[2]
+SCRIPTS = sorted(f"{path.parent.name}.{path.stem}" for path in ROOT.glob("benchmarks/*/*.py"))
 RUNS = {
-    "contact_solve": "--cells 16 32 --peers-up-to 16",
-    "hour": "--cells 32 --duration 200 --time-step 2 --steps 1",
-    "plastic_and_rough": "--plastic-cells 32 --rough-cells 32",
-    "profile_run": "--cells 32 --set kinematics.duration=50 output.save_times=[0]",
-    "time_schemes": "--cells 16 --duration 100 --growth 0.4",
-    "resolved_hour": "--cells 16 --positions 37 --duration 0.2",
-    "resolved_loop": "--cells 16 --positions 37 --duration 0.2 --saves 0.2",
+    "speed.contact_solve": "--cells 16 32 --peers-up-to 16",
+    "speed.hour": "--cells 32 --duration 200 --time-step 2 --steps 1",
+    "speed.plastic_and_rough": "--plastic-cells 32 --rough-cells 32",
+    "speed.profile_run": "--cells 32 --set kinematics.duration=50 output.save_times=[0]",
+    "speed.time_schemes": "--cells 16 --duration 100 --growth 0.4",
+    "studies.resolved_hour": "--cells 16 --positions 37 --duration 0.2",
+    "speed.resolved_loop": "--cells 16 --positions 37 --duration 0.2 --saves 0.2",
 }
 # Warm solves of a loop may stop a little above their tolerance; grids are coarse.
 ERRORS = {"complementarity": 1e-4, "differs": 1e-3, "final_depth_error": 0.05}
@@ -31,12 +32,12 @@ ERRORS = {"complementarity": 1e-4, "differs": 1e-3, "final_depth_error": 0.05}
 @pytest.fixture
 def module(monkeypatch):
     """Return a function that imports a benchmark; each timed action is done once."""
-    monkeypatch.syspath_prepend(BENCHMARKS)
-    common = importlib.import_module("common")
+    monkeypatch.syspath_prepend(ROOT)
+    common = importlib.import_module("benchmarks.lib.common")
     monkeypatch.setattr(common, "LEAST_TURN", 0.0)
     for name in common.BLAS:
         monkeypatch.setenv(name, "1")
-    return importlib.import_module
+    return lambda name: importlib.import_module(f"benchmarks.{name}")
 
 
 @pytest.fixture
@@ -48,7 +49,7 @@ def figures(module, monkeypatch, tmp_path, capsys):
         command = [f"{name}.py", "--json", written, "--repeats", 1, *options]
         monkeypatch.setattr(sys, "argv", [str(word) for word in command])
         measured = module(name)
-        module("common").main(measured.__doc__, measured.add_options, measured.measure)
+        module("lib.common").main(measured.__doc__, measured.add_options, measured.measure)
         found = json.loads(written.read_text(encoding="utf-8"))
         assert set(found) == {"machine", "options", "tables"}
         assert found["machine"]["packages"]["numpy"] == np.__version__
@@ -66,7 +67,7 @@ def figures(module, monkeypatch, tmp_path, capsys):
     return run
 
 
-@pytest.mark.parametrize("name", sorted(path.stem for path in BENCHMARKS.glob("*.py")))
+@pytest.mark.parametrize("name", SCRIPTS)
 def test_each_can_be_imported(module, name):
     module(name)
 
@@ -74,7 +75,7 @@ def test_each_can_be_imported(module, name):
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "options"), RUNS.items())
 def test_what_is_timed_meets_the_judge(figures, module, monkeypatch, name, options):
-    if name == "resolved_hour":
+    if name == "studies.resolved_hour":
         hour = module(name)
         monkeypatch.setattr(hour, "CASES", {"one": hour.CASES["equal coefficients"]})
     for rows in figures(name, *options.split()).values():
@@ -88,7 +89,7 @@ def test_what_is_timed_meets_the_judge(figures, module, monkeypatch, name, optio
 def test_the_efficiency_of_a_sweep_is_measured(module, monkeypatch, capsys):
     monkeypatch.setattr(sys, "argv", ["sweep.py", "--runs", "2", "--cells", "12", "--json"])
     inline = partial(sweep, executor=Inline())
-    measured = module("sweep")
+    measured = module("speed.sweep")
     monkeypatch.setattr(measured, "sweep", lambda *given, jobs: inline(*given))
     short = "kinematics.duration = 20\noutput.save_times = [0]\n[sample]"
     monkeypatch.setattr(measured, "STUDY", measured.STUDY.replace("[sample]", short))
@@ -100,16 +101,15 @@ def test_the_efficiency_of_a_sweep_is_measured(module, monkeypatch, capsys):
 
 
 def test_the_docs_have_what_the_pressure_cap_is_off_by(module, monkeypatch, capsys):
-    cap = module("plastic_cap")
+    cap = module("studies.plastic_cap")
     monkeypatch.setattr(cap, "LOADS", (8, 20))
     cap.main()
-    page = BENCHMARKS.parent / "docs" / "reference" / "models" / "hardness.md"
+    page = ROOT / "docs" / "reference" / "models" / "hardness.md"
     models = page.read_text(encoding="utf-8").splitlines()
     _, _, *rows = capsys.readouterr().out.splitlines()
     assert len(rows) == 2
     assert set(rows) <= set(models)
 
 
-def test_the_walk_ends_where_a_solve_begins(monkeypatch):
-    monkeypatch.syspath_prepend(BENCHMARKS)
-    assert callable(getattr(bounded_cg, importlib.import_module("walk").SOLVE))
+def test_the_walk_ends_where_a_solve_begins(module):
+    assert callable(getattr(bounded_cg, module("studies.walk").SOLVE))

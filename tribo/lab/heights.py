@@ -24,7 +24,7 @@ AROUND = 4.0
 """Width of the Gaussian that weights what lies around a pixel, in pixels."""
 OUTLIER = 6.0
 """Mean deviations by which an outlier lies beyond its neighbours; without outliers 1 of 1.2 million
-pixels of `benchmarks/scar_coverage.py` does, and 9 at 5."""
+pixels of `benchmarks/studies/scar_coverage.py` does, and 9 at 5."""
 
 
 @dataclass(frozen=True)

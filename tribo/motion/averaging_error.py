@@ -47,7 +47,8 @@ def groove_excess(
 
     References
     ----------
-    The runs: ``benchmarks/moving_contact.py``; cylinders: ``tests/motion/test_averaging.py``.
+    The runs: ``benchmarks/studies/moving_contact.py``;
+    cylinders: ``tests/motion/test_averaging.py``.
     """
     excess = 0.0
     if depth > 0:

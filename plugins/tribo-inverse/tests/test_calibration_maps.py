@@ -273,7 +273,7 @@ def test_wrong_maps_are_told(data, words):
 
 
 def test_the_hidden_spot_is_found_and_intervals_cover():
-    """As `benchmarks/hidden_spot.py` wrote it, in the time of fewer than 200 runs."""
+    """As `benchmarks/studies/hidden_spot.py` wrote it, in the time of fewer than 200 runs."""
     spot, shares = (
         json.loads((DATA / name).read_text()) for name in ("hidden_spot.json", "map_coverage.json")
     )

@@ -14,13 +14,12 @@ import statistics
 from collections import Counter
 from collections.abc import Callable
 
-from boxes import own_box, padded, round_trip, traced
-from common import Row, Tables, interleaved, main
-from contact_solve import WINDOWS
-from hour import CASE
-from peers import Tribo, meet
-from problems import ball
-
+from benchmarks.lib.boxes import own_box, padded, round_trip, traced
+from benchmarks.lib.common import Row, Tables, interleaved, main
+from benchmarks.lib.peers import Tribo, meet
+from benchmarks.lib.problems import ball
+from benchmarks.speed.contact_solve import WINDOWS
+from benchmarks.speed.hour import CASE
 from tribo import Simulation, load_case
 
 

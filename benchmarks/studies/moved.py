@@ -3,7 +3,7 @@
 It gives the values that the cases ring_average, stroke_* and groove_excess of `tribo verify`
 expect, extrapolated in the number of passes:
 
-    python benchmarks/moved.py
+    python -m benchmarks.studies.moved
 """
 
 from __future__ import annotations

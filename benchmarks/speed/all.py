@@ -13,10 +13,10 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from common import write
+from benchmarks.lib.common import write
 
-HERE = Path(__file__).parent
-FIGURES = HERE.parent / "docs" / "_data" / "speed.json"
+ROOT = Path(__file__).parents[2]
+FIGURES = ROOT / "docs" / "_data" / "speed.json"
 OPTIONS = {
     "contact_solve": ["--cells", "128", "256", "512", "1024", "--repeats", "3"],
     "hour": [],
@@ -44,8 +44,8 @@ def main() -> None:
     for name in chosen.names or OPTIONS:
         with TemporaryDirectory() as folder:
             figures = Path(folder) / "figures.json"
-            command = [sys.executable, HERE / f"{name}.py", "--json", figures, *OPTIONS[name]]
-            subprocess.run(command, check=True)
+            script = [sys.executable, "-m", f"benchmarks.speed.{name}"]
+            subprocess.run([*script, "--json", figures, *OPTIONS[name]], check=True, cwd=ROOT)
             found[name] = json.loads(figures.read_text(encoding="utf-8"))
         write(chosen.json, found)
 

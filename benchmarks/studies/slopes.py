@@ -1,6 +1,6 @@
 """Slopes of a few values by a few numbers: exact ones, value by value, or differences of runs.
 
-    python benchmarks/slopes.py [cells]
+    python -m benchmarks.studies.slopes [cells]
 
 Of each case it prints CPU times in those of a run: of the run that is gone back through, and of a
 pass back for each value. Then slopes, in per cent for one per cent: exact, and by differences where
@@ -15,7 +15,6 @@ from contextlib import closing
 from time import process_time
 
 import numpy as np
-from gradient_cost import cases
 from tribo_inverse import Depth, Volume
 from tribo_inverse.adjoint.backwards import swept_back
 from tribo_inverse.adjoint.numbers import changed, find
@@ -24,6 +23,7 @@ from tribo_inverse.adjoint.view import View
 from tribo_inverse.calibration.fit import STEP
 from tribo_inverse.recording.tape import Tape, recorded
 
+from benchmarks.studies.gradient_cost import cases
 from tribo import Case, TriboWarning
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation

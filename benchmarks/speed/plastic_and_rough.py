@@ -16,10 +16,10 @@ import argparse
 import statistics
 
 import numpy as np
-from common import Row, Tables, interleaved, main, ratio
-from peers import meet, packages
-from problems import HARDNESS, Contact, ball, rough
 
+from benchmarks.lib.common import Row, Tables, interleaved, main, ratio
+from benchmarks.lib.peers import meet, packages
+from benchmarks.lib.problems import HARDNESS, Contact, ball, rough
 from tribo.registry.registry import default_registry
 
 LOAD = 1000.0

@@ -2,7 +2,7 @@
 
 A worn flat or ball with relief, 96² to 160² pixels; the map after is shifted, turned and tilted:
 
-    python benchmarks/scar_coverage.py docs/_data/scar_coverage.json
+    python -m benchmarks.studies.scar_coverage docs/_data/scar_coverage.json
 """
 
 import json

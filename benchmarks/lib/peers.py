@@ -10,8 +10,8 @@ from importlib.util import find_spec
 from typing import Any, ClassVar
 
 import numpy as np
-from problems import MODULUS, Contact, Verdict, judge
 
+from benchmarks.lib.problems import MODULUS, Contact, Verdict, judge
 from tribo import Array, ContactProblem, ContactSolution, ContactSystem, Grid
 from tribo.registry.registry import default_registry
 

@@ -11,9 +11,8 @@ import signal
 from collections import Counter
 from types import FrameType
 
-from common import Row, Tables, main
-from hour import CASE
-
+from benchmarks.lib.common import Row, Tables, main
+from benchmarks.speed.hour import CASE
 from tribo import Simulation, load_case
 
 INTERVAL = 1e-3

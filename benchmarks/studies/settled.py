@@ -5,7 +5,7 @@ loses particles too. The README of
 tribo-roughening, which must be installed, states the figures. About an hour on one core on 256²
 cells, and five on 512²:
 
-    python benchmarks/settled.py --json docs/_data/settled.json
+    python -m benchmarks.studies.settled --json docs/_data/settled.json
 """
 
 from __future__ import annotations
@@ -15,12 +15,11 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from common import Row, Tables, main
-
+from benchmarks.lib.common import Row, Tables, main
 from tribo import Simulation
 from tribo.lab.roughness import parameters
 
-sys.path.append(str(Path(__file__).parents[1] / "plugins/tribo-roughening/examples"))
+sys.path.append(str(Path(__file__).parents[2] / "plugins/tribo-roughening/examples"))
 STARTS = (100e-9, 20e-9)
 """Sq of the patch before it wears, in m."""
 LOOSE = 1e-5

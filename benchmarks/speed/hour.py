@@ -22,14 +22,14 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from common import Row, Tables, interleaved, main, ratio
-from explicit_loop import Block, blocks, states
-from peers import packages
-from problems import LOAD, WINDOW
 
+from benchmarks.lib.common import Row, Tables, interleaved, main, ratio
+from benchmarks.lib.explicit_loop import Block, blocks, states
+from benchmarks.lib.peers import packages
+from benchmarks.lib.problems import LOAD, WINDOW
 from tribo import Result, Simulation, load_case
 
-CASE = Path(__file__).parents[1] / "examples" / "ball_on_disk.toml"
+CASE = Path(__file__).parents[2] / "examples" / "ball_on_disk.toml"
 DEFAULT, LOOSE, EXPLICIT = "tribo, default", "tribo, loose", "tribo, explicit"
 
 # An independent backward Euler run with increments of at most 0.25 m, on 128² to 192² cells

@@ -18,12 +18,12 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from common import Row, Tables, interleaved, main, ratio
-from explicit_loop import SPEED, WEAR
-from peers import Answer, Package, meet, packages
-from problems import LOAD, MODULUS, Contact, hertz
-from resolved_hour import CASES, paper_case
 
+from benchmarks.lib.common import Row, Tables, interleaved, main, ratio
+from benchmarks.lib.explicit_loop import SPEED, WEAR
+from benchmarks.lib.peers import Answer, Package, meet, packages
+from benchmarks.lib.problems import LOAD, MODULUS, Contact, hertz
+from benchmarks.studies.resolved_hour import CASES, paper_case
 from tribo import Array, Simulation
 from tribo.contact.love import wrapped_kernel
 from tribo.core.contact import ContactSolution

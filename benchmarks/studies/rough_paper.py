@@ -3,7 +3,7 @@
 The page *The paper, with its roughness* shows the figures. They come from a run of some minutes on
 the coarser grid, and about four times as many on the finer:
 
-    python benchmarks/rough_paper.py --json docs/_data/rough_paper.json
+    python -m benchmarks.studies.rough_paper --json docs/_data/rough_paper.json
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from collections.abc import Iterator
 from importlib.resources import files
 
 import numpy as np
-from common import Row, Tables, main
 
 import tribo
+from benchmarks.lib.common import Row, Tables, main
 from tribo import Result, Simulation, TriboWarning, load_case
 from tribo.core.measures import centre
 from tribo.lab.running_in import worn_roughness

@@ -4,7 +4,7 @@ A change begins in one file; those of the same package that it imports, directly
 other, are the files concerned, and what they define or import are the classes to know. Names that
 mean more than one class in the tree come last.
 
-    python benchmarks/classes_to_know.py
+    python -m benchmarks.studies.classes_to_know
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import ast
 from collections import Counter
 from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 CHANGES = {
     "implicit step": "tribo/stepping/implicit.py",
     "result file": "tribo/result/read.py",

@@ -7,7 +7,8 @@ calls, files
     Calls of tribo's own functions in one implicit step of the paper's case, what guards the models
     included and the contact solve left out, and the files that they are in.
 
-Run it with ``python benchmarks/walk.py``; it counts, so it gives the same numbers on any machine.
+Run it with ``python -m benchmarks.studies.walk``; it counts, so it gives the same numbers on any
+machine.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ machine does meanwhile enters. It hardly enters the part of their time that the
 workers spend inside runs, which is the efficiency but for what runs side by
 side cost each other.
 
-Run it with ``python benchmarks/sweep.py [--runs 64] [--cells 64] [--jobs 2] [--json]``.
+Run it with ``python -m benchmarks.speed.sweep [--runs 64] [--cells 64] [--jobs 2] [--json]``.
 """
 
 from __future__ import annotations

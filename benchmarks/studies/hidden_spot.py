@@ -1,17 +1,18 @@
 """A hidden spot that wears less, found from the depth of the scar alone.
 
-    python benchmarks/hidden_spot.py --json docs/_data/hidden_spot.json
+    python -m benchmarks.studies.hidden_spot --json docs/_data/hidden_spot.json
 
 The ball's wear coefficient is lower in one place. Of a run with it only the final depth is known,
 with noise. The factor on the coefficient at each cell is sought that explains it, with a prior by
 which it varies smoothly. With --labs, over many tests on a small grid whose factors are drawn from
 the prior, how often its intervals cover the truth:
 
-    python benchmarks/hidden_spot.py --labs 200 --json docs/_data/map_coverage.json
+    python -m benchmarks.studies.hidden_spot --labs 200 --json docs/_data/map_coverage.json
 
 and with maps that lie off by some 0.1 of a cell, which the fit is not told:
 
-    python benchmarks/hidden_spot.py --labs 100 --off 0.1 --json docs/_data/moved_map_coverage.json
+    python -m benchmarks.studies.hidden_spot --labs 100 --off 0.1
+        --json docs/_data/moved_map_coverage.json
 """
 
 from __future__ import annotations

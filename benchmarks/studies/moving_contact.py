@@ -2,7 +2,7 @@
 
 The page on the paper shows the figures. They come from a run of some minutes:
 
-    python benchmarks/moving_contact.py --json docs/_data/moving_contact.json
+    python -m benchmarks.studies.moving_contact --json docs/_data/moving_contact.json
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from common import Row, Tables, main
-from moved import LOAD, RADIUS, WEAR_COEFFICIENT, on_flat, to_and_fro
 from scipy.optimize import brentq
 
+from benchmarks.lib.common import Row, Tables, main
+from benchmarks.studies.moved import LOAD, RADIUS, WEAR_COEFFICIENT, on_flat, to_and_fro
 from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.contact.dcfft import DcFft
 from tribo.core.arrays import Array

@@ -2,7 +2,7 @@
 
 The page on the paper shows the figures. They come from a run of some minutes:
 
-    python benchmarks/resolved_hour.py --json docs/_data/resolved_hour.json
+    python -m benchmarks.studies.resolved_hour --json docs/_data/resolved_hour.json
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ import tomllib
 from collections.abc import Iterator
 
 import numpy as np
-from common import Row, Tables, main
 
+from benchmarks.lib.common import Row, Tables, main
 from tribo import Grid, Result, Simulation
 from tribo.case import Case, Output
 from tribo.config.load import validate_case

@@ -2,7 +2,7 @@
 
 They give the values that the cases loop_* of `tribo verify` expect:
 
-    python benchmarks/plain_loops.py
+    python -m benchmarks.studies.plain_loops
 """
 
 from __future__ import annotations

@@ -10,9 +10,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TypeVar
 
-from peers import Tribo
-from problems import ball
-
+from benchmarks.lib.peers import Tribo
+from benchmarks.lib.problems import ball
 from tribo import Simulation, load_case
 
 T = TypeVar("T")

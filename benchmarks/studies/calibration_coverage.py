@@ -2,7 +2,7 @@
 
 Each lab weighs balls and disks of tests at two loads, with Archard's law as the forward run:
 
-    python benchmarks/calibration_coverage.py docs/_data/calibration_coverage.json
+    python -m benchmarks.studies.calibration_coverage docs/_data/calibration_coverage.json
 """
 
 import json

@@ -15,14 +15,14 @@ import statistics
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from boxes import padded
-from common import Row, Tables, interleaved, main
-from contact_solve import WINDOWS
-from hour import CASE
-from memory import peak_of_run, peak_of_solve
-from peers import Tribo, meet
-from problems import HARDNESS, Contact, ball
 
+from benchmarks.lib.boxes import padded
+from benchmarks.lib.common import Row, Tables, interleaved, main
+from benchmarks.lib.memory import peak_of_run, peak_of_solve
+from benchmarks.lib.peers import Tribo, meet
+from benchmarks.lib.problems import HARDNESS, Contact, ball
+from benchmarks.speed.contact_solve import WINDOWS
+from benchmarks.speed.hour import CASE
 from tribo import HalfSpace, Simulation, load_case, solve_bounded
 
 DUTY = 1e-8

@@ -1,6 +1,6 @@
 """Coefficients from exact depth maps on coarse grids: what the grid puts them off.
 
-    python benchmarks/map_grids.py [cells ...]
+    python -m benchmarks.studies.map_grids [cells ...]
 
 Each case wears both bodies on a fine grid with short steps, and both maps are fitted on the cells
 named; printed are errors of the coefficients in per cent, marked where an interval does not cover.

@@ -1,6 +1,6 @@
 """The pressure cap against fits to elastic-plastic finite elements: a ball on a rigid flat.
 
-    python benchmarks/plastic_cap.py
+    python -m benchmarks.studies.plastic_cap
 
 It prints the table of docs/reference/models/hardness.md: area, mean pressure and remaining depth of
 a steel ball of 5 mm with H = 2.8 Y = 4 GPa, at multiples of the load of first yield. The fits are

@@ -2,7 +2,7 @@
 
 The page on calibration shows the figures. They come from a run of some minutes:
 
-    python benchmarks/resolved_weights.py --json docs/_data/resolved_weights.json
+    python -m benchmarks.studies.resolved_weights --json docs/_data/resolved_weights.json
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ import warnings
 from importlib.resources import files
 from typing import Any
 
-from common import Row, Tables, main
 from tribo_inverse import calibrate
 
+from benchmarks.lib.common import Row, Tables, main
 from tribo import TriboWarning
 from tribo.config.load import read_toml
 from tribo.config.overrides import apply_settings

@@ -1,7 +1,7 @@
 """What a gradient costs: the time of the run with all derivatives over that of the run alone.
 
-    python benchmarks/gradient_cost.py [cells] [part of a case's name]
-    python benchmarks/gradient_cost.py [cells] memory
+    python -m benchmarks.studies.gradient_cost [cells] [part of a case's name]
+    python -m benchmarks.studies.gradient_cost [cells] memory
 
 Each case is run in turn with and without, three times, and the best of each is taken. Derivatives
 are those in the wear rate and the height at each cell; and these and those in all numbers of the

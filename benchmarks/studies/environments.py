@@ -1,6 +1,6 @@
 """Install the kernel alone, with each package and with all, and try every command there.
 
-    python benchmarks/environments.py [PACKAGE ...]
+    python -m benchmarks.studies.environments [PACKAGE ...]
 
 Each environment is new and empty. Every command shows its help, a small case is made, checked,
 run, shown, drawn, exported and compared, and a package's own tests pass.
@@ -14,7 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 PACKAGES = sorted(path.name for path in (ROOT / "plugins").iterdir() if path.is_dir())
 SMALL = (
     "--set",

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from peers import Answer, Package, meet
-from problems import Contact, Verdict, hertz, judge
-
+from benchmarks.lib.peers import Answer, Package, meet
+from benchmarks.lib.problems import Contact, Verdict, hertz, judge
 from tribo import Array, Result
 
 WEAR, STROKE, SPEED = 3.11e-16, 2e-3, 0.1

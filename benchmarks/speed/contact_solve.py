@@ -15,9 +15,9 @@ from __future__ import annotations
 import argparse
 import statistics
 
-from common import Row, Tables, interleaved, main, ratio
-from peers import Meeting, Package, Tribo, meet, packages
-from problems import WINDOW, ball, tight
+from benchmarks.lib.common import Row, Tables, interleaved, main, ratio
+from benchmarks.lib.peers import Meeting, Package, Tribo, meet, packages
+from benchmarks.lib.problems import WINDOW, ball, tight
 
 WINDOWS = {"2 mm": WINDOW, "4a": tight()}
 
