@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import sys
 from importlib import metadata
@@ -78,6 +79,7 @@ napoleon_use_rtype = False
 def setup(app: Sphinx) -> None:
     """Write the reference pages anew, and bring those of packages, before anything is read."""
     app.connect("builder-inited", lambda _: _prepare())
+    app.connect("source-read", _link_within_the_site)
 
 
 def _prepare() -> None:
@@ -85,3 +87,10 @@ def _prepare() -> None:
     for pages in (DOCS.parent / "plugins").glob("*/docs"):
         shutil.copytree(pages, DOCS, dirs_exist_ok=True)
     shutil.copytree(DOCS.parent / "examples" / "notebooks", DOCS / "notebooks", dirs_exist_ok=True)
+
+
+def _link_within_the_site(app: Sphinx, page: str, source: list[str]) -> None:
+    """Pages link by the paths of the repository; `_prepare` brings those files together."""
+    top = "../" * page.count("/")
+    elsewhere = r"(?:plugins/)?[\w-]+/docs|docs|examples(?=/notebooks/)"
+    source[0] = re.sub(rf"\]\((?:\.\./)+(?:{elsewhere})/", f"]({top}", source[0])

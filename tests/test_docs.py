@@ -1,6 +1,7 @@
-"""Nothing public is undocumented."""
+"""Nothing public is undocumented, and links of pages lead to files."""
 
 import inspect
+import re
 from importlib import import_module
 from pathlib import Path
 
@@ -13,7 +14,13 @@ from tribo.core.table import descriptions
 from tribo.registry import hookspecs
 from tribo.registry.registry import Registry
 
-DOCS = Path(__file__).parents[1] / "docs"
+ROOT = Path(__file__).parents[1]
+DOCS = ROOT / "docs"
+# A build copies these pages into docs/.
+BROUGHT = [*ROOT.glob("plugins/*/docs"), ROOT / "examples"]
+COPIES = {DOCS / page.relative_to(place) for place in BROUGHT for page in place.rglob("*.md")}
+FOLDERS = (DOCS, ROOT / "plugins", ROOT / "examples", ROOT / "benchmarks")
+PAGES = {*ROOT.glob("*.md"), *(page for place in FOLDERS for page in place.rglob("*.md"))}
 BUILT_IN = list(Registry.with_plugins().components.values())
 HOOKS = [name for name in vars(hookspecs) if name.startswith("tribo_")]
 
@@ -64,3 +71,12 @@ def test_every_hook_is_documented_in_a_line_and_on_the_page_on_plugins(hook):
 def test_every_built_in_describes_itself_and_its_parameters(cls: type[Component]):
     assert inspect.getdoc(cls) not in (None, inspect.getdoc(Component))
     assert descriptions(cls).keys() == cls.model_fields.keys()
+
+
+@pytest.mark.parametrize(
+    "page", sorted(PAGES - COPIES), ids=lambda page: str(page.relative_to(ROOT))
+)
+def test_relative_links_of_a_page_lead_to_files(page):
+    text = re.sub(r"^( *)```.*?^\1```|`.*?`", "", page.read_text("utf-8"), flags=re.S | re.M)
+    links = [link for link in re.findall(r"\]\(([^)#]+)", text) if ":" not in link]
+    assert not [link for link in links if not (page.parent / link).exists()]
