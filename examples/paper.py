@@ -1,6 +1,6 @@
 """The paper's one-hour test, simulated, and compared with what is known of it.
 
-Runs `ball_on_disk.toml` as it stands, on a coarser grid with both steppings
+Runs the template `ball_on_disk` as it stands, on a coarser grid with both steppings
 (the paper's is explicit, 0.25 s a step) and on a Winkler foundation, and
 prints the results beside each other. Takes about a minute::
 
@@ -14,10 +14,12 @@ from pathlib import Path
 
 import numpy as np
 
+import tribo.templates
 from tribo import Result, Simulation, load_case
 
-CASE = Path(__file__).with_name("ball_on_disk.toml")
-SPLIT = Path(__file__).with_name("weighed_split.toml")
+TEMPLATES = Path(tribo.templates.__file__).parent
+CASE = TEMPLATES / "ball_on_disk.toml"
+SPLIT = TEMPLATES / "weighed_split.toml"
 
 COARSE = ("grid.cells=64", "grid.size='1.3 mm'")
 IMPLICIT = ("stepping.type=implicit",)

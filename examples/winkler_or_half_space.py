@@ -1,6 +1,6 @@
 """When is a Winkler foundation good enough? The paper's test on springs and on half-spaces.
 
-Runs `ball_on_disk.toml` on elastic half-spaces and on springs matched to
+Runs the template `ball_on_disk` on elastic half-spaces and on springs matched to
 Hertz's first contact in each of the three ways, and prints how far the springs
 are off as the bodies wear. Then the same with a lighter load, a softer steel
 and a ball that wears ten times less. Takes about ten seconds::
@@ -16,10 +16,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import tribo.templates
 from tribo import Comparison, TriboWarning, compare
 from tribo.lab.against_hertz import hertz_contact
 
-CASE = Path(__file__).with_name("ball_on_disk.toml")
+CASE = Path(tribo.templates.__file__).with_name("ball_on_disk.toml")
 HALF_SPACE = "half-space"
 MATCHES = ("contact_radius", "peak_pressure", "approach")
 SAVES = (0, 10, 30, 100, 200, 500, 1500, 3600)

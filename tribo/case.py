@@ -192,7 +192,7 @@ class Case(Table):
 
     Examples
     --------
-    >>> case = tribo.load_case("examples/ball_on_disk.toml")
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml")
     >>> case.kinematics.end_time, case.bodies["ball"].material.hardness  # in s and Pa
     (3600.0, 4000000000.0)
     """
@@ -346,7 +346,7 @@ class Case(Table):
 
         Examples
         --------
-        >>> case = tribo.load_case("examples/ball_on_disk.toml")
+        >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml")
         >>> case.with_values({"load.normal": "50 N", "contact.type": "winkler"}).load.normal
         50.0
         """

@@ -1,6 +1,6 @@
 """The paper's hour: tribo's steps against an explicit loop of 0.25 s on each peer.
 
-tribo runs examples/ball_on_disk.toml at its default tolerances, at loose ones
+tribo runs its template `ball_on_disk` at its default tolerances, at loose ones
 (--loose), and explicitly. The loop is Archard's law for both bodies, the disk's
 averaged over the stroke, on each package's contact solver: warm, at the loosest
 tolerance that a judge finds good to --duty in the first contact. Its hour is
@@ -23,13 +23,14 @@ from pathlib import Path
 
 import numpy as np
 
+import tribo.templates
 from benchmarks.lib.common import Row, Tables, interleaved, main, ratio
 from benchmarks.lib.explicit_loop import Block, blocks, states
 from benchmarks.lib.peers import packages
 from benchmarks.lib.problems import LOAD, WINDOW
 from tribo import Result, Simulation, load_case
 
-CASE = Path(__file__).parents[2] / "examples" / "ball_on_disk.toml"
+CASE = Path(tribo.templates.__file__).with_name("ball_on_disk.toml")
 DEFAULT, LOOSE, EXPLICIT = "tribo, default", "tribo, loose", "tribo, explicit"
 
 # An independent backward Euler run with increments of at most 0.25 m, on 128² to 192² cells

@@ -21,13 +21,14 @@ from typing import Any
 
 import numpy as np
 
+import tribo.templates
 from benchmarks.lib.common import Row, Tables, main
 from tribo import Result, Simulation
 from tribo.config.load import load_case
 from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
 from tribo.core.measures import centre
 
-CASE = Path(__file__).parents[2] / "examples" / "ball_on_disk.toml"
+CASE = Path(tribo.templates.__file__).with_name("ball_on_disk.toml")
 TIGHT = ("depth_tolerance=1e-5", "pressure_tolerance=0.005", "settle=0.001")
 ONSET = 2.0
 """Path in m before which increments do not grow, where wear does not yet shape the contact."""

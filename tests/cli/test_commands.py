@@ -11,7 +11,6 @@ from tribo import load_case
 from tribo.cli.commands import OWN
 from tribo.templates import TEMPLATES, template
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
 CASE = template("ball_on_disk")
 
 
@@ -77,16 +76,13 @@ def test_show_prints_the_table_again(ran):
 
 
 @pytest.mark.parametrize("name", list(TEMPLATES))
-def test_a_template_is_the_example_of_its_name_and_names_the_next_command(tmp_path, name):
+def test_a_template_names_the_next_command(tmp_path, name):
     done = tribo("new", name, "my.toml", cwd=tmp_path)
     assert done.returncode == 0
     command = {"sweep": "tribo sweep ", "weighed": "tribo calibrate CASE "}.get(
         name, "tribo check "
     )
     assert f"then: {command}" in done.stdout
-    text = (tmp_path / "my.toml").read_text(encoding="utf-8")
-    example = EXAMPLES / f"{name}.toml"
-    assert not example.exists() or example.read_text(encoding="utf-8") == text
     if "check" in command:
         load_case(tmp_path / "my.toml")
 

@@ -9,9 +9,8 @@ import pytest
 import sweeps
 from command_line import tribo
 
+from tribo import templates
 from tribo.study.sweeping.sweep import plan
-
-EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +65,7 @@ def test_bad_input_is_one_message(tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == {"case.toml", "study.toml"}
 
 
-def test_the_example_is_valid():
-    runs, paths = plan(EXAMPLES / "sweep.toml", Path("unused"))
+def test_the_template_is_valid():
+    runs, paths = plan(Path(templates.__file__).with_name("sweep.toml"), Path("unused"))
     assert len(runs) == 8
     assert paths == ["contact.type", "load.normal", "bodies.ball.wear.k"]

@@ -52,7 +52,7 @@ def test_a_schema_has_the_descriptions_by_the_keys_that_it_has():
 
 
 def test_a_case_prints_values_in_readable_units_and_leaves_out_defaults():
-    case = load_case("examples/ball_on_disk.toml").with_values({"grid.cells": 64})
+    case = load_case("tribo/templates/ball_on_disk.toml").with_values({"grid.cells": 64})
     lines = str(case).splitlines()
     assert lines[0] == "Case"
     assert "  grid: size [2 mm, 2 mm], cells [64, 64]" in lines

@@ -55,7 +55,6 @@ def odd(chance):
 def valid_cases():
     """All cases that come with tribo."""
     texts = [tribo.templates.template(name) for name in tribo.templates.TEMPLATES]
-    texts += [path.read_text() for path in sorted(ROOT.glob("examples/*.toml"))]
     # Beside cases there are studies and measurements.
     return [case for case in map(tomllib.loads, texts) if {"bodies", "grid"} <= case.keys()]
 

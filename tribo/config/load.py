@@ -47,7 +47,7 @@ def load_case(
 
     Examples
     --------
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides="load.normal=50 N")
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides="load.normal=50 N")
     >>> case.load.normal, case.bodies["ball"].surface.radius
     (50.0, 0.005)
     """

@@ -142,7 +142,7 @@ class TriboWarning(UserWarning):
     >>> coarse = ["grid.cells=16", "contact.type=winkler", "stop.depth=1 um"]
     >>> with warnings.catch_warnings(record=True, category=tribo.TriboWarning) as caught:
     ...     warnings.simplefilter("always")
-    ...     result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    ...     result = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse).run()
     >>> str(caught[0].message).partition(",")[0]
     'resolution: the first contact is only 2.4 cells wide'
     """

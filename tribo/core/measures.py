@@ -71,7 +71,7 @@ class Measures:
     ...     def on_finish(self, snapshot, reason):
     ...         print(f"{1e-6 * snapshot.measures.max_pressure:.0f} MPa")
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> result = case.run(observers=[Peak()])
     2146 MPa
     """

@@ -92,7 +92,8 @@ class State:
     Examples
     --------
     >>> from tribo.kernel_api import begin
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides="contact.type=winkler")
+    >>> springs = "contact.type=winkler"
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=springs)
     >>> state = begin(tribo.Simulation(case).model)
     >>> round(1e6 * state.contact.approach, 1)  # of the first contact, in µm
     2.2
@@ -226,7 +227,7 @@ class RunInfo:
     ...     def on_start(self, run):
     ...         print(f"{run.end_distance:g} m under {run.system.load:g} N")
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> result = case.run(observers=[Plan()])
     360 m under 100 N
     """
@@ -268,7 +269,7 @@ class Snapshot:
     ...         depth = snapshot.measures.bodies["ball"].max_wear_depth
     ...         print(f"{1e6 * depth:.2f} µm at {snapshot.state.time:.1f} s")
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> result = case.run(observers=[Deepest()])
     0.00 µm at 0.0 s
     1.00 µm at 13.2 s

@@ -43,7 +43,7 @@ class InferredVolume(NamedTuple):
     Examples
     --------
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=4 um"]
-    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> result = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse).run()
     >>> flat = result.report().inferred[0]
     >>> flat.standard, flat.method, f"{flat.off} %"  # of the worn volume
     ('ASTM G99', 'flat scar', '+13 %')

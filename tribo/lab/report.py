@@ -46,7 +46,7 @@ class BodyReport(NamedTuple):
     Examples
     --------
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> result = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse).run()
     >>> ball = result.report().bodies["ball"]
     >>> round(ball.specific_wear_rate_mm3_per_Nm, 12), round(1e3 * ball.scar_across_m, 2)
     (3.11e-07, 0.32)
@@ -70,7 +70,7 @@ class FirstContact(NamedTuple):
     Examples
     --------
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> result = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse).run()
     >>> first = result.report().first_contact
     >>> round(first.max_pressure_Pa / first.hertz_peak_pressure_Pa, 2)  # springs against Hertz
     1.31
@@ -94,7 +94,7 @@ class LabReport:
     Examples
     --------
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> result = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse).run()
     >>> report = result.report()
     >>> {name: f"{1e6 * body.mass_kg:.1g} mg" for name, body in report.bodies.items()}
     {'ball': '0.0003 mg', 'disk': '0.0003 mg'}

@@ -18,7 +18,7 @@ class Observer(Component):
     ...     def on_finish(self, snapshot, reason):
     ...         print(reason, "after", round(snapshot.measures.distance, 1), "m")
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> result = case.with_values({"observers": [Bell()]}).run()
     done after 1.3 m
     """

@@ -96,7 +96,7 @@ class Plot:
     Examples
     --------
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> result = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse).run()
     >>> result.plot
     <Plot of the result: history, pressure, profiles, scar, sections, worn_section>
     """

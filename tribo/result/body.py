@@ -37,7 +37,7 @@ class BodyResult:
     Examples
     --------
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> result = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse).run()
     >>> ball = result.body("ball")
     >>> (1e6 * ball.wear_depth.max(axis=(1, 2))).round(2).tolist()  # µm at each saved time
     [0.0, 1.0]

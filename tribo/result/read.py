@@ -57,7 +57,7 @@ class Result:
     Examples
     --------
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> result = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse).run()
     >>> result.status, round(1e-6 * float(result.pressure.sel(time=0).max()))  # at first, in MPa
     ('done', 2815)
     """
@@ -94,7 +94,7 @@ class Result:
         --------
         >>> from tempfile import TemporaryDirectory
         >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-        >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+        >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
         >>> with TemporaryDirectory() as folder:
         ...     case.run(f"{folder}/my.h5").close()
         ...     with tribo.open(f"{folder}/my.h5") as result:

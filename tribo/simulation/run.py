@@ -59,7 +59,7 @@ class Simulation:
     Examples
     --------
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> result = tribo.Simulation(case).run()
     >>> f"1 µm is worn after {result.distances[-1]:.2f} m"
     '1 µm is worn after 1.32 m'

@@ -45,7 +45,7 @@ class Explicit(Scheme):
 
     Examples
     --------
-    >>> case = tribo.load_case("examples/ball_on_disk.toml")
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml")
     >>> case.with_values({"stepping": tribo.Explicit(time_step="20 s")}).run()
     Traceback (most recent call last):
     tribo.core.errors.CaseError: ...the largest stable step is 2.234 s...

@@ -101,7 +101,7 @@ class Implicit(Scheme):
     Examples
     --------
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> for tolerance in (0.01, 0.001):
     ...     run = case.with_values({"stepping": tribo.Implicit(depth_tolerance=tolerance)}).run()
     ...     print(f"{run.distances[-1]:.2f} m")  # until a depth of 1 µm

@@ -54,7 +54,7 @@ class Check:
     Examples
     --------
     >>> coarse = ["grid.cells=16", "contact.type=winkler", "stop.depth=1 um"]
-    >>> check = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).check()
+    >>> check = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse).check()
     >>> [problem.kind for problem in check.problems], check.exit_code  # a run would only warn
     (['resolution'], 0)
     """

@@ -51,7 +51,7 @@ class Comparison:
     Examples
     --------
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> with tribo.compare(case, {"load.normal": ["50 N", "100 N"]}) as loads:
     ...     {label: f"{result.distances[-1]:.1f} m" for label, result in loads.results.items()}
     {'50 N': '1.8 m', '100 N': '1.3 m'}
@@ -273,7 +273,7 @@ def compare(
     Examples
     --------
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> tribo.compare(case, {"bodies.ball.surface.radius": ["5 mm", "10 mm"]})
     <Comparison of 5 mm, 10 mm>
     """

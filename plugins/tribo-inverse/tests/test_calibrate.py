@@ -17,7 +17,6 @@ from tribo.core.errors import CaseError
 
 from tribo_inverse.tables import estimates_table
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
 QUICK = ["--set", "grid.cells=24", "--set", "contact.type=winkler"]
 COARSE = ["--set", "stepping.depth_tolerance=1e-2", "--set", "stepping.pressure_tolerance=0.3"]
 WEIGHED = ["calibrate", "weighed_split.toml", "--measured", "weighed.toml", *QUICK, *COARSE]
@@ -26,10 +25,19 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
-def asked():
+def weighed(tmp_path_factory):
+    """Return a folder with the case and the data of the templates."""
+    folder = tmp_path_factory.mktemp("weighed")
+    for name in ("weighed_split", "weighed"):
+        assert tribo("new", name, f"{name}.toml", cwd=folder).returncode == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def asked(weighed):
     """Return how the command ends with more options, in one process that makes no run twice."""
     with kept_runs(), pytest.MonkeyPatch.context() as patch:
-        patch.chdir(EXAMPLES)
+        patch.chdir(weighed)
         yield lambda *options: CliRunner().invoke(main, [*WEIGHED, *options])
 
 
@@ -100,23 +108,23 @@ def test_the_fitted_case_is_written_to_run(asked, tmp_path):
     assert "run 1" not in again.stderr
 
 
-def test_bad_input_is_one_message(tmp_path):
+def test_bad_input_is_one_message(tmp_path, weighed):
     file = tmp_path / "wrong.toml"
     file.write_text('[[measured]]\nbody = "ball"\nquantity = "mass"\nvalue = "2 mm"\n')
-    ran = tribo("calibrate", "weighed_split.toml", "--measured", file, cwd=EXAMPLES)
+    ran = tribo("calibrate", "weighed_split.toml", "--measured", file, cwd=weighed)
     assert ran.returncode == 2
     assert ran.stderr.startswith("error: measured.0.value: '2 mm' is a length [m]")
     assert len(ran.stderr.splitlines()) == 1
 
 
 @pytest.mark.parametrize("more", [["--plan", "0.1"], ["twin.toml"]])
-def test_local_coefficients_are_one_case_and_no_plan(tmp_path, monkeypatch, more):
+def test_local_coefficients_are_one_case_and_no_plan(tmp_path, monkeypatch, weighed, more):
     monkeypatch.chdir(tmp_path)
     entry = {"body": '"disk"', "depth": '"d.npy"', "uncertainty": "1e-9", "length": "1e-4"}
     table = "\n".join(f"{key} = {value}" for key, value in entry.items())
     Path("mapped.toml").write_text(f"[[map]]\n{table}\n")
     for name in ("case.toml", "twin.toml"):
-        Path(name).write_text((EXAMPLES / "weighed_split.toml").read_text())
+        Path(name).write_text((weighed / "weighed_split.toml").read_text())
     ended = CliRunner().invoke(main, ["calibrate", "case.toml", "--measured", "mapped.toml", *more])
     assert str(ended.exception) == (
         "local coefficients, [[map]], are fitted in one case, without --plan"

@@ -24,7 +24,7 @@ class Run:
     Examples
     --------
     >>> from pathlib import Path
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides="load.normal=50 N")
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides="load.normal=50 N")
     >>> run = tribo.Run(2, "load.normal = 50 N", case, Path("results/2.h5"))
     >>> run.case.load.normal
     50.0

@@ -51,7 +51,7 @@ class Sweep:
     >>> from concurrent.futures import ThreadPoolExecutor
     >>> from tempfile import TemporaryDirectory
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> study = {"case": case, "grid": {"load.normal": ["50 N", "100 N"]}}
     >>> with TemporaryDirectory() as folder, ThreadPoolExecutor(1) as workers:
     ...     swept = tribo.sweep(study, folder, executor=workers)
@@ -134,7 +134,7 @@ def sweep(
     >>> from concurrent.futures import ThreadPoolExecutor
     >>> from tempfile import TemporaryDirectory
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> study = {"case": case, "grid": {"bodies.ball.wear.k": [1e-16, 1e-15]}}
     >>> with TemporaryDirectory() as folder, ThreadPoolExecutor(1) as workers:
     ...     tribo.sweep(study, folder, executor=workers).table["distance_m"].round(1).tolist()

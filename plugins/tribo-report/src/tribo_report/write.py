@@ -63,7 +63,7 @@ def write_report(
     >>> from tempfile import TemporaryDirectory
     >>> from tribo_report import write_report
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> result = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse).run()
+    >>> result = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse).run()
     >>> with TemporaryDirectory() as folder:
     ...     write_report(result, Path(folder, "report.html")).stat().st_size < 4e6
     True

@@ -52,7 +52,7 @@ class Gradient:
     --------
     >>> from tribo_inverse import EndTime, gradient
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> life = gradient(case, EndTime(), ["bodies.ball.surface.radius", "kinematics.frequency"])
     >>> {path: round(percent, 1) for path, percent in life.relative.items()}  # for 1 % each
     {'bodies.ball.surface.radius': 0.7, 'kinematics.frequency': -1.0}
@@ -127,7 +127,7 @@ def gradient(
     --------
     >>> from tribo_inverse import Volume, gradient
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> round(gradient(case, Volume("ball"), ["stop.depth"]).relative["stop.depth"], 1)  # % for 1 %
     1.2
     """
@@ -319,7 +319,7 @@ def value_and_gradient(
     --------
     >>> from tribo_inverse import EndDistance, value_and_gradient
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> fit = value_and_gradient(case, EndDistance(), ["bodies.*.wear.k"])
     >>> distance, slope = fit(fit.start)
     >>> round(distance, 2), slope.round(2).tolist()  # half of it for twice k

@@ -23,7 +23,7 @@ class Volume:
     --------
     >>> from tribo_inverse import Volume, gradient
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> round(1e9 * gradient(case, Volume("ball"), ["stop.depth"]).value, 6)  # in mm³
     4.1e-05
     """
@@ -57,7 +57,7 @@ class Depth:
     --------
     >>> from tribo_inverse import Depth, gradient
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> found = gradient(case, Depth("ball", x=1e-4), ["stop.depth"])
     >>> round(1e6 * found.value, 2)  # in µm, where 1 µm is worn in the middle
     0.52
@@ -93,7 +93,7 @@ class Deepest:
     --------
     >>> from tribo_inverse import Deepest, gradient
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> round(1e6 * gradient(case, Deepest("ball", order=10), ["stop.depth"]).value, 2)  # of 1 µm
     0.93
     """
@@ -137,7 +137,7 @@ class Width:
     --------
     >>> from tribo_inverse import Width, gradient
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> round(1e3 * gradient(case, Width("ball"), ["stop.depth"]).value, 2)  # in mm, across
     0.32
     """
@@ -193,7 +193,7 @@ class Misfit:
     --------
     >>> from tribo_inverse import Misfit, gradient
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> measured = case.run().body("ball").wear_depth[-1]
     >>> gradient(case, Misfit("ball", measured), ["stop.depth"]).value < 1e-24  # it is what it fits
     True
@@ -242,7 +242,7 @@ class Pressure:
     --------
     >>> from tribo_inverse import Pressure, gradient
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> middle = gradient(case, Pressure(), ["load.normal"])
     >>> round(1e-6 * middle.value), round(middle.relative["load.normal"], 2)  # MPa, % for 1 %
     (2146, 0.55)
@@ -274,7 +274,7 @@ class EndTime:
     --------
     >>> from tribo_inverse import EndTime, gradient
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> round(gradient(case, EndTime(), ["load.normal"]).relative["load.normal"], 2)  # % for 1 %
     -0.45
     """
@@ -298,7 +298,7 @@ class EndDistance:
     --------
     >>> from tribo_inverse import EndDistance, gradient
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> round(gradient(case, EndDistance(), ["load.normal"]).value, 2)  # in m, until 1 µm is worn
     1.32
     """

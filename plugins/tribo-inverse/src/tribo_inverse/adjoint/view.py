@@ -31,7 +31,7 @@ class View:
     ...     wear = view.wear("ball")
     ...     return float(wear.mean()), Seeds({"ball": np.full_like(wear, 1 / wear.size)})
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> round(1e9 * gradient(case, mean_depth, ["stop.depth"]).value, 1)  # in nm, over the window
     10.3
     """

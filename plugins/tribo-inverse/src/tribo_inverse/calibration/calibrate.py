@@ -52,7 +52,7 @@ class Calibration:
     --------
     >>> from tribo_inverse import calibrate
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "output={}", "kinematics.duration=2"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> mass = {"body": "ball", "quantity": "mass", "value": "0.2 ug", "uncertainty": "10 ng"}
     >>> found = calibrate(case, {"measured": [mass], "fit": [{"path": "bodies.ball.wear.k"}]})
     >>> k = found.parameters.iloc[0]
@@ -187,7 +187,7 @@ def calibrate(
     --------
     >>> from tribo_inverse import calibrate
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "output={}", "kinematics.duration=2"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> mass = {"body": "ball", "quantity": "mass", "value": "0.2 ug", "uncertainty": "10 ng"}
     >>> found = calibrate(case, {"measured": [mass], "fit": [{"path": "bodies.ball.wear.k"}]})
     >>> {path: f"{k:.3g} 1/Pa" for path, k in found.settings.items()}  # by 100 N over 0.2 m

@@ -100,7 +100,7 @@ def choose_case(
     --------
     >>> from tribo_inverse import choose_case
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "output={}", "kinematics.duration=2"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> cases = {"5 mm": case, "10 mm": case.with_values({"bodies.ball.surface.radius": "10 mm"})}
     >>> mass = {"body": "ball", "quantity": "mass", "value": "0.05 ug", "uncertainty": "5 ng"}
     >>> scar = {"body": "ball", "quantity": "scar_across", "value": "0.3 mm", "uncertainty": "5 um"}

@@ -32,7 +32,7 @@ class Plan:
     --------
     >>> from tribo_inverse import plan_tests
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "output={}", "kinematics.duration=2"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> mass = {"body": "ball", "quantity": "mass", "uncertainty": "10 ng"}
     >>> asked = {"measured": [mass], "fit": [{"path": "bodies.ball.wear.k"}], "repeatability": 0.2}
     >>> plan = plan_tests(case, asked, within=0.2)
@@ -99,7 +99,7 @@ def plan_tests(
     --------
     >>> from tribo_inverse import plan_tests
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "output={}", "kinematics.duration=2"]
-    >>> case = tribo.load_case("examples/ball_on_disk.toml", overrides=coarse)
+    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
     >>> mass = {"body": "ball", "quantity": "mass", "uncertainty": "10 ng"}
     >>> asked = {"measured": [mass], "fit": [{"path": "bodies.ball.wear.k"}], "repeatability": 0.1}
     >>> plan_tests(case, asked, within=0.2).tests["count"].tolist()  # for k within 20 %
