@@ -9,6 +9,7 @@ import tomllib
 import pytest
 from scaffold.plugins_of_each_kind import NAMES
 
+from tribo.core.distributions import lacking
 from tribo.core.errors import CaseError
 from tribo.registry.kinds import KINDS
 from tribo.scaffold import plugin_names, write_plugin
@@ -38,7 +39,8 @@ def test_it_is_a_complete_distribution(kind, name, tmp_path):
     project = tomllib.loads((folder / "pyproject.toml").read_text())["project"]
     assert project["name"] == name
     assert not re.match("A [aeiou]", project["description"])
-    assert "tribo>=0.2" in project["dependencies"]
+    assert project["dependencies"][0] == "tribo>=0.2.dev0"
+    assert not lacking("tribo>=0.2.dev0")
     assert project["entry-points"] == {"tribo.2": {names["component"]: package}}
     assert (folder / "example.toml").read_text().strip() in (folder / "README.md").read_text()
     assert "${{ matrix.python }}" in (folder / ".github/workflows/ci.yml").read_text()
