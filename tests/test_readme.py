@@ -3,6 +3,8 @@
 import re
 import subprocess
 import sys
+import tomllib
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -47,11 +49,10 @@ def test_its_commands_print_its_table(tmp_path, monkeypatch):
 @pytest.mark.filterwarnings("ignore:(positions|resolution)")
 def test_its_python_runs_and_its_law_serves_in_a_case_file(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.syspath_prepend(tmp_path)
-    law, script = _blocks("python")
+    script, law = _blocks("python")
     Path("law.py").write_text(law)
     # The same case averaged: the law is the subject.
-    script = script.replace("duration=10 * minute", 'duration=10 * minute, positions="average"')
+    script = script.replace('"10 min"', '"10 min", positions="average"')
     exec(compile(script, "README.md", "exec"), {"__name__": "readme"})
     assert "Wear after 60 m" in capsys.readouterr().out
 
@@ -73,3 +74,15 @@ def test_its_pictures_are_small():
 def test_its_links_lead_somewhere():
     for place in re.findall(r"\]\(([^)#]+)", README):
         assert (ROOT / place).exists(), place
+
+
+def test_its_links_lead_to_the_repository_on_a_package_index(monkeypatch):
+    monkeypatch.syspath_prepend(ROOT)
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    import_module("hatch_build").ReadmeLinks(str(ROOT), {}).update(project)
+    links = re.findall(r"\]\(([^)#]+)", project["readme"]["text"])
+    assert len(links) == len(re.findall(r"\]\(", README))
+    for link in links:
+        place = re.sub(rf"^{project['urls']['Repository']}/(raw|blob)/main/", "", link)
+        assert place != link
+        assert (ROOT / place).exists()
