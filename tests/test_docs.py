@@ -1,4 +1,4 @@
-"""Nothing public is undocumented, and links of pages lead to files."""
+"""Nothing public is undocumented; links of pages lead to files; the site is short."""
 
 import inspect
 import re
@@ -80,3 +80,18 @@ def test_relative_links_of_a_page_lead_to_files(page):
     text = re.sub(r"^( *)```.*?^\1```|`.*?`", "", page.read_text("utf-8"), flags=re.S | re.M)
     links = [link for link in re.findall(r"\]\(([^)#]+)", text) if ":" not in link]
     assert not [link for link in links if not (page.parent / link).exists()]
+
+
+def test_the_site_is_short():
+    site = (page for page in PAGES - COPIES if "docs" in page.relative_to(ROOT).parts)
+    written = {page for page in site if not {"_generated", "_build"} & {*page.parts}}
+    counts = {page: words(page) for page in written if page.name != "plugin_api.md"}
+    assert max(counts.values()) <= 2000
+    assert 20_000 < sum(counts.values()) <= 30_000
+
+
+def words(page):
+    """Return the number of words of a page, with its tables but without code and addresses."""
+    text = re.sub(r"\A---\n.*?^---\n", "", page.read_text("utf-8"), flags=re.S | re.M)
+    text = re.sub(r"^( *)```.*?^\1```|\]\([^)]*\)", "", text, flags=re.S | re.M)
+    return len(text.split())
