@@ -1,14 +1,14 @@
-"""What every test compares by, on how many threads, and that none waits for a disk."""
+"""Settings of every test: one thread, no waiting for a disk, and a strict `pytest.approx`."""
 
 import os
 
-# Before NumPy is imported: of small matrices, threads that wait for each other take the time.
+# Set before NumPy is imported. On small matrices more threads mostly wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 import pytest
 
-# What a crash may leave is worked out from the calls, not tried on a disk.
+# Tests of crashes read the recorded calls, so that no test needs the disk to be synchronised.
 os.fsync = lambda file: None
 
 _approx = pytest.approx
