@@ -79,7 +79,7 @@ def test_each_mistake_is_a_line(path):
         load_case(path, overrides=["bodies.ball.material.young=-1", "contact.tolerence=1"])
     lines = str(caught.value).splitlines()
     assert caught.value.path == "contact.tolerence"
-    assert lines[0].startswith("contact.tolerence: unknown key 'tolerence'; did you mean")
+    assert lines[0].startswith("contact.tolerence: unknown key; did you mean")
     assert lines[1:] == ["bodies.ball.material.young: -1 Pa: must be greater than 0"]
 
 
@@ -102,3 +102,21 @@ def test_a_default_type_need_not_be_named():
     data["contact"] = {"tolerance": 1e-7}
     case = validate_case(data)
     assert (case.stepping.type, case.contact.type) == ("implicit", "dcfft")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "place"),
+    [
+        ({"output": {"stop": {"distance": "1 m"}}}, "above the first table"),
+        ({"output": {"begin": "former.h5"}}, "above the first table"),
+        ({"stepping": {"time_step": 1}}, "stepping of type 'explicit'"),
+        ({"grid": {"stroke": "1 mm"}}, "kinematics of type 'reciprocating'"),
+        ({"output": {"young": "210 GPa"}}, "bodies.NAME.material"),
+    ],
+)
+def test_a_key_in_a_wrong_table_is_sent_to_its_own(wrong, place):
+    case = tomllib.loads(template("ball_on_disk"))
+    (name,) = wrong
+    with pytest.raises(CaseError) as caught:
+        validate_case({**case, name: {**case[name], **wrong[name]}})
+    assert place in str(caught.value)

@@ -21,6 +21,9 @@ Poisson = Annotated[float, Quantity("1", above=-1, below=0.5, usual=(0, 0.5))]
 """Poisson's ratio; below 0 only foams and lattices made for it."""
 
 
+NEEDED = "a name that 'tribo materials' lists, or a table with young and poisson,"
+
+
 class Material(Table):
     """An isotropic material; elastic, or elastic-perfectly-plastic with a hardness.
 
@@ -44,6 +47,11 @@ class Material(Table):
     """Specific heat capacity."""
     properties: dict[str, Any] | None = None
     """Further properties by name, as models of the case declare them."""
+
+    @classmethod
+    def hint(cls, info: object) -> str:
+        """Return what it needs, as the end of a message."""
+        return f"{NEEDED} is needed"
 
     @model_validator(mode="before")
     @classmethod
