@@ -191,7 +191,7 @@ def components(table: BaseModel) -> Iterator[tuple[str, Component]]:
         if isinstance(value, Mapping):
             parts = {f"{name}.{key}": part for key, part in value.items()}
         elif isinstance(value, tuple | list):
-            parts = {f"{name}.{at}": part for at, part in enumerate(value)}
+            parts = {f"{name}.{at}": part for at, part in enumerate(value, 1)}
         for place, part in parts.items():
             if isinstance(part, Component):
                 yield place, part

@@ -36,12 +36,12 @@ BLEND = {"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}
     [
         # Unknown keys, at each depth.
         ({"bodies": {}, "obsrevers": []}, "obsrevers", "did you mean 'observers'? Allowed: bodies"),
-        (ball(wear=BLEND), "bodies.ball.wear.parts.1.zzz", "unknown key. Allowed: type, k"),
+        (ball(wear=BLEND), "bodies.ball.wear.parts.2.zzz", "unknown key. Allowed: type, k"),
         ({"bodies": {}, "stepping": {"type": "fast", "limt": 2}}, "stepping.limt", "'limit'?"),
         # Missing ones.
         (ball(material={"poisson": 0.3}), "bodies.ball.material.young", f"missing; {PRESSURE}"),
         (ball(wear="linear"), "bodies.ball.wear.k", "as in '1e-6 mm^3/(N m)'"),
-        ({"bodies": {}, "cells": [8]}, "cells.1", "missing"),
+        ({"bodies": {}, "cells": [8]}, "cells.2", "missing"),
         # A misspelt key is one mistake, not an unknown key and a missing one.
         (ball(material={"yuong": 1e9, "poisson": 0.3}), "bodies.ball.material.yuong", "'young'?"),
         # Types.
@@ -58,7 +58,7 @@ BLEND = {"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}
         ({"bodies": {}, "verbose": "maybe"}, "verbose", "true or false is needed"),
         (
             {"bodies": {}, "observers": [{"type": "counter", "every": 0}]},
-            "observers.0.every",
+            "observers.1.every",
             "0: must be at least 1",
         ),
         (3, "", "a table is needed, 3 was given"),

@@ -111,7 +111,9 @@ def case_error(error: ValidationError) -> WrongValues:
     """
     lines: dict[str, list[str]] = {}
     for details in sorted(error.errors(), key=lambda details: details["type"] != UNKNOWN):
-        texts = lines.setdefault(path(details["loc"]), [])
+        # Entries of a list count from 1.
+        keys = (key + 1 if isinstance(key, int) else key for key in details["loc"])
+        texts = lines.setdefault(path(tuple(keys)), [])
         text = message(details)
         if text not in texts:
             texts.append(text)
@@ -128,7 +130,7 @@ def _either(texts: Sequence[str]) -> str:
 
 
 def path(keys: tuple[str | int, ...]) -> str:
-    """Return the place in a case to which keys and indices lead, as ``effects.1.type``."""
+    """Return the place in a case to which keys and indices lead, as ``effects.2.type``."""
     return ".".join(
         key if key.replace("_", "").replace("-", "").isalnum() else f'"{key}"'
         for key in map(str, keys)

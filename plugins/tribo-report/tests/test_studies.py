@@ -33,7 +33,7 @@ MEASURED = {
     "quantity": "mass",
     "time_s": None,
     "position_m": None,
-    "place": "measured.0",
+    "place": "measured.1",
     "unit": "kg",
     "measured": 2e-6,
     "below": False,

@@ -92,7 +92,7 @@ def _validated(data: dict[str, Any]) -> Study:
         if key in data:
             data[key] = by_path(data[key], key)
     if isinstance(data.get("list"), list):
-        data["list"] = [by_path(point, f"list.{i}") for i, point in enumerate(data["list"])]
+        data["list"] = [by_path(point, f"list.{i}") for i, point in enumerate(data["list"], 1)]
     sample = data.get("sample")
     if isinstance(sample, dict) and "ranges" in sample:
         sample["ranges"] = by_path(sample["ranges"], "sample.ranges")

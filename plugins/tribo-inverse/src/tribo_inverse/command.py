@@ -140,7 +140,7 @@ def _fit_local(
     from tribo_inverse.map_tables import check_free, maps_json, print_maps, write_maps
 
     check_free(output, force)
-    mapped = {f"map.{i}": entry for i, entry in enumerate(measurements.map)}
+    mapped = {f"map.{i}": entry for i, entry in enumerate(measurements.map, 1)}
     found = calibrate_maps(tables, mapped, on_run=_print_pass)
     if as_json:
         echo_json(maps_json(found, level))

@@ -31,7 +31,7 @@ def find_parameters(
     case: Case, fit: Sequence[FitEntry], measured: Collection[str]
 ) -> list[Parameter]:
     """Return the parameters in `fit`, or by default the k of each body in `measured`."""
-    asked = [(f"fit.{i}", entry) for i, entry in enumerate(fit)]
+    asked = [(f"fit.{i}", entry) for i, entry in enumerate(fit, 1)]
     if not fit:
         of_bodies = [f"bodies.{name}.wear.k" for name in case.bodies if name in measured]
         asked = [("fit", FitEntry(path=path)) for path in of_bodies if is_number(case, path)]
