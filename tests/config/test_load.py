@@ -80,7 +80,7 @@ def test_each_mistake_is_a_line(path):
     lines = str(caught.value).splitlines()
     assert caught.value.path == "contact.tolerence"
     assert lines[0].startswith("contact.tolerence: unknown key; did you mean")
-    assert lines[1:] == ["bodies.ball.material.young: -1 Pa: must be greater than 0"]
+    assert lines[1:] == ["bodies.ball.material.young: -1 Pa: must be greater than 0, as in '2 GPa'"]
 
 
 @pytest.mark.parametrize(

@@ -107,7 +107,7 @@ def test_a_bound_beyond_that_of_the_number_itself_is_told():
     law = {"type": "power", "k": 3e-16, "p_exponent": 1.5, "reference_pressure": "1 GPa"}
     fit = {"path": "bodies.ball.wear.p_exponent", "lower": 0.8}
     text = refused(GOOD, fit=[fit], case=apply_settings(CASE, {"bodies.ball.wear": law}))
-    assert text == "fit.1.lower: 0.8: must be at least 1"
+    assert text.startswith("fit.1.lower: 0.8: must be at least 1")
 
 
 @pytest.mark.parametrize(

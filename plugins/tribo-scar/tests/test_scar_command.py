@@ -53,7 +53,7 @@ def test_the_command_measures_and_draws(tmp_path):
         ([], "1 file is given; give the maps before and after"),
         (["a.npy", "a.npy"], "3 files are given"),
         (["--ideal", "flat", "--pitch", "5"], r"--pitch: .*no unit"),
-        (["--ideal", "flat", "--pitch", "5 mm"], r"--pitch: 5 mm: must be at most 0\.001 m"),
+        (["--ideal", "flat", "--pitch", "5 mm"], r"--pitch: 5 mm: must be .*at most 1 mm"),
         (["--ideal", "sphere"], "--ideal radius: missing"),
         (["-o", "none/scar.png"], "there is no folder none; make it first"),
         (["--ideal", "flat", "-o", "./a.npy"], r"--output: a\.npy is a measured map; give another"),

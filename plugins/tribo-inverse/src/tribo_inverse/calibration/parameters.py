@@ -97,7 +97,7 @@ def _number(case: Case, keys: tuple[str, ...]) -> tuple[float, Quantity]:
 def _bounded(place: str, entry: FitEntry, value: float, mark: Quantity) -> Parameter:
     """Return a parameter with the bounds given, within the bounds of its field."""
     above = max(mark.above or 0.0, 0.0)
-    positive = replace(mark, above=above)
+    positive = mark if mark.at_least else replace(mark, above=above)
 
     def read(name: str, given: float | str | None, default: float) -> float:
         with located(f"{place}.{name}"):
