@@ -36,6 +36,21 @@ def test_content_that_is_not_toml(tmp_path, content, message):
     assert "\n" not in str(caught.value)
 
 
+def test_a_case_is_read_from_its_tables_too(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(template("ball_on_disk"))
+    assert load_case(tomllib.loads(path.read_text())) == load_case(path)
+    with pytest.raises(CaseError, match="3 is not the name"):
+        load_case(3)
+
+
+@pytest.mark.parametrize("cells", [0, 3, [256, 16385]])
+def test_a_number_of_cells_has_limits(cells):
+    case = tomllib.loads(template("ball_on_disk"))
+    with pytest.raises(CaseError, match=r"grid\.cells: .* from 4 to 16384"):
+        validate_case({**case, "grid": {**case["grid"], "cells": cells}})
+
+
 def test_a_file_that_cannot_be_opened(tmp_path):
     with pytest.raises(CaseError, match="there is no such file"):
         read_toml(tmp_path / "case.toml")
