@@ -126,6 +126,7 @@ def _changed(inside: Any, keys: list[str], value: Any, above: tuple[str, ...] = 
         raise CaseError("is not a table; nothing in it can be set", ".".join(above))
     at = int(key) - 1 if key.isascii() and key.isdigit() else -1
     if not 0 <= at < len(inside):
-        allowed = f"1 to {len(inside)}" if inside else "none, the list is empty; set it as a whole"
-        raise CaseError(f"{key!r} is no entry of this list; allowed: {allowed}", ".".join(above))
+        place = ".".join(above)
+        allowed = f"1 to {len(inside)}" if inside else f"none; set all of it, as {place}=[…]"
+        raise CaseError(f"{key!r} is no entry of this list; allowed: {allowed}", place)
     return [*inside[:at], _changed(inside[at], rest, value, (*above, key)), *inside[at + 1 :]]

@@ -55,7 +55,7 @@ def test_the_command_measures_and_draws(tmp_path):
         (["--ideal", "flat", "--pitch", "5"], r"--pitch: .*no unit"),
         (["--ideal", "flat", "--pitch", "5 mm"], r"--pitch: 5 mm: must be .*at most 1 mm"),
         (["--ideal", "sphere"], "--ideal radius: missing"),
-        (["-o", "none/scar.png"], "there is no folder none; make it first"),
+        (["-o", "none/scar.png"], "there is no folder none; make it with: mkdir none"),
         (["--ideal", "flat", "-o", "./a.npy"], r"--output: a\.npy is a measured map; give another"),
         (["--ideal", '{ type = "sphere" r'], r"--ideal unknown surface '{ type = \"sphere\" r'"),
     ],
