@@ -30,7 +30,7 @@ def test_the_command_measures_and_draws(tmp_path):
         volume, rel=0.01, abs=0
     )
     assert "flat scar (ASTM G99)" in done.output
-    shift = float(done.output.split("in the map after, µm")[1].split()[0])
+    shift = float(done.output.split("of the map after along x, µm")[1].split()[0])
     assert shift == pytest.approx(seen()[0], abs=0.1)
     assert picture.stat().st_size > 10_000
     assert done.output.count("Wrote ") == 2
@@ -43,7 +43,7 @@ def test_the_command_measures_and_draws(tmp_path):
     told = CliRunner().invoke(command, ideal, catch_exceptions=False)
     assert '"volume_uncertainty_m3"' in told.output
     assert json.loads(told.output)["cut_off"] is False
-    with pytest.raises(CaseError, match="has heights and no scale; give the distance"):
+    with pytest.raises(CaseError, match=r"has heights and no scale; .*--pitch"):
         CliRunner().invoke(command, files, catch_exceptions=False)
 
 
