@@ -19,7 +19,11 @@ OWN = ("csv", "xlsx")
 @RESULT
 @click.option("-d", "--directory", type=PATH, help="Write to a folder, by default OUTPUT-FORMAT.")
 @click.option(
-    "--format", "name", default="csv", show_default=True, help="csv, xlsx, or a plugin's format."
+    "--format",
+    "name",
+    default="csv",
+    show_default=True,
+    help="Write csv, xlsx, or a plugin's format.",
 )
 @click.option("--columns", metavar="A,B,…", help="Write these columns of lab.csv alone.")
 def export(output: Path, directory: Path | None, name: str, columns: str | None) -> None:

@@ -12,7 +12,7 @@ from tribo.core.errors import CaseError
 
 @click.command()
 @click.argument("name", required=False)
-@click.option("--json", "as_json", is_flag=True, help="Print JSON, in the sources' units.")
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON object, in the sources' units.")
 def materials(name: str | None, as_json: bool) -> None:
     """List the materials that a case may name, or the numbers of NAME with their sources.
 

@@ -31,17 +31,26 @@ MOST_DIGITS = 6
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=PATH, metavar="[BEFORE] AFTER")
-@click.option("--ideal", metavar="SURFACE", help="Shape before the test, as in a case.")
-@click.option("--pitch", multiple=True, metavar="LENGTH", help="Pixel pitch; twice for x, y.")
-@click.option("--radius", metavar="LENGTH", help="Radius of the ball, for formulas.")
-@click.option("--track-length", metavar="LENGTH", help="Track length; by default the map's.")
-@click.option("--form", type=int, default=1, help="Form removed: 1 tilt, 2 curvature too.")
+@click.option("--ideal", metavar="SURFACE", help="Take this shape before the test, as in a case.")
+@click.option(
+    "--pitch",
+    multiple=True,
+    metavar="LENGTH",
+    help="Take this distance of pixels; give it twice for x and y.",
+)
+@click.option("--radius", metavar="LENGTH", help="Use formulas for a ball of this radius.")
+@click.option(
+    "--track-length", metavar="LENGTH", help="Take a track of this length, by default the map's."
+)
+@click.option(
+    "--form", type=int, default=1, help="Remove this form: 1 for tilt, 2 for curvature too."
+)
 @click.option(
     "-o",
     "--output",
     multiple=True,
     type=PATH,
-    help="Picture to write, as scar.png, or the depth map, as depth.npy; several times for both.",
+    help="Write a picture, as scar.png, or the depth map, as depth.npy; may be repeated.",
 )
 @JSON
 def scar(
