@@ -15,6 +15,7 @@ shorthand.PLACES |= {
     "case": "tribo.config.load:validate_case",
     "changed": "tribo.config.load:changed_case",
     "check": "tribo.study.check:check_case",
+    "home": "tribo.config.home:home",
     "html": "tribo.cli.notebook:html",
     "materials": "tribo.registry.registry:material_files",
     "picture": "tribo.plotting.figures:result_picture",

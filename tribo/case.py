@@ -83,6 +83,11 @@ class Body(Table):
     layers: tuple[Layer, ...] = ()
     """Layers on it, from the top; `material` and `wear` belong to the body below them."""
 
+    @classmethod
+    def hint(cls, info: object) -> str:
+        """Return how many a case needs, as the end of a message."""
+        return "a contact needs two bodies, as [bodies.ball] and [bodies.disk]"
+
     @model_validator(mode="after")
     def _wears_in_layers(self) -> Self:
         if self.layers and self.wear is None:
@@ -278,10 +283,8 @@ class Case(Table):
         if not isinstance(bodies, Mapping):
             return bodies
         if len(bodies) != 2:
-            raise ValueError(
-                "a contact needs two bodies, as [bodies.ball] and [bodies.disk]; given: "
-                + (", ".join(map(str, bodies)) or "none")
-            )
+            given = ", ".join(map(str, bodies)) or "none"
+            raise ValueError(f"{Body.hint(info)}; given: {given}")
         for name in bodies:
             checked_name(str(name))
         own = info.data.get("materials", {})

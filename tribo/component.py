@@ -113,8 +113,8 @@ class Component(Table, ABC):
             raise told(f"a {words} is needed, as a table with its type; {cls.hint(info)}")
         name = table.get("type")
         if not isinstance(name, str):
-            fault = "must be text" if "type" in table else "is missing"
-            raise refused((("type",), f"type {fault}; {cls.hint(info)}", name))
+            fault = "must be text" if "type" in table else "missing"
+            raise refused((("type",), f"{fault}; {cls.hint(info)}", name))
         try:
             found = registry_of(info).lookup(cls.kind(), name)
         except CaseError as error:
@@ -184,7 +184,7 @@ def components(table: BaseModel) -> Iterator[tuple[str, Component]]:
         if isinstance(value, Mapping):
             parts = {f"{name}.{key}": part for key, part in value.items()}
         elif isinstance(value, tuple | list):
-            parts = {f"{name}.{at}": part for at, part in enumerate(value)}
+            parts = {f"{name}.{at}": part for at, part in enumerate(value, 1)}
         for place, part in parts.items():
             if isinstance(part, Component):
                 yield place, part
@@ -198,4 +198,5 @@ def _snake_case(name: str) -> str:
 
 def registry_of(info: ValidationInfo) -> Any:
     """Return the registry of a validation, or else the registry of the installed plugins."""
-    return (info.context or {}).get("registry") or call("registry")
+    context = info.context if isinstance(info.context, Mapping) else {}
+    return context.get("registry") or call("registry")

@@ -96,8 +96,15 @@ def test_a_template_is_printed_for_a_dash_and_an_unknown_one_is_told_before_the_
     unknown = tribo("new", "thirdbody", cwd=tmp_path)
     assert unknown.returncode == 2
     assert "'thirdbody'" in unknown.stderr
-    assert "duty_cycle (" in unknown.stderr
+    assert "duty_cycle, " in unknown.stderr
     assert tribo("new", "duty_cycle", cwd=tmp_path).returncode == 2
+
+
+def test_templates_are_listed_where_none_is_named(tmp_path):
+    listed = tribo("new", cwd=tmp_path)
+    names = {line.split()[0] for line in listed.stdout.splitlines() if line.strip()}
+    assert listed.returncode == 0
+    assert {*TEMPLATES, "weighed", "thermal.ball_on_disk"} < names
 
 
 def test_check_foretells_the_depth_of_rough_bodies_but_for_their_roughness(tmp_path):

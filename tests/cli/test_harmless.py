@@ -49,7 +49,7 @@ def test_a_message_on_a_case_is_printed_without_them(tmp_path):
     case.write_text(template("ball_on_disk") + '\n["\\u001b[2J"]\n')
     code, text = command("check", case)
     assert code == 2
-    assert r"unknown key '\x1b[2J'" in text
+    assert r'"\x1b[2J": unknown key' in text
 
 
 def test_what_turns_the_direction_of_writing_is_shown_as_an_escape():

@@ -96,4 +96,4 @@ def test_packages_ask_too(effect, forgotten, asked):
     }
     asking = {**CASE, "bodies": bodies, "effects": [{**effect, **forgotten}]}
     (doubt,) = unusual(validate_case(asking))
-    assert doubt.words.startswith(f"effects.0.{asked}, usual are ")
+    assert doubt.words.startswith(f"effects.1.{asked}, usual are ")

@@ -36,6 +36,21 @@ def test_content_that_is_not_toml(tmp_path, content, message):
     assert "\n" not in str(caught.value)
 
 
+def test_a_case_is_read_from_its_tables_too(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(template("ball_on_disk"))
+    assert load_case(tomllib.loads(path.read_text())) == load_case(path)
+    with pytest.raises(CaseError, match="3 is not the name"):
+        load_case(3)
+
+
+@pytest.mark.parametrize("cells", [0, 3, [256, 16385]])
+def test_a_number_of_cells_has_limits(cells):
+    case = tomllib.loads(template("ball_on_disk"))
+    with pytest.raises(CaseError, match=r"grid\.cells: .* from 4 to 16384"):
+        validate_case({**case, "grid": {**case["grid"], "cells": cells}})
+
+
 def test_a_file_that_cannot_be_opened(tmp_path):
     with pytest.raises(CaseError, match="there is no such file"):
         read_toml(tmp_path / "case.toml")
@@ -79,8 +94,8 @@ def test_each_mistake_is_a_line(path):
         load_case(path, overrides=["bodies.ball.material.young=-1", "contact.tolerence=1"])
     lines = str(caught.value).splitlines()
     assert caught.value.path == "contact.tolerence"
-    assert lines[0].startswith("contact.tolerence: unknown key 'tolerence'; did you mean")
-    assert lines[1:] == ["bodies.ball.material.young: -1 Pa: must be greater than 0"]
+    assert lines[0].startswith("contact.tolerence: unknown key; did you mean")
+    assert lines[1:] == ["bodies.ball.material.young: -1 Pa: must be greater than 0, as in '2 GPa'"]
 
 
 @pytest.mark.parametrize(
@@ -102,3 +117,21 @@ def test_a_default_type_need_not_be_named():
     data["contact"] = {"tolerance": 1e-7}
     case = validate_case(data)
     assert (case.stepping.type, case.contact.type) == ("implicit", "dcfft")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "place"),
+    [
+        ({"output": {"stop": {"distance": "1 m"}}}, "above the first table"),
+        ({"output": {"begin": "former.h5"}}, "above the first table"),
+        ({"stepping": {"time_step": 1}}, "stepping of type 'explicit'"),
+        ({"grid": {"stroke": "1 mm"}}, "kinematics of type 'reciprocating'"),
+        ({"output": {"young": "210 GPa"}}, "bodies.NAME.material"),
+    ],
+)
+def test_a_key_in_a_wrong_table_is_sent_to_its_own(wrong, place):
+    case = tomllib.loads(template("ball_on_disk"))
+    (name,) = wrong
+    with pytest.raises(CaseError) as caught:
+        validate_case({**case, name: {**case[name], **wrong[name]}})
+    assert place in str(caught.value)

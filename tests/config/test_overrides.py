@@ -46,13 +46,13 @@ def test_missing_tables_are_added_and_the_last_of_two_values_counts():
 
 
 def test_lists_are_reached_by_index():
-    assert changed("effects.0.rate=2")["effects"][0] == {"type": "heat", "rate": 2}
-    assert changed("effects.1=heat")["effects"] == [DATA["effects"][0], "heat"]
+    assert changed("effects.1.rate=2")["effects"][0] == {"type": "heat", "rate": 2}
+    assert changed("effects.2=heat")["effects"] == [DATA["effects"][0], "heat"]
 
 
 def test_another_type_drops_the_keys_of_the_former_and_the_same_keeps_them():
     assert changed("contact.type=winkler")["contact"] == {"type": "winkler"}
-    assert changed("effects.0.type=glow")["effects"][0] == {"type": "glow"}
+    assert changed("effects.1.type=glow")["effects"][0] == {"type": "glow"}
     assert changed("contact.type=dcfft") == DATA
 
 
@@ -70,7 +70,7 @@ def test_a_value_that_is_short_for_a_table_is_one():
     assert changed == data | {"load": {"normal": "25 N"}, "friction": {"coefficient": 0.2}}
     assert apply_settings(data, "load.along=[1, 2]")["load"] == {"normal": "40 N", "along": [1, 2]}
     stages = {"load": [{"until": 1, "force": 2}]}
-    assert apply_settings(stages, "load.0.force=3") == {"load": [{"until": 1, "force": 3}]}
+    assert apply_settings(stages, "load.1.force=3") == {"load": [{"until": 1, "force": 3}]}
 
 
 def test_a_name_alone_is_a_table_with_its_type():
@@ -85,7 +85,9 @@ def test_a_name_alone_is_a_table_with_its_type():
         ("=3", "'' is not a path"),
         ("a..b=3", "'a..b' is not a path"),
         ("a\nb=3", "is not a path"),
-        ("effects.2.rate=1", "effects: '2' is not an index; allowed: 0 to 1"),
+        ("effects.3.rate=1", "effects: '3' is no entry of this list; allowed: 1 to 2"),
+        ("effects.0.rate=1", "allowed: 1 to 2"),
+        ("observers.1.every=1", "observers: '1' is no entry"),
         ("load.normal.x=1", "load.normal: is not a table"),
     ],
 )

@@ -94,5 +94,5 @@ def test_box_encloses_its_cells_with_the_margin_and_few_sizes() -> None:
 def test_window_too_small_for_the_load_is_an_error_that_says_so() -> None:
     case = ball(48, ONSET, HARDNESS, width=0.9 * float(np.sqrt(ONSET / HARDNESS)))
     for refused in (solver().solve, lambda case: solver().check(case.system)):
-        with pytest.raises(CaseError, match=r"bears no more than .* Enlarge the window"):
+        with pytest.raises(CaseError, match=r"bears no more than .* enlarge grid\.size"):
             refused(case)

@@ -145,5 +145,5 @@ def test_heights_in_another_file_are_not_read(kind, tmp_path):
 
 def test_where_a_number_is_missing_is_told(tmp_path):
     np.save(tmp_path / "a.npy", [[1.0, 2.0], [3.0, np.nan]])
-    with pytest.raises(ValueError, match=r"1 of the 4 values of .* at index \(1, 1\) from 0; put"):
+    with pytest.raises(ValueError, match=r"1 of the 4 values of .* at \(2, 2\), counted from 1;"):
         read_numbers(tmp_path / "a.npy")

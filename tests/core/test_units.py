@@ -1,5 +1,6 @@
 """A quantity may be written with any unit of its dimension, and with no other."""
 
+import math
 from itertools import product
 from typing import Annotated
 
@@ -104,7 +105,7 @@ def test_what_is_no_such_quantity_is_refused(text, unit, message):
     [
         (Quantity("Pa", above=0), "-207 GPa", "-207 GPa: must be greater than 0"),
         (Quantity("K", above=0), "-300 degC", "-300 degC: must be greater than 0 K"),
-        (Quantity("m", at_least=0.5), "40 cm", "40 cm: must be at least 0.5 m"),
+        (Quantity("m", at_least=0.5), "40 cm", "40 cm: must be at least 500 mm, as in"),
         (Quantity("m", below=1), 1, "1 m: must be less than 1 m"),
         (Quantity("1", at_most=10), 11, "11: must be at most 10"),
         (Quantity("m"), float("nan"), "nan m is not finite"),
@@ -118,6 +119,21 @@ def test_a_field_refuses_with_a_plain_message(quantity, value, message):
     with pytest.raises(ValidationError) as caught:
         adapter.validate_python(value)
     assert message in caught.value.errors()[0]["msg"]
+
+
+@pytest.mark.parametrize(
+    "quantity",
+    [
+        Quantity("Pa", above=0, usual=(1e4, 1e9)),
+        Quantity("m", usual=(1e-10, 1e-4)),
+        Quantity("1", above=0, at_most=0.01),
+        Quantity("1", at_least=1),
+        Quantity("m", at_least=-1e-3, at_most=1e-3),
+    ],
+)
+def test_an_example_is_a_usual_value(quantity):
+    low, high = quantity.usual or (-math.inf, math.inf)
+    assert low <= quantity.read(quantity.example) <= high
 
 
 def test_a_bound_that_is_included_is_allowed():

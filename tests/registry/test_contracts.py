@@ -40,7 +40,7 @@ def test_a_case_that_names_another_contract_is_refused_and_no_other_is(folder, o
     named = tribo("run", "named.toml", cwd=folder)
     assert named.returncode == 2
     (line,) = named.stderr.splitlines()
-    assert "observers.0: " in line
+    assert "observers.1: " in line
     assert "'other.calm' cannot be used: other 4.5 is incompatible: " in line
     assert repr(other) in line
     assert f"contract {package.api_version}" in line

@@ -55,7 +55,7 @@ def test_the_built_in_components_and_given_ones_come_through_the_same_hook():
 
 
 def test_a_name_belongs_to_the_kind_of_its_class():
-    with pytest.raises(CaseError, match="unknown surface 'quiet': its kind is observer"):
+    with pytest.raises(CaseError, match="surface is needed, 'quiet' is of kind observer"):
         Registry.with_plugins(GOOD).lookup("surface", "quiet")
 
 

@@ -82,7 +82,7 @@ def test_it_is_formatted_however_long_its_name(tmp_path):
         ("wear-lwa", "new", "did you mean 'wear-law'"),
         ("xyz", "new", "Known: contact-solver, wear-law, kinematics, surface, effect, observer"),
         ("wear-law", ".", "exists; give another folder"),
-        ("wear-law", "nowhere/new", "there is no folder .*nowhere; make it first"),
+        ("wear-law", "nowhere/new", "there is no folder .*nowhere; make it with: mkdir"),
     ],
 )
 def test_what_cannot_be_written_is_refused(kind, folder, says, tmp_path):

@@ -56,7 +56,7 @@ def test_an_observer_ends_the_run_with_its_reason():
     assert result.status == "done"
     assert result.distances[-1] == pytest.approx(2.0, rel=1e-5)
     (stop,) = (each for each in result.findings if each.kind == "stop")
-    assert (stop.words, stop.place) == ("ended by test.until", "observers.0")
+    assert (stop.words, stop.place) == ("ended by test.until", "observers.1")
 
 
 def test_an_observer_of_the_run_alone_and_the_trial_of_a_check_end_it_too():

@@ -111,7 +111,7 @@ def test_a_run_resumed_has_the_same_bits(tmp_path):
     case = flat(pin=coated(), distance="250 m", output={"save_times": ["1500 s"]})
     with goes_on(case, tmp_path, 9) as whole:
         (passed,) = whole.report().as_json()["worn_through"]
-        assert whole.provenance["components"]["bodies.pin.layers.0.wear"]["type"] == "archard"
+        assert whole.provenance["components"]["bodies.pin.layers.1.wear"]["type"] == "archard"
     assert passed == {
         "body": "pin",
         "layer": 1,
@@ -131,7 +131,7 @@ def test_a_run_that_ends_at_a_depth_tells_only_of_layers_passed_by_then():
         ({**coated(), "wear": None}, "pin: layers wear through to the body: give its wear"),
         (
             coated(wear={"type": "archard", "K": 1e-6}),
-            r"pin\.layers\.0\.wear: K needs a hardness",
+            r"pin\.layers\.1\.wear: K needs a hardness",
         ),
         (
             {**coated(thickness="5 mm"), "surface": {"type": "sphere", "radius": "4 mm"}},
@@ -142,7 +142,7 @@ def test_a_run_that_ends_at_a_depth_tells_only_of_layers_passed_by_then():
             | {"wear": {"type": "smoothing", "roughness": 2e-6, "depth": 1e-6, **FACTOR}},
             r"pin\.layers: laws of the layers begin with different values of 'roughness'",
         ),
-        (coated(young="400 GPa", thickness=-1), r"pin\.layers\.0\.thickness: "),
+        (coated(young="400 GPa", thickness=-1), r"pin\.layers\.1\.thickness: "),
         (
             {**coated(), "layers": [{"thickness": 1e-6, "young": young} for young in (1e11, 2e11)]},
             r"pin\.layers: layers may differ from the body in young and poisson, but not",

@@ -111,7 +111,7 @@ def test_stages_come_from_a_file_or_a_table_and_survive_the_way_through_plain_da
         "[bodies.disk]\nsurface = 'flat'\nmaterial = { young = '207 GPa', poisson = 0.3 }\n"
     )
     assert load_case(tmp_path / "case.toml").load == Load(normal=BLOCKS)
-    changed = load_case(tmp_path / "case.toml", overrides=["load.normal.1.normal=50 N"])
+    changed = load_case(tmp_path / "case.toml", overrides=["load.normal.2.normal=50 N"])
     assert changed.load.normal[1].normal == 50
 
 

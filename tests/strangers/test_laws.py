@@ -99,7 +99,7 @@ def test_a_missing_effect_is_named_with_the_law_and_its_place(registry):
     message = str(caught.value)
     assert message.startswith("bodies.ball.wear: wear law 'stranger.protected' needs ")
     assert "stranger_oxide" in message
-    assert "these do: 'stranger.oxide_film' (" in message
+    assert "effects = [{ type = 'stranger.oxide_film' }]" in message
 
 
 def test_what_an_effect_requires_of_the_case_is_named_too(registry):

@@ -80,7 +80,7 @@ def saved_at(tmp_path_factory):
 def test_only_common_saves_count_and_a_run_that_goes_on_alone_is_told(saved_at):
     with saved_at((0, 50, 100, 300), (0, 100, 150)) as comparison:
         assert comparison.times == comparison.chosen_times() == [0, 100]
-        with pytest.raises(CaseError, match="has no save at 50 s; its saves are at"):
+        with pytest.raises(CaseError, match="has no saved time 50 s; saved times: "):
             comparison.chosen_times([50])
         assert [note.split(",")[0] for note in comparison.notes] == [
             "300 continues to 300 s",

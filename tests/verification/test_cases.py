@@ -51,9 +51,9 @@ def test_a_folder_of_ones_own_holds_and_a_changed_value_fails(own):
 @pytest.mark.parametrize(
     ("old", "new", "place"),
     [
-        ("tolerance = 1e-08", "tolerance = -1", "expect.0.tolerance"),
-        ("quantity", "quantty", "expect.0"),
-        ("value = [6.22e-07, 6.22e-07]", "value = 6.22e-7", "expect.0"),
+        ("tolerance = 1e-08", "tolerance = -1", "expect.1.tolerance"),
+        ("quantity", "quantty", "expect.1"),
+        ("value = [6.22e-07, 6.22e-07]", "value = 6.22e-7", "expect.1"),
         ('kind = "closed form"', 'kind = "mine"', "kind"),
         ("quick = true", 'levels = { "grid.cells" = [4, 8], "load.normal" = [1] }', "levels"),
     ],

@@ -128,7 +128,8 @@ def _asked(
         cases = [path for path in files if path.suffix == ".toml"]
         if cases:
             raise CaseError(
-                f"{cases[0]} is a case; say what varies in it with --vary, or give result files"
+                f"{cases[0]} is a case; give result files, or say what varies in it, as: "
+                f"tribo compare {cases[0]} --vary contact.type=dcfft,winkler"
             )
         if overrides or force:
             raise CaseError("--set and --force are for a case that varies, with --vary")

@@ -14,7 +14,7 @@ from rich.segment import Segment
 from rich.table import Table
 
 from tribo.cli.streams import harmless
-from tribo.core.data_table import DataTable
+from tribo.core.data_table import LEFT, DataTable
 
 WIDE = 10_000
 """More characters than any table needs."""
@@ -67,7 +67,7 @@ def _drawn(table: DataTable, shown: Sequence[int]) -> Table:
         words = (word for row in rows if row[1:] for word in row[place].split())
         drawn.add_column(
             escape(str(heading)),
-            justify="left" if table.named and not place else "right",
+            justify="left" if heading.form == LEFT or (table.named and not place) else "right",
             overflow="fold",
             no_wrap=heading.whole,
             min_width=max(map(len, words), default=0) if place else None,

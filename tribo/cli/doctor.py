@@ -18,7 +18,8 @@ SHORT = ("grid={ size = 0.7e-3, cells = 64 }", "kinematics.duration=20", "output
     "--time-limit",
     type=float,
     metavar="SECONDS",
-    help="CPU time of a plugin's import.  [default: TRIBO_PLUGIN_TIME_LIMIT, or 30 times tribo's]",
+    help="Allow the import of a plugin this CPU time, by default TRIBO_PLUGIN_TIME_LIMIT, or 30 "
+    "times tribo's.",
 )
 def doctor(as_json: bool, time_limit: float | None) -> None:
     """Test the installation, and try every plugin in a new process.

@@ -10,15 +10,20 @@ import click
 
 from tribo.cli.options import PATH, RESULT
 from tribo.core.errors import CaseError
+from tribo.core.words import did_you_mean, suggestion
 
-OWN = {"csv": "tables", "xlsx": "the same tables in one file for Excel"}
+OWN = ("csv", "xlsx")
 
 
 @click.command()
 @RESULT
 @click.option("-d", "--directory", type=PATH, help="Write to a folder, by default OUTPUT-FORMAT.")
 @click.option(
-    "--format", "name", default="csv", show_default=True, help="csv, xlsx, or a plugin's format."
+    "--format",
+    "name",
+    default="csv",
+    show_default=True,
+    help="Write csv, xlsx, or a plugin's format.",
 )
 @click.option("--columns", metavar="A,B,…", help="Write these columns of lab.csv alone.")
 def export(output: Path, directory: Path | None, name: str, columns: str | None) -> None:
@@ -43,7 +48,7 @@ def export(output: Path, directory: Path | None, name: str, columns: str | None)
 
     write = None if name in OWN else choose("tribo_export_formats", name, "format", OWN).write
     if write and columns:
-        raise CaseError(f"they are columns of lab.csv, which {name} has not", "--columns")
+        raise CaseError(f"they belong to --format csv or xlsx, not to {name}", "--columns")
     folder = directory or output.with_name(f"{output.stem}-{name}")
     with Result.open(output) as result:
         lab = saves_table(result).to_dataframe()
@@ -62,5 +67,7 @@ def _chosen(columns: str, there: Iterable[str]) -> list[str]:
     try:
         return [names[each.strip()] for each in columns.split(",")]
     except KeyError as error:
+        meant = suggestion(did_you_mean(error.args[0], names))
         listed = ", ".join(names)
-        raise CaseError(f"no column is called {error}; there are: {listed}", "--columns") from None
+        what = f"no column is called {error}{meant} Columns: {listed}"
+        raise CaseError(what, "--columns") from None

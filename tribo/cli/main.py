@@ -61,13 +61,13 @@ class LazyGroup(click.Group):
     "--no-plugin",
     multiple=True,
     metavar="NAME",
-    help="Leave a plugin out; as TRIBO_DISABLE_PLUGINS=A,B.",
+    help="Leave a plugin out, as TRIBO_DISABLE_PLUGINS=A,B does.",
 )
 @click.option(
     "--plugins",
     "only",
     metavar="A,B",
-    help="Let only these plugins take part; as TRIBO_PLUGINS=A,B.",
+    help="Let only these plugins take part, as TRIBO_PLUGINS=A,B does.",
 )
 def tribo(no_plugin: tuple[str, ...], only: str | None) -> None:
     """Simulate wear: contact mechanics, wear laws and kinematics as plugins.

@@ -12,11 +12,11 @@ from tribo.core.errors import CaseError
 
 @click.command()
 @click.argument("name", required=False)
-@click.option("--json", "as_json", is_flag=True, help="Print JSON, in the sources' units.")
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON object, in the sources' units.")
 def materials(name: str | None, as_json: bool) -> None:
     """List the materials that a case may name, or the numbers of NAME with their sources.
 
-    A word that is no NAME lists the materials with it in their name or description.
+    A word that is no NAME lists the materials with a word like it in their name or description.
     Of a range a case takes the middle, if no value is said to be taken. Wear rates
     are shown for comparison; a case takes none of them.
 
@@ -45,8 +45,7 @@ def _named(name: str) -> dict[str, dict[str, Any]]:
     try:
         return dict([materials.known(name)])
     except CaseError:
-        every, part = materials.tables(), name.casefold()
-        found = {n: t for n, t in every.items() if part in f"{n} {t['summary']}".casefold()}
-        if not found:
-            raise
-        return found
+        every = materials.tables()
+        if found := materials.like(name):
+            return {each: every[each] for each in found}
+        raise

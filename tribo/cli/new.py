@@ -10,31 +10,28 @@ import click
 from tribo.cli.options import PATH
 from tribo.templates import TEMPLATES, template
 
-_LISTED = "\n".join(f"  {name:14} {summary}" for name, summary in TEMPLATES.items())
-HELP = f"""Write a commented case, study or measurements from TEMPLATE to FILE; - prints it.
 
-\b
-Templates:
-{_LISTED}
-and templates of plugins, which are listed where TEMPLATE is unknown.
-
-\b
-Example:
-  tribo new ball_on_disk my.toml
-"""
-
-
-@click.command(help=HELP)
-@click.argument("name", metavar="TEMPLATE", required=False)
+@click.command()
+@click.argument("name", metavar="[TEMPLATE]", required=False)
 @click.argument("file", type=PATH, required=False)
 @click.option("--force", is_flag=True, help="Replace an existing file.")
 def new(name: str | None, file: Path | None, force: bool) -> None:
-    """Write a template to a file."""
-    if name is None:
-        raise click.UsageError(f"Missing argument 'TEMPLATE'. Templates:\n{_LISTED}")
+    """Write a commented case, study or measurements from TEMPLATE to FILE.
+
+    Without TEMPLATE it lists the templates, with what plugins offer. A dash for FILE prints the
+    template.
+
+    \b
+    Example:
+      tribo new
+      tribo new ball_on_disk my.toml
+    """
     from tribo.core.writing import check_new, write_file
     from tribo.registry.all_plugins import choose
 
+    if name is None:
+        _list()
+        return
     plugged = None if name in TEMPLATES else choose("tribo_templates", name, "template", TEMPLATES)
     text = plugged.text if plugged else template(name)
     if file is None:
@@ -45,6 +42,17 @@ def new(name: str | None, file: Path | None, force: bool) -> None:
     check_new(file, force)
     write_file(file, text)
     click.echo(f"Wrote {file}; look it over, then: {_next(text, file)}")
+
+
+def _list() -> None:
+    from tribo.cli.console import Console
+    from tribo.core.data_table import LEFT, DataTable, Heading, TableRow
+    from tribo.registry.all_plugins import from_all_plugins
+
+    plugged = {each.name: each.summary for each in from_all_plugins("tribo_templates")}
+    rows = [TableRow((name, said.rstrip("."))) for name, said in {**TEMPLATES, **plugged}.items()]
+    headings = Heading("template"), Heading("contents", form=LEFT)
+    Console().table(DataTable("", headings, rows, ["Write one with: tribo new TEMPLATE FILE"]))
 
 
 def _next(text: str, file: Path) -> str:

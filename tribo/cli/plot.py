@@ -13,14 +13,24 @@ from tribo.cli.options import PATH, RESULT
 @RESULT
 @click.option("-d", "--directory", type=PATH, help="Write to this folder, by default OUTPUT-plots.")
 @click.option(
-    "--format", "suffix", type=click.Choice(["png", "pdf", "svg"]), default="png", show_default=True
+    "--format",
+    "suffix",
+    type=click.Choice(["png", "pdf", "svg"]),
+    default="png",
+    show_default=True,
+    help="Write pictures in this format.",
 )
 @click.option(
-    "--column", "columns", multiple=True, help="Draw this column of the history alone; repeatable."
+    "--column",
+    "columns",
+    multiple=True,
+    help="Draw this column of the history alone; may be repeated.",
 )
-@click.option("--only", "names", multiple=True, help="Write this picture alone; repeatable.")
-@click.option("--animate", is_flag=True, help="Write animation.gif: pressure, depths.")
-@click.option("--against", default="distance_m", show_default=True, help="Draw over this column.")
+@click.option("--only", "names", multiple=True, help="Write this picture alone; may be repeated.")
+@click.option("--animate", is_flag=True, help="Write animation.gif, with pressure and depths.")
+@click.option(
+    "--against", default="distance_m", show_default=True, help="Draw columns over this one."
+)
 def plot(
     output: Path,
     directory: Path | None,

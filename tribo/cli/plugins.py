@@ -127,7 +127,12 @@ def check(name: str) -> None:
 
 @plugins.command()
 @click.argument("name")
-@click.option("--kind", required=True, metavar="KIND", help="wear-law, effect, surface, …")
+@click.option(
+    "--kind",
+    required=True,
+    metavar="KIND",
+    help="Write a component of this kind: wear-law, effect, surface, …",
+)
 @click.option("-d", "--directory", type=PATH, default=Path(), help="Write to this folder.")
 def new(name: str, kind: str, directory: Path) -> None:
     """Write a complete plugin distribution NAME that installs and passes its tests.

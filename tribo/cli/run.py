@@ -15,7 +15,11 @@ from tribo.cli.waiting import waiting_for
 @click.option("-o", "--output", type=PATH, help="Write this result file, by default CASE.h5.")
 @SET
 @PLUGIN
-@click.option("--force", is_flag=True, help="Replace a result; one to resume gets another name.")
+@click.option(
+    "--force",
+    is_flag=True,
+    help="Replace a result; a run that can be resumed is kept under another name.",
+)
 def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool) -> None:
     """Run CASE, a TOML file, and print what a lab would report.
 

@@ -21,7 +21,12 @@ NAMED = 5
 @click.command()
 @click.argument("study", type=PATH)
 @click.option("-o", "--output", type=PATH, help="Write to this folder, by default STUDY-sweep.")
-@click.option("-j", "--jobs", type=click.IntRange(1), help="Parallel runs, by default one a core.")
+@click.option(
+    "-j",
+    "--jobs",
+    type=click.IntRange(1),
+    help="Run this many cases at once, by default one a core.",
+)
 @click.option("--retry", is_flag=True, help="Repeat failed runs.")
 @click.option("--yes", is_flag=True, help="Allow more than 1000 runs.")
 @JSON

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("case", required=False)
 @SET
-@click.option("--quick", is_flag=True, help="Only cases that run in less than a second.")
+@click.option("--quick", is_flag=True, help="Take only cases that run in less than a second.")
 @click.option("--coverage", is_flag=True, help="List the components that no case uses.")
 @JSON
 def verify(

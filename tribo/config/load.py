@@ -13,23 +13,28 @@ from tribo.case import Case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
-from tribo.core.grid import FEWEST, MOST
+from tribo.core.grid import FEWEST, MOST, out_of_range
+from tribo.core.hdf5 import MARK
+from tribo.core.words import did_you_mean, shown, suggestion
 from tribo.registry.registry import Registry, default_registry
 
 _LARGEST = 10_000_000
+_ONCE = "give each table and each key once"
 _WRITING = "text and values with a unit are quoted, as in '5 mm'; decimals follow a point"
-_HDF5 = b"\x89HDF\r\n\x1a\n"
 
 
 def load_case(
-    path: str | Path, *, overrides: Sequence[str] | str = (), registry: Registry | None = None
+    path: str | Path | Mapping[str, Any],
+    *,
+    overrides: Sequence[str] | str = (),
+    registry: Registry | None = None,
 ) -> Case:
-    """Read a case from a TOML file.
+    """Read a case from a TOML file, or from its tables.
 
     Parameters
     ----------
-    path : str or Path
-        The file.
+    path : str, Path or Mapping
+        The file, or tables as such a file has them.
     overrides : sequence of str, or str
         Changes to it, as ``"load.normal=50"``; see `apply_settings`.
     registry : Registry, optional
@@ -51,7 +56,7 @@ def load_case(
     >>> case.load.normal, case.bodies["ball"].surface.radius
     (50.0, 0.005)
     """
-    tables = read_toml(path)
+    tables = case_tables(path)
     if overrides:
         tables = apply_settings(tables, overrides)
     return validate_case(tables, registry=registry)
@@ -71,7 +76,7 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
         raise CaseError("tables or lists of the case are nested too deeply") from None
     for cells in case.grid.cells:
         if not FEWEST <= cells <= MOST:
-            raise CaseError(f"{cells}: must be from {FEWEST} to {MOST}", "grid.cells")
+            raise CaseError(out_of_range(cells), "grid.cells")
     return case
 
 
@@ -100,6 +105,8 @@ def read_toml(
     path: str | Path, what: str = "a case", hint: str = "'tribo new' writes a case to start from"
 ) -> dict[str, Any]:
     """Read a TOML file; CaseError if there is none, or it is not TOML in UTF-8."""
+    if not isinstance(path, str | Path):
+        raise CaseError(f"{shown(path)} is not the name of a file of {what}; {hint}")
     path = Path(path)
     try:
         if path.is_dir():
@@ -107,13 +114,15 @@ def read_toml(
         with path.open("rb") as file:
             content = file.read(_LARGEST + 1)
     except FileNotFoundError:
-        raise CaseError(f"{path}: there is no such file") from None
+        like = did_you_mean(path.name, (each.name for each in path.parent.glob("*.toml")))
+        meant = suggestion(like).rstrip(".")
+        raise CaseError(f"{path}: there is no such file{meant or f'; {hint}'}") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise CaseError(f"{path} cannot be read: {reason}") from None
     if len(content) > _LARGEST:
         raise CaseError(f"{path} is larger than {_LARGEST // 10**6} MB: no file of {what}")
-    if content.startswith(_HDF5):
+    if content.startswith(MARK):
         raise CaseError(f"{path} is a result, not {what}; see it with: tribo show {path}")
     if not content.strip():
         raise CaseError(f"{path} is empty; {hint}")
@@ -126,7 +135,9 @@ def read_toml(
         line = content.count(b"\n", 0, error.start) + 1
         raise CaseError(f"{path}, line {line}: not UTF-8 text; save the file as UTF-8") from None
     except ValueError as error:
-        raise CaseError(f"{path} is not TOML: {error}; {_WRITING}") from None
+        # What is given twice is written well.
+        remedy = _ONCE if str(error).startswith("Cannot") else _WRITING
+        raise CaseError(f"{path} is not TOML: {error}; {remedy}") from None
     except RecursionError:
         raise CaseError(f"{path}: tables or lists are nested too deeply") from None
     return data

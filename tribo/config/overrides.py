@@ -22,12 +22,12 @@ def apply_settings(
 ) -> dict[str, Any]:
     """Return `data`, tables as read from TOML, with values replaced; it is left unchanged.
 
-    `settings` are values by path, as TOML would give them, or texts ``"effects.0.rate=2"``, whose
-    value is read as TOML or else as text. Setting ``type``, or the ``name`` of a material, to
-    another one drops the other keys of the table, which belong to the former; such changes are made
-    first, in any order. Of several values for one path the last counts. Missing tables are added;
-    unknown keys are left to the validation. `CaseError` if a path leads through a value that is not
-    a table.
+    `settings` are values by path, as TOML would give them, or texts ``"effects.1.rate=2"``, whose
+    value is read as TOML or else as text. Entries of a list count from 1. Setting ``type``, or the
+    ``name`` of a material, to another one drops the other keys of the table, which belong to the
+    former; such changes are made first, in any order. Of several values for one path the last
+    counts. Missing tables are added; unknown keys are left to the validation. `CaseError` if a path
+    leads through a value that is not a table.
     """
     if isinstance(settings, str):
         settings = [settings]
@@ -78,8 +78,8 @@ def leaves(
         for key, item in value.items():
             yield from leaves(item, annotation, (*place, str(key)))
     elif isinstance(value, list | tuple):
-        for index, item in enumerate(value):
-            yield from leaves(item, annotation, (*place, index))
+        for count, item in enumerate(value, 1):
+            yield from leaves(item, annotation, (*place, count))
     else:
         yield place, value, next(quantities(annotation), None)
 
@@ -120,12 +120,13 @@ def _changed(inside: Any, keys: list[str], value: Any, above: tuple[str, ...] = 
     if isinstance(inside, Mapping):
         if not rest and above and _decides([*above, key]):
             return inside if inside.get(key) == value else {key: value}
-        return {**inside, key: _changed(inside.get(key, {}), rest, value, (*above, key))}
+        absent: Any = [] if rest and rest[0].isdigit() else {}
+        return {**inside, key: _changed(inside.get(key, absent), rest, value, (*above, key))}
     if not isinstance(inside, list):
         raise CaseError("is not a table; nothing in it can be set", ".".join(above))
-    if not (key.isascii() and key.isdigit() and int(key) < len(inside)):
-        count = f"0 to {len(inside) - 1}" if inside else "none: the list is empty"
-        raise CaseError(f"{key!r} is not an index; allowed: {count}", ".".join(above))
-    changed = list(inside)
-    changed[int(key)] = _changed(inside[int(key)], rest, value, (*above, key))
-    return changed
+    at = int(key) - 1 if key.isascii() and key.isdigit() else -1
+    if not 0 <= at < len(inside):
+        place = ".".join(above)
+        allowed = f"1 to {len(inside)}" if inside else f"none; set all of it, as {place}=[…]"
+        raise CaseError(f"{key!r} is no entry of this list; allowed: {allowed}", place)
+    return [*inside[:at], _changed(inside[at], rest, value, (*above, key)), *inside[at + 1 :]]

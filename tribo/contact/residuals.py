@@ -8,6 +8,7 @@ from tribo.contact.projection import CELLS, limits
 from tribo.core.arrays import Array
 from tribo.core.contact import Residuals
 from tribo.core.errors import CaseError, NumericalError
+from tribo.core.units import stated
 
 LEAST_LOAD = 1e-100
 """In N; with much less, products with pressures and lengths underflow."""
@@ -27,8 +28,8 @@ def check_bearable(load: float, area: float, limit: Array | float) -> None:
     limit = float(np.mean(limit))
     if load > limit * area:
         raise CaseError(
-            f"the load is {load:g} N, but with pressure limited to {limit:g} Pa the window bears "
-            f"no more than {limit * area:g} N. Enlarge the window, or lower the load"
+            f"the load is {load:g} N, but with pressure limited to {stated(limit, 'Pa')} the "
+            f"window bears no more than {limit * area:g} N; enlarge grid.size, or lower load.normal"
         )
 
 

@@ -13,6 +13,8 @@ from tribo.core.words import readable
 if TYPE_CHECKING:
     import pandas as pd
 
+LEFT = "<"
+"""Format of a column of sentences, which begin at its left."""
 NOTHING = "–"
 """Printed for a missing value."""
 Value = float | str | None

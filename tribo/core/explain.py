@@ -10,12 +10,14 @@ from pydantic import BaseModel, ValidationError, ValidationInfo
 from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
 from tribo.core.errors import WrongValues
+from tribo.core.shorthand import call
 from tribo.core.units import parts
 from tribo.core.words import did_you_mean, shown, suggestion
 
 TOLD = "told"
 """Type of an error whose message needs no more explanation."""
 UNKNOWN = "unknown_key"
+_NEEDED = " is needed, "
 _WORDS = {
     kind: template
     for kinds, template in {
@@ -69,7 +71,7 @@ def explained(
     for details in error.errors():
         kind, loc, given = details["type"], _keys_of(details, data), details["input"]
         if kind == "extra_forbidden" and len(details["loc"]) == 1:
-            text, like = _unknown(details["loc"][0], allowed, data)
+            text, like = _unknown(details["loc"][0], allowed, data, model, info)
             meant.add(like)
             lines.append(_line(details["loc"], text, given, UNKNOWN))
         elif kind == "missing" and len(loc) == 1:
@@ -77,7 +79,7 @@ def explained(
         elif kind == "union_tag_not_found":
             models = get_args(fields[str(loc[0])].annotation)
             names = ", ".join(model.model_fields["type"].default for model in models)
-            lines.append(_line((*loc, "type"), f"type is missing; allowed: {names}", given))
+            lines.append(_line((*loc, "type"), f"missing; allowed: {names}", given))
         else:
             loc = (*loc, "type") if kind == "union_tag_invalid" else loc
             # Errors of tables inside have their message already.
@@ -90,13 +92,16 @@ def explained(
     return ValidationError.from_exception_data(error.title, lines)
 
 
-def _unknown(key: object, allowed: Sequence[str], data: object) -> tuple[str, str | None]:
+def _unknown(
+    key: object, allowed: Sequence[str], data: object, model: type[BaseModel], info: ValidationInfo
+) -> tuple[str, str | None]:
     """Return the message for an unknown key, and the key that it is likely to mean."""
     given = data if isinstance(data, Mapping) else {}
     # A key that is given may still be meant: an override adds its key beside it.
     like = did_you_mean(key, [name for name in allowed if name not in given])
     like = like or did_you_mean(key, allowed)
-    return f"unknown key {key!r}{suggestion(like)} Allowed: {', '.join(allowed)}", like
+    home = suggestion(like) if like else call("home", key, model, info)
+    return f"unknown key{home} Allowed: {', '.join(allowed)}", like
 
 
 def case_error(error: ValidationError) -> WrongValues:
@@ -106,16 +111,26 @@ def case_error(error: ValidationError) -> WrongValues:
     """
     lines: dict[str, list[str]] = {}
     for details in sorted(error.errors(), key=lambda details: details["type"] != UNKNOWN):
-        texts = lines.setdefault(path(details["loc"]), [])
+        # Entries of a list count from 1.
+        keys = (key + 1 if isinstance(key, int) else key for key in details["loc"])
+        texts = lines.setdefault(path(tuple(keys)), [])
         text = message(details)
         if text not in texts:
             texts.append(text)
-    (place, first), *others = ((place, "; or ".join(texts)) for place, texts in lines.items())
+    (place, first), *others = ((place, _either(texts)) for place, texts in lines.items())
     return WrongValues("\n".join([first, *(f"{p}: {t}" if p else t for p, t in others)]), place)
 
 
+def _either(texts: Sequence[str]) -> str:
+    """Return the messages of alternatives as one, which says once what was given."""
+    *firsts, last = (text.partition(_NEEDED) for text in texts)
+    if not all(first[1:] == (_NEEDED, last[2].partition("; ")[0]) for first in firsts):
+        return "; or ".join(texts)
+    return ", or ".join(needed for needed, *_ in (*firsts, last)) + "".join(last[1:])
+
+
 def path(keys: tuple[str | int, ...]) -> str:
-    """Return the place in a case to which keys and indices lead, as ``effects.1.type``."""
+    """Return the place in a case to which keys and indices lead, as ``effects.2.type``."""
     return ".".join(
         key if key.replace("_", "").replace("-", "").isalnum() else f'"{key}"'
         for key in map(str, keys)

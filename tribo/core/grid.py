@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
-from pydantic import Field, field_validator
+from pydantic import AfterValidator, Field, field_validator
 
 from tribo.core.arrays import Array
 from tribo.core.table import Table
@@ -16,8 +16,23 @@ FEWEST, MOST = 4, 16384
 """Cells along an axis of a case."""
 
 
+def out_of_range(cells: int) -> str:
+    """Return the message for a number of cells that a case cannot have."""
+    return f"{cells}: must be from {FEWEST} to {MOST}"
+
+
+def _some(cells: int) -> int:
+    if cells < 1:
+        raise ValueError(out_of_range(cells))
+    return cells
+
+
 # A closed form needs fewer than a case.
-Cells = Annotated[int, Field(ge=1, json_schema_extra={"minimum": FEWEST, "maximum": MOST})]
+Cells = Annotated[
+    int,
+    AfterValidator(_some),
+    Field(json_schema_extra={"minimum": FEWEST, "maximum": MOST}),
+]
 
 
 def _or_one(schema: dict[str, Any]) -> None:

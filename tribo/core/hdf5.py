@@ -10,6 +10,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import h5py
 
+MARK = b"\x89HDF\r\n\x1a\n"
+"""First bytes of such a file."""
+
 
 def open_hdf5(file: Path | BytesIO, mode: str = "r") -> h5py.File:
     """Open a file, to read it or in another mode of h5py."""

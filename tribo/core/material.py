@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from difflib import get_close_matches
 from functools import cache
@@ -19,6 +21,9 @@ from tribo.core.words import said
 
 Poisson = Annotated[float, Quantity("1", above=-1, below=0.5, usual=(0, 0.5))]
 """Poisson's ratio; below 0 only foams and lattices made for it."""
+
+
+_LISTED = "'tribo materials' lists all names"
 
 
 class Material(Table):
@@ -50,6 +55,11 @@ class Material(Table):
     """Specific heat capacity."""
     properties: dict[str, Any] | None = None
     """Further properties by name, as models of the case declare them."""
+
+    @classmethod
+    def hint(cls, info: object) -> str:
+        """Return what it needs, as the end of a message."""
+        return f"a name or a table with young and poisson is needed; {_LISTED}"
 
     @model_validator(mode="before")
     @classmethod
@@ -111,11 +121,20 @@ class Materials:
         called = {a.casefold(): n for n, t in tables.items() for a in (n, *t.get("also", ()))}
         if found := called.get(name.casefold()):
             return found, tables[found]
-        near = sorted({called[each] for each in get_close_matches(name.casefold(), called)})
+        near = ", ".join(self.like(name))
+        listed = f"did you mean {near}? 'tribo materials {name}' lists them" if near else _LISTED
         raise WrongValues(
-            f"no material is called {name!r}; near: {', '.join(near) or 'none'}; 'tribo materials' "
-            "lists all, or give young and poisson"
+            f"no material is called {name!r}; {listed}, or give a table with young and poisson"
         )
+
+    def like(self, word: str) -> list[str]:
+        """Return the names of the materials with such a word in their names or descriptions."""
+        words = defaultdict(set)
+        for name, table in self.tables().items():
+            for each in (name, *table.get("also", ()), *re.findall(r"\w+", table["summary"])):
+                words[each.casefold()].add(name)
+        near = get_close_matches(word.casefold(), words, cutoff=0.8)
+        return [name for name in self if any(name in words[each] for each in near)]
 
 
 materials = Materials()

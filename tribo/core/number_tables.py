@@ -30,7 +30,7 @@ def read_numbers(file: Path) -> Array:
     if len(bad):
         raise ValueError(
             f"{len(bad)} of the {numbers.size} values of {file} are missing or infinite, the first "
-            f"at index {tuple(bad[0].tolist())} from 0; put finite numbers there"
+            f"at {tuple((bad[0] + 1).tolist())}, counted from 1; put finite numbers there"
         )
     return numbers
 

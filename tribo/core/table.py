@@ -75,6 +75,12 @@ class Table(BaseModel, metaclass=_TableClass):
             raise explained(error, cls, data, info) from None
 
     @classmethod
+    def hint(cls, info: ValidationInfo) -> str:
+        """Return the keys that it needs, as the end of a message."""
+        needed = [name for name, field in cls.model_fields.items() if field.is_required()]
+        return f"a table with {' and '.join(needed)} is needed"
+
+    @classmethod
     def __get_pydantic_json_schema__(
         cls, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:

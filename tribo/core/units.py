@@ -81,7 +81,7 @@ _KINDS = {
     "Hz": ("a frequency", "25 Hz"),
     "m/s": ("a speed", "0.1 m/s"),
     "N": ("a force", "100 N"),
-    "Pa": ("a pressure", "210 GPa"),
+    "Pa": ("a pressure", "2 GPa"),
     "1/Pa": ("an inverse pressure", "1e-6 mm^3/(N m)"),
     "Pa s": ("a dynamic viscosity", "80 mPa s"),
     "m^2/s": ("a kinematic viscosity", "100 mm^2/s"),
@@ -96,13 +96,13 @@ _KINDS = {
 }
 """Name and example of a quantity, by its SI unit."""
 
-_BOUNDS = (
-    ("above", "greater than", operator.gt, "exclusiveMinimum"),
-    ("at_least", "at least", operator.ge, "minimum"),
-    ("below", "less than", operator.lt, "exclusiveMaximum"),
-    ("at_most", "at most", operator.le, "maximum"),
-)
-"""Bounds of a `Quantity`: field, words, comparison and keyword in a JSON schema."""
+_BOUNDS = {
+    "above": ("greater than", operator.gt, "exclusiveMinimum"),
+    "at_least": ("at least", operator.ge, "minimum"),
+    "below": ("less than", operator.lt, "exclusiveMaximum"),
+    "at_most": ("at most", operator.le, "maximum"),
+}
+"""Bounds of a `Quantity`: words, comparison and keyword in a JSON schema."""
 
 _PREFIXED = re.compile(r"(m|N|Pa|Hz|W|J)(?!\^|\w)")
 """Start of a unit that is written with prefixes."""
@@ -178,12 +178,13 @@ def number(text: str) -> float:
     return float(text)
 
 
-def parse(text: str, unit: str) -> float:
+def parse(text: str, unit: str, hint: str = "") -> float:
     """Return a text such as ``"5 mm"`` or ``"2·10⁻⁷ mm³/Nm"`` in an SI unit, rounded once.
 
-    `CaseError` if it cannot be read, or has another dimension than `unit`, which is ``"1"`` for
-    none.
+    `CaseError`, which ends in `hint`, if it cannot be read, or has another dimension than `unit`,
+    which is ``"1"`` for none.
     """
+    hint = hint or _needed(unit, _example(unit))
     written = _TIMES_TEN.sub(lambda ten: "e" if ten.start() else "1e", plain(text.strip()))
     match = _NUMBER.fullmatch(written) if len(text) <= _LONGEST else None
     if match is not None and _AFTER_COMMA.match(match[2]):
@@ -192,20 +193,20 @@ def parse(text: str, unit: str) -> float:
             "thousands"
         )
     if match is None:
-        raise CaseError(f"{text[:_LONGEST]!r} is not a quantity; {_needed(unit)}")
+        raise CaseError(f"{text[:_LONGEST]!r} is not a quantity; {hint}")
     number, symbols = Fraction(match[1]), match[2].strip()
     zero = _ZERO_CELSIUS if symbols in _CELSIUS else 0
     try:
         factor, dimension = scale("K" if zero else symbols or "1")
     except ValueError as error:
-        raise CaseError(f"{text!r}: {error}; {_needed(unit)}") from None
+        raise CaseError(f"{text!r}: {error}; {hint}") from None
     if dimension != scale(unit)[1]:
         given = f"is {_called(dimension)}" if symbols else "has no unit"
-        raise CaseError(f"{text!r} {given}; {_needed(unit)}")
+        raise CaseError(f"{text!r} {given}; {hint}")
     try:
         return float(number * factor + zero)
     except OverflowError:
-        raise CaseError(f"{text!r} is not finite; {_needed(unit)}") from None
+        raise CaseError(f"{text!r} is not finite; {hint}") from None
 
 
 def stated(value: float, unit: str) -> str:
@@ -259,7 +260,18 @@ class Quantity:
 
     def hint(self, info: object = None) -> str:
         """Return the end of a message, as "a length [m] is needed, as in '5 mm'"."""
-        return _needed(self.unit)
+        return _needed(self.unit, self.example)
+
+    @property
+    def example(self) -> str:
+        """A value that it takes, as text: its unit's, or else the middle of its range."""
+        text = _example(self.unit)
+        low, high = self.usual or (self.at_least or self.above, self.at_most or self.below)
+        low, high = low or 0.0, high or math.inf
+        if low <= parse(text, self.unit) <= high:
+            return text
+        middle = high / 2 if low <= 0 else 2 * low if high == math.inf else math.sqrt(low * high)
+        return stated(float(f"{middle:.1e}"), self.unit)
 
     def read(self, value: object) -> float:
         """Return `value` in SI.
@@ -270,7 +282,7 @@ class Quantity:
             If `value` is not such a quantity or is out of bounds.
         """
         if isinstance(value, str):
-            number, given = parse(value, self.unit), value.strip()
+            number, given = parse(value, self.unit, self.hint()), value.strip()
         elif isinstance(value, Real) and not isinstance(value, bool):
             try:
                 number = float(value)
@@ -281,12 +293,16 @@ class Quantity:
             raise CaseError(f"{shown(value)} is not a quantity; {self.hint()}")
         if not math.isfinite(number):
             raise CaseError(f"{given} is not finite; {self.hint()}")
-        for field, words, holds, _ in _BOUNDS:
-            bound = getattr(self, field)
-            if bound is not None and not holds(number, bound):
-                unit = "" if self.unit == "1" or (bound == 0 and self.unit != "K") else self.unit
-                remedy = f"; {self.remedy}" if self.remedy else ""
-                raise CaseError(f"{given}: must be {words} {bound:g} {unit}".rstrip() + remedy)
+        bounds = [(getattr(self, field), *how) for field, how in _BOUNDS.items()]
+        bounds = [each for each in bounds if each[0] is not None]
+        if not all(holds(number, bound) for bound, _, holds, _ in bounds):
+            zero = "0 K" if self.unit == "K" else "0"
+            must = " and ".join(
+                f"{words} {stated(bound, self.unit) if bound else zero}"
+                for bound, words, *_ in bounds
+            )
+            remedy = f"; {self.remedy}" if self.remedy else f", as in '{self.example}'"
+            raise CaseError(f"{given}: must be {must}{remedy}")
         return number
 
     def doubt(self, value: float) -> str | None:
@@ -294,7 +310,7 @@ class Quantity:
         if self.usual is None or value == 0 or self.usual[0] <= value <= self.usual[1]:
             return None
         given, low, high = (stated(each, self.unit) for each in (value, *self.usual))
-        written = f", written as in '{_example(self.unit)}': is the unit wrong or missing?"
+        written = f", written as in '{self.example}': is the unit wrong or missing?"
         asked = ": is that meant?" if self.unit == "1" else written
         return f"{given}, usual are {low} to {high}{asked}"
 
@@ -315,12 +331,12 @@ class Quantity:
     ) -> JsonSchemaValue:
         """Return the JSON schema of the field: a number, or text with a unit."""
         number: JsonSchemaValue = {"type": "number"}
-        for field, _, _, keyword in _BOUNDS:
+        for field, (_, _, keyword) in _BOUNDS.items():
             if getattr(self, field) is not None:
                 number[keyword] = getattr(self, field)
         if self.unit != "1":
             number["description"] = f"in {self.unit}"
-        text = {"type": "string", "description": f"with a unit, as in '{_example(self.unit)}'"}
+        text = {"type": "string", "description": f"with a unit, as in '{self.example}'"}
         return {"anyOf": [number, text], "x-unit": self.unit}
 
     def _validate(self, value: object) -> float | str:
@@ -368,5 +384,5 @@ def _example(unit: str) -> str:
     return _KINDS[unit][1] if unit in _KINDS else f"1 {unit}"
 
 
-def _needed(unit: str) -> str:
-    return f"{_called(scale(unit)[1])} is needed, as in '{_example(unit)}'"
+def _needed(unit: str, example: str) -> str:
+    return f"{_called(scale(unit)[1])} is needed, as in '{example}'"

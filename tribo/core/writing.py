@@ -29,7 +29,7 @@ def writing(place: Path) -> Iterator[None]:
 def check_output(path: Path) -> None:
     """Raise `CaseError` if a file has no folder, or what is there is no regular file."""
     if not os.path.isdir(path.parent):
-        raise CaseError(f"there is no folder {path.parent}; make it first")
+        raise CaseError(f"there is no folder {path.parent}; make it with: mkdir {path.parent}")
     if os.path.islink(path):
         raise CaseError(
             f"{path} is a link, which is not written through; give the file that it leads to, "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable
 from contextlib import suppress
 from typing import Any
 
@@ -12,18 +12,17 @@ from tribo.registry.probe import probe_all
 from tribo.registry.registry import Registry, default_registry
 
 
-def choose(hook: str, name: str, words: str, own: Mapping[str, str] | None = None) -> Any:
+def choose(hook: str, name: str, words: str, own: Iterable[str] = ()) -> Any:
     """Return the format or template of this name that a plugin offers by `hook`.
 
     `words` names its sort in messages: ``"format"`` or ``"template"``; `own` are tribo's own names,
-    which do not include this one, with their descriptions.
+    which do not include this one.
     """
     known = {each.name: each for each in from_all_plugins(hook)}
     if name not in known:
-        summaries = {**(own or {}), **{each.name: each.summary for each in known.values()}}
-        listed = "; ".join(f"{each} ({said.rstrip('.')})" for each, said in summaries.items())
-        meant = suggestion(did_you_mean(name, summaries))
-        raise CaseError(f"no {words} is called {name!r}{meant} Known: {listed}")
+        names = [*own, *known]
+        meant = suggestion(did_you_mean(name, names))
+        raise CaseError(f"no {words} is called {name!r}{meant} Known: {', '.join(names)}")
     return known[name]
 
 

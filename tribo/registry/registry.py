@@ -169,7 +169,9 @@ class Registry:
             raise CaseError(f"unknown {words} {name!r}{meant} Installed: {self.choices(kind)}")
         if cls.kind() != kind:
             other = cls.kind().replace("_", " ")
-            raise CaseError(f"unknown {words} {name!r}: its kind is {other}")
+            raise CaseError(
+                f"a {words} is needed, {name!r} is of kind {other}. Installed: {self.choices(kind)}"
+            )
         return cls
 
     def find(self, name: str, words: str = "component") -> type[Component] | None:
@@ -195,9 +197,9 @@ class Registry:
             self.load(plugin)
 
     def providers(self, fields: set[str]) -> list[str]:
-        """Return the effects of imported plugins that provide any of `fields`, as text."""
+        """Return the effects of imported plugins that provide any of `fields`, as in a case."""
         return [
-            f"{name!r} ({self.claimants(name)[0]})"
+            f"[{{ type = {name!r} }}]"
             for name in self.names("effect")
             if fields & {field.name for field in getattr(self.components[name], "provides", ())}
         ]

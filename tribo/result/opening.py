@@ -13,12 +13,14 @@ import numpy as np
 
 from tribo.core.errors import CaseError
 from tribo.core.findings import as_json, damaged
-from tribo.core.hdf5 import contained, open_hdf5
+from tribo.core.hdf5 import MARK, contained, open_hdf5
+from tribo.core.words import did_you_mean, suggestion
 from tribo.result.checkpoint import RunFolder
 from tribo.result.hdf5 import filled_image
 from tribo.result.header import FORMAT
 from tribo.result.sealed import open_sealed
 
+_RESULT = "the .h5 file that 'tribo run' wrote"
 _DENSEST = 1032
 """Largest factor by which deflate, which compresses a result, makes data smaller."""
 
@@ -58,14 +60,17 @@ def is_unfinished(path: Path) -> bool:
             raise CaseError(
                 f"{path}: its run ended before its first save; 'tribo run --force' starts again"
             )
-        raise CaseError(f"{path} is not a file; give the .h5 file that 'tribo run' wrote")
+        meant = did_you_mean(path.name, (each.name for each in path.parent.glob("*.h5")))
+        raise CaseError(f"{path} is not a file{suggestion(meant)} Give a result, as {_RESULT}")
     try:
+        with path.open("rb") as file:
+            if file.read(len(MARK)) != MARK:
+                make = f"; if it is a case, make its result with: tribo run {path}"
+                hint = make if path.suffix == ".toml" else f"; give {_RESULT}"
+                raise CaseError(f"{path} is not a result{hint}")
         open_sealed(path).close()
     except OSError as error:
         raise CaseError(f"{path} cannot be read: {error.strerror}") from error
-    except CaseError as error:
-        hint = f"; if it is a case: tribo run {path}" if path.suffix == ".toml" else ""
-        raise CaseError(f"{error}{hint}") from error
     with interpreting(str(path)), open_hdf5(path) as file:
         written = file.attrs.get("tribo_format")
         if not np.array_equal(written, FORMAT):

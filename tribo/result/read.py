@@ -280,7 +280,7 @@ class Result:
             if alike or abs(times[nearest] - time) <= ROUND_OFF * times[-1]:
                 return nearest
         listed = ", ".join(f"{saved:g}" for saved in times)
-        raise CaseError(f"{self.name} has no save at {time:g} s; its saves are at {listed} s")
+        raise CaseError(f"{self.name} has no saved time {time:g} s; saved times: {listed} s")
 
     def body(self, name: str) -> BodyResult:
         """Return the data of a body.

@@ -36,7 +36,10 @@ def open_sealed(path: Path) -> BinaryIO:
             digest.update(block)
             left -= len(block)
         if file.read() != _MARK + digest.digest():
-            raise CaseError(f"{path} is damaged, or no file of tribo: its checksum does not match")
+            raise CaseError(
+                f"{path} is damaged, or another program wrote it: its checksum does not match; "
+                "copy the file again, or run its case again"
+            )
         file.seek(0)
     except BaseException:
         file.close()

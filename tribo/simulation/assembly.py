@@ -133,7 +133,7 @@ def varied(case: Case, **changes: Any) -> Case:
 def _law(body: Body, name: str, grid: Grid, exposure: Exposure) -> GuardedLaw:
     """Return the law of a body that wears, or the laws of its layers."""
     laws = []
-    own = [f"layers.{i}.wear" if each.wear else "wear" for i, each in enumerate(body.layers)]
+    own = [f"layers.{i}.wear" if each.wear else "wear" for i, each in enumerate(body.layers, 1)]
     places = (*own, "wear")
     for law, material, place in zip(body.laws(), body.materials(), places, strict=True):
         with located(f"bodies.{name}.{place}"):

@@ -84,7 +84,7 @@ class MissingFieldError(CaseError):
 
 def _missing(who: str, missing: Sequence[str], waiting: Sequence[GuardedEffect]) -> str:
     if list(missing) == [FRICTION_COEFFICIENT.name]:
-        return f"{who} needs a coefficient of friction: add [friction] coefficient = …"
+        return f"{who} needs a coefficient of friction: add friction = 0.1 above the first table"
     in_circle = [effect.component.type for effect in waiting if _provided(effect) & set(missing)]
     if in_circle:
         return (
@@ -92,6 +92,6 @@ def _missing(who: str, missing: Sequence[str], waiting: Sequence[GuardedEffect])
             "effects wait for one another"
         )
     return (
-        f"{who} needs the field {', '.join(missing)}, which nothing in this case provides: add an "
+        f"{who} needs {' and '.join(missing)}, which no effect of this case provides: add an "
         "effect that does ('tribo plugins list' names those installed)"
     )

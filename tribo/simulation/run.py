@@ -86,8 +86,8 @@ class Simulation:
             with doubting(case):
                 self.model = composed(case)
         except MissingFieldError as error:
-            if providers := known.providers(error.missing):
-                raise CaseError(f"{error}; these do: {', '.join(providers)}") from error
+            if providers := " or ".join(known.providers(error.missing)):
+                raise CaseError(f"{error}, as effects = {providers}") from error
             raise
         self._plugins = known.plugins
 
@@ -178,7 +178,10 @@ class Simulation:
             folder = RunFolder(path.resolve())
             if not folder.path.is_dir():
                 told = f", with other components: {listed}" if changes else ""
-                raise CaseError(f"{path} is done{told}; there is nothing to resume")
+                raise CaseError(
+                    f"{path} is done{told}; there is nothing to resume; see it with: "
+                    f"tribo show {path}"
+                )
             # It was killed just as it ended.
             folder.lock()
             folder.remove()

@@ -338,7 +338,10 @@ def _of_list(
             of_file = None if path is None else path.stem if stems else str(path)
             names.append(of_file or f"{'case' if isinstance(each, Case) else 'result'} {number}")
     if len(names) != len(given) or len(set(names)) != len(names):
-        raise CaseError(f"{len(given)} results need as many different labels, not {names}")
+        raise CaseError(
+            f"{len(given)} results need as many different labels, and have {', '.join(names)}; "
+            "give each result once, or labels of your own in Python"
+        )
     with ExitStack() as unless_kept:
         results = {}
         for name, each in zip(names, given, strict=True):

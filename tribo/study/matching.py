@@ -16,8 +16,9 @@ def check_match(match: Mapping[str, str], first: Result, others: Sequence[Result
     if not known or len({*match.values()}) < len(match):
         given = ", ".join(f"{name}={own}" for name, own in match.items())
         raise CaseError(
-            f"{given} does not pair bodies of the first result, {', '.join(first.body_names)}, "
-            f"with bodies of others, {', '.join(theirs)}, each at most once",
+            f"{given} does not pair a body of the first result ({', '.join(first.body_names)}) "
+            f"with one of another ({', '.join(theirs)}), each once at most; write it as "
+            f"{first.body_names[0]}={next(iter(theirs))}",
             "match",
         )
 

@@ -50,10 +50,11 @@ def called(name: str, cases: list[ValidationCase]) -> list[ValidationCase]:
     chosen = [case for case in cases if case.name.startswith(name)]
     if not chosen:
         names = [case.name for case in cases]
-        meant = suggestion(did_you_mean(name, names))
+        begin = dict.fromkeys(each.partition("_")[0] for each in names)
+        meant = suggestion(did_you_mean(name, [*names, *begin]))
         raise CaseError(
-            f"{name}: there is no such file or folder, and no case is called so{meant} "
-            "'tribo verify --quick' names the quick ones"
+            f"{name}: there is no such file, folder or case{meant} Names of cases begin with "
+            f"{', '.join(begin)}"
         )
     return chosen
 

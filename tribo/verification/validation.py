@@ -165,7 +165,7 @@ class ValidationCase:
             values, unit = quantity(result, row.quantity, row.body, row.time, row.place)
             row.numbers(unit)
         except CaseError as error:
-            raise CaseError(str(error), f"expect.{self.expected.expect.index(row)}") from None
+            raise CaseError(str(error), f"expect.{self.expected.expect.index(row) + 1}") from None
         return values, unit
 
     def _judged(self, row: Expectation, solver: str, levels: list[list[Found]]) -> Row:

@@ -238,7 +238,7 @@ def resolved(**changes):
     )
 
 
-STAGES = ["load.normal.0.normal", "load.normal.1.normal", "load.normal.2.normal"]
+STAGES = ["load.normal.1.normal", "load.normal.2.normal", "load.normal.3.normal"]
 HARD = "bodies.disk.material.hardness"
 RAMP = [
     {"at": 0, "normal": 10.0},

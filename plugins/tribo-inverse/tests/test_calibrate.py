@@ -113,7 +113,7 @@ def test_bad_input_is_one_message(tmp_path, weighed):
     file.write_text('[[measured]]\nbody = "ball"\nquantity = "mass"\nvalue = "2 mm"\n')
     ran = tribo("calibrate", "weighed_split.toml", "--measured", file, cwd=weighed)
     assert ran.returncode == 2
-    assert ran.stderr.startswith("error: measured.0.value: '2 mm' is a length [m]")
+    assert ran.stderr.startswith("error: measured.1.value: '2 mm' is a length [m]")
     assert len(ran.stderr.splitlines()) == 1
 
 

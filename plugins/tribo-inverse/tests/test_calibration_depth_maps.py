@@ -120,7 +120,7 @@ def test_another_law_is_noticed_and_not_chosen(two_loads, found):
     wrong = choice.calibrations["archard"]
     assert wrong.p_value < 1e-3
     assert of_kind(wrong, "misfit")[0].value == wrong.chi_square
-    assert "test.1.measured.0" in [each.place for each in of_kind(wrong, "pattern")]
+    assert "test.2.measured.1" in [each.place for each in of_kind(wrong, "pattern")]
     assert not of_kind(found, "pattern")
 
 
@@ -234,17 +234,17 @@ def test_a_map_can_be_planned_with_before_it_is_measured(two_loads):
 @pytest.mark.parametrize(
     ("changes", "place", "words"),
     [
-        ({"depth": "no.npy"}, ".0.depth", "no.npy"),
-        ({"depth": None}, ".0", "give depth"),
-        ({"pitch": None}, ".0.depth", "pixels"),
-        ({"pitch": "0.1 mm"}, ".0.depth", "62.5 × 62.5 µm"),
-        ({"pitch": "1 um"}, ".0.depth", "the window"),
-        ({"depth": "beside.npy"}, ".0.depth", "50 × 50 µm"),
-        ({"depth": "upwards.npy"}, ".0.depth", "sign"),
-        ({"depth": "missing.npy"}, ".0.depth", "missing"),
-        ({"uncertainty": None}, ".0", "uncertainty"),
-        ({"uncertainty": "1e-13 m"}, ".0.depth", "1 µm"),
-        ({"body": "disk"}, ".0.quantity", "does not wear in this case"),
+        ({"depth": "no.npy"}, ".1.depth", "no.npy"),
+        ({"depth": None}, ".1", "give depth"),
+        ({"pitch": None}, ".1.depth", "pixels"),
+        ({"pitch": "0.1 mm"}, ".1.depth", "62.5 × 62.5 µm"),
+        ({"pitch": "1 um"}, ".1.depth", "the window"),
+        ({"depth": "beside.npy"}, ".1.depth", "50 × 50 µm"),
+        ({"depth": "upwards.npy"}, ".1.depth", "sign"),
+        ({"depth": "missing.npy"}, ".1.depth", "missing"),
+        ({"uncertainty": None}, ".1", "uncertainty"),
+        ({"uncertainty": "1e-13 m"}, ".1.depth", "1 µm"),
+        ({"body": "disk"}, ".1.quantity", "does not wear in this case"),
     ],
 )
 def test_a_wrong_map_is_told(changes, place, words, tmp_path, monkeypatch):

@@ -284,3 +284,10 @@ def test_a_fit_that_comes_no_nearer_is_given_up():
     with pytest.raises(NumericalError, match=r"have not settled .*: χ² has come down to"):
         fit(rough, made, np.ones(1))
     assert rough.runs <= 12
+
+
+def test_a_test_that_alone_determines_a_parameter_is_not_foretold():
+    observed, specimen = np.array([1.0, 2.0, 1.02, 0.98]), np.array([0, 0, 1, 2])
+    data = problem(observed, 1e-3 * observed, start=np.ones(2), specimen=specimen)
+    found = fit(lambda k: np.array([k[0], k[1], k[0], k[0]]), data, np.ones(2))
+    assert np.isnan(found.left_out()).tolist() == [True, False, False]

@@ -130,7 +130,7 @@ def test_a_groove_off_the_middle_of_its_map_has_no_other_coefficient(tmp_path):
     np.save(tmp_path / "depth.npy", pixels)
     entry = {"body": "disk", "depth": str(tmp_path / "depth.npy"), "pitch": PIXEL}
     entry = MapEntry(**entry, uncertainty=NOISE, length=0.1e-3)
-    found = calibrate_maps(CASE, {"map.0": entry})
+    found = calibrate_maps(CASE, {"map.1": entry})
     (across,) = of_kind(found, "shift")
     assert across.value == pytest.approx(19.2e-6, abs=3e-6)
     lower, upper = found.maps["disk"].interval(0.95)
@@ -141,8 +141,8 @@ def test_a_groove_off_the_middle_of_its_map_has_no_other_coefficient(tmp_path):
 
 def test_a_length_below_a_cell_is_refused():
     entry = MapEntry(body="disk", depth="map.npy", uncertainty=NOISE, length="1 um")
-    with pytest.raises(CaseError, match=r"map\.0\.length: 1 µm is less than a cell, 62\.5 µm"):
-        calibrate_maps(CASE, {"map.0": entry})
+    with pytest.raises(CaseError, match=r"map\.1\.length: 1 µm is less than a cell, 62\.5 µm"):
+        calibrate_maps(CASE, {"map.1": entry})
 
 
 @pytest.mark.slow
@@ -258,7 +258,7 @@ def test_a_cell_of_which_less_than_half_was_measured_is_left_out():
 @pytest.mark.parametrize(
     ("data", "words"),
     [
-        ({"map": [{"body": "disk", "depth": "no.npy"}]}, "map.0.uncertainty: "),
+        ({"map": [{"body": "disk", "depth": "no.npy"}]}, "map.1.uncertainty: "),
         (
             {"map": [{"body": "disk", "depth": "a", "uncertainty": 1e-9, "length": 1e-4}]}
             | {"fit": [{"path": "load.normal"}]},

@@ -86,7 +86,7 @@ def test_a_map_that_is_not_levelled_is_reported(fitted):
     level = -1e-7
     (off,) = of_kind(fitted(level=level), "level")
     assert off.value == pytest.approx(level, rel=0.03, abs=0)
-    assert (off.place, off.limit < abs(level)) == ("measured.0", True)
+    assert (off.place, off.limit < abs(level)) == ("measured.1", True)
 
 
 @pytest.mark.parametrize("factor", [1, 5])
@@ -132,30 +132,30 @@ def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypa
     entry = MapEntry(**entry, uncertainty=NOISE, length=1e-4)
     for shift in (52, 4):
         np.save(tmp_path / "map.npy", moved(worn, (1e-6 * shift / PITCH, 0), order=1) + 3e-7)
-        *places, level = calibrate_maps(CASE, {"map.0": entry}).findings
+        *places, level = calibrate_maps(CASE, {"map.1": entry}).findings
         # And 2 µm more by the fit.
         assert places[0].value == pytest.approx(1e-6 * (shift + 2), abs=2e-8)
         assert (level.kind, level.value) == ("level", pytest.approx(3e-7, rel=0.03))
     np.save(tmp_path / "map.npy", worn)
     centred = entry.model_copy(update={"centred": True})
-    assert not calibrate_maps(CASE, {"map.0": centred}).notes
+    assert not calibrate_maps(CASE, {"map.1": centred}).notes
     words = {4: "has 3.99 times the", 0.2: "has 0.2 times the", 0: "has none of the volume"}
     for factor, told in words.items():
         np.save(tmp_path / "map.npy", factor * worn)
-        with pytest.raises(CaseError, match=rf"^map\.0\.depth: it {told}"):
-            calibrate_maps(CASE, {"map.0": centred})
+        with pytest.raises(CaseError, match=rf"^map\.1\.depth: it {told}"):
+            calibrate_maps(CASE, {"map.1": centred})
     np.save(tmp_path / "map.npy", 0.2 * worn)
     wide = centred.model_copy(update={"spread": 1.0})
-    assert not calibrate_maps(CASE, {"map.0": wide}).notes
+    assert not calibrate_maps(CASE, {"map.1": wide}).notes
 
 
 @pytest.mark.parametrize(
     ("scale", "k", "words"),
     [
-        (-1.0, TRUE, r"map\.0\.depth: the depths are negative"),
-        (1.0, 1e-3 * TRUE, r"map\.0\.depth: it has .* times the volume"),
+        (-1.0, TRUE, r"map\.1\.depth: the depths are negative"),
+        (1.0, 1e-3 * TRUE, r"map\.1\.depth: it has .* times the volume"),
         (1.0, TRUE, r"check the maps' pitch, level and uncertainty, .*; no step"),
-        (1.0, 0.0, r"map\.0\.body: 'ball' does not wear in this case"),
+        (1.0, 0.0, r"map\.1\.body: 'ball' does not wear in this case"),
     ],
 )
 def test_a_map_that_is_not_of_the_case_is_refused(worn, tmp_path, monkeypatch, scale, k, words):
@@ -167,4 +167,4 @@ def test_a_map_that_is_not_of_the_case_is_refused(worn, tmp_path, monkeypatch, s
     entry = {"body": "ball", "depth": str(tmp_path / "map.npy"), "pitch": PITCH}
     entry = MapEntry(**entry, uncertainty=NOISE, length=1e-4)
     with pytest.raises(TriboError, match=words):
-        calibrate_maps(apply_settings(CASE, {K: k}), {"map.0": entry})
+        calibrate_maps(apply_settings(CASE, {K: k}), {"map.1": entry})

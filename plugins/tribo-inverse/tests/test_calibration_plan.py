@@ -107,7 +107,7 @@ def test_what_cannot_be_planned_is_told(changes, within, words):
 
 
 def test_values_are_needed_to_calibrate():
-    with pytest.raises(CaseError, match=r"^measured\.0: give value, or before .* only with --plan"):
+    with pytest.raises(CaseError, match=r"^measured\.1: give value, or before .* only with --plan"):
         calibrate(CASE, {"measured": [MASS]})
 
 

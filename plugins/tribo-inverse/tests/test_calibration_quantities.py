@@ -69,11 +69,11 @@ def test_a_file_of_the_command_line_gives_a_quantity_of_each_body(tmp_path):
 @pytest.mark.parametrize(
     ("changes", "place", "words"),
     [
-        ({"body": "ball"}, ".0", "leave body out"),
-        ({"quantity": "highest_temperature", "value": "400 K"}, ".0", "give body"),
-        ({"time": "10 s"}, ".0", "leave time out"),
-        ({"value": "2 mm"}, ".0.value", "1/Pa"),
-        ({"quantity": "dissipated_energi", "value": 2}, ".0.quantity", "'dissipated_energy'"),
+        ({"body": "ball"}, ".1", "leave body out"),
+        ({"quantity": "highest_temperature", "value": "400 K"}, ".1", "give body"),
+        ({"time": "10 s"}, ".1", "leave time out"),
+        ({"value": "2 mm"}, ".1.value", "1/Pa"),
+        ({"quantity": "dissipated_energi", "value": 2}, ".1.quantity", "'dissipated_energy'"),
     ],
 )
 def test_an_entry_that_does_not_fit_its_quantity_is_refused(changes, place, words):
@@ -83,5 +83,5 @@ def test_an_entry_that_does_not_fit_its_quantity_is_refused(changes, place, word
 
 
 def test_a_quantity_that_a_case_lacks_is_refused_by_its_place():
-    with pytest.raises(CaseError, match=r"measured\.0: .* no worn_volume_per_energy"):
+    with pytest.raises(CaseError, match=r"measured\.1: .* no worn_volume_per_energy"):
         calibrate(cheap(1), {"measured": [MEASURED], "fit": [{"path": K}]})

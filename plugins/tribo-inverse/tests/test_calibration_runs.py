@@ -193,7 +193,7 @@ def test_a_profile_beside_the_scar_has_no_shape():
         warnings.simplefilter("error", RuntimeWarning)
         found = calibrate(CASE, {"measured": [loss, beside], "fit": fitting(BALL_K)})
     assert np.all(found.data["computed"][1:] == 0)
-    assert [each.place for each in of_kind(found, "pattern")] == ["measured.1"]
+    assert [each.place for each in of_kind(found, "pattern")] == ["measured.2"]
 
 
 def test_a_resolution_leaves_open_its_part_of_the_loss():
@@ -219,7 +219,7 @@ def test_what_a_coarse_grid_cannot_tell_is_left_uncertain():
             assert each.lower < computed(fine, each.body, each.quantity) < each.upper
     for each in found.parameters.itertuples():
         assert each.lower < TRUE[each.path] < each.upper
-    assert [each.place for each in of_kind(found, "grid")] == ["measured.0", "measured.1"]
+    assert [each.place for each in of_kind(found, "grid")] == ["measured.1", "measured.2"]
 
 
 @pytest.mark.slow
@@ -334,7 +334,7 @@ def test_a_forgotten_unit_is_refused_before_anything_is_fitted():
     with pytest.raises(CaseError) as caught:
         calibrate(CASE, {"measured": data}, on_run=lambda run, misfit: runs.append(run))
     # A coefficient may be off by fifty.
-    assert str(caught.value).startswith("measured.1 was read as ")
+    assert str(caught.value).startswith("measured.2 was read as ")
     assert len(str(caught.value).splitlines()) == 1
     assert not runs
 
@@ -361,7 +361,7 @@ def test_an_estimate_held_by_its_bound_has_no_interval_and_data_and_model_disagr
     assert held.degrees_of_freedom == 1
     assert held.p_value < 1e-14
     places = {each.kind: each.place for each in held.findings}
-    assert (places["held"], places["misfit"]) == (BALL_K, "measured.0")
+    assert (places["held"], places["misfit"]) == (BALL_K, "measured.1")
     assert "untested" not in places
 
 

@@ -21,7 +21,7 @@ class Bath(Effect):
 
 
 def test_the_sensitivity_to_a_temperature_is_that_to_one_kelvin(monkeypatch):
-    percent = {"effects.0.ambient": 3.0, "load.normal": 1.0}
+    percent = {"effects.1.ambient": 3.0, "load.normal": 1.0}
     found = Sensitivity("ball", "depth", percent, dict.fromkeys(percent, 0.3), ((24, 24),) * 2)
     monkeypatch.setattr("tribo_inverse.adjoint.sensitivity.sensitivity", lambda *given: found)
     bath, load = of_case(small(effects=[Bath()]), 1e-4)

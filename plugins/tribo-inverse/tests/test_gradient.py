@@ -77,7 +77,7 @@ def coated(hardness=(None, None)):
     return [ball, (name, disk.model_copy(update={"layers": (layer,)}))]
 
 
-OF_COATING = [f"bodies.disk.layers.0.{key}" for key in ("thickness", "young", "poisson")]
+OF_COATING = [f"bodies.disk.layers.1.{key}" for key in ("thickness", "young", "poisson")]
 OF_COATING += ["bodies.disk.material.young", "bodies.ball.material.poisson"]
 
 
@@ -125,7 +125,7 @@ KINDS = {
     ),
     "load over time": kind(
         {10.0: Depth("disk")},
-        [*STAGES, *OF_FRESH, BASE[2], "load.normal.1.at", "load.normal.2.until"],
+        [*STAGES, *OF_FRESH, BASE[2], "load.normal.2.at", "load.normal.3.until"],
         grid=SMALL,
         load=RAMP,
         bodies=pair(FRESH, power(1.5)),
@@ -170,7 +170,7 @@ KINDS["ends at a depth"] = kind(
 )
 KINDS["ends at a depth, load over time"] = kind(
     EndTime(),
-    [*STAGES[:2], *OF_FRESH, "load.normal.1.at", "kinematics.frequency", "stop.depth"],
+    [*STAGES[:2], *OF_FRESH, "load.normal.2.at", "kinematics.frequency", "stop.depth"],
     grid=MIDDLE,
     stop=Stop(depth="0.15 um"),
     load=RAMP,

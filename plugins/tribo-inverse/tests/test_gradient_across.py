@@ -173,6 +173,6 @@ def test_stages_and_friction_of_an_effect_count_in_fretting():
     case = fretting(amplitude=stages, cycles=None, duration=600)
     changes = {"friction": None, "effects": (Rubs(),)}
     paths = [f"kinematics.amplitude.{stage}.amplitude" for stage in (0, 1)]
-    paths += ["effects.0.most", "effects.0.falls", "load.normal", *SHAPE]
+    paths += ["effects.1.most", "effects.1.falls", "load.normal", *SHAPE]
     paths = [path.replace("disk", "flat") for path in paths]
     assert Kind(case.model_copy(update=changes), Volume("ball"), paths, 1e-5).off() < CLOSE

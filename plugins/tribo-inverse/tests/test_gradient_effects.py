@@ -46,7 +46,7 @@ def pauses(**changes):
 
 SLOW = few(nonlinear_tolerance=1e-11, cycle_tolerance=1e-11)
 """What fills the gap has no slope, and a step takes many passes."""
-OF_GRAINS = [f"effects.0.{name}" for name in ("begins", "cover", "stays")]
+OF_GRAINS = [f"effects.1.{name}" for name in ("begins", "cover", "stays")]
 KINDS = {
     "grains": kind(
         Depth("disk"),
@@ -82,8 +82,8 @@ KINDS = {
     "heat": kind(
         Depth("ball"),
         [
-            *("load.normal.0.normal", "load.normal.1.normal", "kinematics.frequency"),
-            *("effects.0.flash", "effects.0.capacity", "bodies.ball.wear.k", *SHAPE),
+            *("load.normal.1.normal", "load.normal.2.normal", "kinematics.frequency"),
+            *("effects.1.flash", "effects.1.capacity", "bodies.ball.wear.k", *SHAPE),
         ],
         load=[{"at": 0, "normal": 10.0}, {"at": 4, "normal": 20.0}],
         bodies=pair(Softens(k=K), archard()),
@@ -94,7 +94,7 @@ KINDS = {
 }
 KINDS["slip"] = kind(
     Depth("disk"),
-    [*BASE, *SHAPE, "effects.0.most"],
+    [*BASE, *SHAPE, "effects.1.most"],
     effects=[Slips()],
     kinematics=motion(duration=1.5),
     stepping=SLOW,
@@ -102,7 +102,7 @@ KINDS["slip"] = kind(
 METAL = {"young": "207 GPa", "poisson": 0.3, "properties": {"leads": "45 W/(m K)"}}
 KINDS["explicit, beside heat that no law follows"] = kind(
     Depth("ball"),
-    ["load.normal.0.normal", "load.normal.1.normal", "bodies.ball.wear.k"],
+    ["load.normal.1.normal", "load.normal.2.normal", "bodies.ball.wear.k"],
     kinematics=motion(duration=4),
     load=[{"at": 0, "normal": 10.0}, {"at": 4, "normal": 20.0}],
     effects=[Heat()],
@@ -123,8 +123,8 @@ KINDS["heat through a body that does not wear"] = kind(
 KINDS["rest"] = kind(
     {2.0: Pressure(2e-5, 0), 4.0: Depth("disk")},
     [
-        *("load.normal.0.normal", "load.normal.1.normal", *SHAPE, "bodies.ball.wear.over"),
-        *(f"effects.0.{name}" for name in ("begins", "rate", "stays")),
+        *("load.normal.1.normal", "load.normal.2.normal", *SHAPE, "bodies.ball.wear.over"),
+        *(f"effects.1.{name}" for name in ("begins", "rate", "stays")),
         *(f"kinematics.frequency.{name}" for name in ("0.frequency", "0.until", "1.until")),
     ],
     1e-4,
@@ -138,7 +138,7 @@ KINDS["rest"] = kind(
 )
 KINDS["rest, of one temperature"] = kind(
     {2.0: Pressure(2e-5, 0), 4.0: Depth("ball")},
-    ["load.normal", "effects.0.capacity", *SHAPE, "kinematics.frequency.1.until"],
+    ["load.normal", "effects.1.capacity", *SHAPE, "kinematics.frequency.2.until"],
     1e-4,
     bodies=pair(Softens(k=K), archard()),
     effects=[Heat()],
@@ -148,7 +148,7 @@ KINDS["rest, of one temperature"] = kind(
 )
 KINDS["spreads"] = kind(
     Depth("disk"),
-    [*BASE[:1], *SHAPE, *(f"effects.0.{name}" for name in ("rate", "stays", "spreads", "over"))],
+    [*BASE[:1], *SHAPE, *(f"effects.1.{name}" for name in ("rate", "stays", "spreads", "over"))],
     bodies=pair(FRESH, archard()),
     effects=[Creeps()],
     kinematics=motion(duration=1),
@@ -163,7 +163,7 @@ KINDS["pressure beside"] = kind(
 )
 KINDS["layers"] = kind(
     Depth("disk"),
-    ["load.normal", *SHAPE, "bodies.disk.layers.0.thickness", *OF_GRAINS],
+    ["load.normal", *SHAPE, "bodies.disk.layers.1.thickness", *OF_GRAINS],
     1e-6,
     bodies=layered(None, ("0.08 nm", archard(2 * K))),
     effects=[Grains()],
@@ -172,7 +172,7 @@ KINDS["layers"] = kind(
 )
 KINDS["layers, pressure beside"] = kind(
     Depth("ball"),
-    ["load.normal", *SHAPE, "bodies.disk.layers.0.thickness", "bodies.ball.wear.k"],
+    ["load.normal", *SHAPE, "bodies.disk.layers.1.thickness", "bodies.ball.wear.k"],
     1e-6,
     bodies=layered(("0.05 um", archard(K / 2)), ("0.002 um", archard(2 * K)), Softens(k=K)),
     effects=[Blurs()],

@@ -32,7 +32,7 @@ FAST = RunningIn(law=archard(2 * K), factor=4.0, over="0.5 GPa m")
 SLOW = SMOOTH.model_copy(update={"law": archard(K / 2), "depth": 1e-7})
 FLEETING = SMOOTH.model_copy(update={"law": archard(4 * K), "depth": 5e-9})
 """Of which a cell, in a step of many parts, would lose many times the roughness there is."""
-OF_LAYER = ["bodies.disk.layers.0.thickness", "bodies.disk.layers.0.wear.over"]
+OF_LAYER = ["bodies.disk.layers.1.thickness", "bodies.disk.layers.1.wear.over"]
 
 
 KINDS = {
@@ -59,8 +59,8 @@ KINDS = {
     "layers": kind(
         Depth("disk"),
         [
-            *("load.normal", *SHAPE, "bodies.ball.wear.k", "bodies.ball.layers.0.wear.k"),
-            *("bodies.ball.layers.0.thickness", "bodies.disk.layers.0.thickness"),
+            *("load.normal", *SHAPE, "bodies.ball.wear.k", "bodies.ball.layers.1.wear.k"),
+            *("bodies.ball.layers.1.thickness", "bodies.disk.layers.1.thickness"),
         ],
         1e-6,
         bodies=layered(("0.3 um", archard(K / 2)), ("0.05 um", archard(2 * K))),
@@ -84,14 +84,14 @@ KINDS = {
     ),
     "load on a plateau, remembers": kind(
         Depth("disk"),
-        ["load.normal.1.normal", "load.normal.2.normal"],
+        ["load.normal.2.normal", "load.normal.3.normal"],
         load=[{"at": 0, "normal": 10.0}, {"at": 10, "normal": 20.0}, {"at": 20, "normal": 20.0}],
         bodies=pair(FRESH, archard()),
         stepping=LONG,
     ),
     "layers, remembers for a small part of a step": kind(
         Depth("disk"),
-        ["load.normal", "bodies.disk.layers.0.thickness"],
+        ["load.normal", "bodies.disk.layers.1.thickness"],
         1e-6,
         grid=SMALL,
         bodies=layered(None, ("0.01 um", SLOW), None, FLEETING),
@@ -100,7 +100,7 @@ KINDS = {
     ),
     "layers, passed late in a step, remembers": kind(
         Depth("ball"),
-        ["load.normal", "bodies.ball.layers.0.thickness", "bodies.ball.wear.over"],
+        ["load.normal", "bodies.ball.layers.1.thickness", "bodies.ball.wear.over"],
         grid=FINE,
         bodies=layered(("0.05 um", archard()), of_ball=FRESH),
         kinematics=motion(duration=1.75537),
@@ -109,7 +109,7 @@ KINDS = {
     ),
     "layers, parts cut off": kind(
         Depth("ball"),
-        ["load.normal", "bodies.disk.layers.0.thickness", "bodies.disk.wear.depth"],
+        ["load.normal", "bodies.disk.layers.1.thickness", "bodies.disk.wear.depth"],
         contact=Winkler(plasticity=False),
         bodies=layered(None, ("0.05 um", archard(2 * K)), SMOOTH, SMOOTH),
         kinematics=motion(duration=5),
@@ -117,7 +117,7 @@ KINDS = {
     ),
     "positions, layers, remembers": kind(
         Depth("disk", 5e-5),
-        ["load.normal", *SHAPE, "bodies.ball.layers.0.thickness", "bodies.ball.wear.over"],
+        ["load.normal", *SHAPE, "bodies.ball.layers.1.thickness", "bodies.ball.wear.over"],
         1e-6,
         grid=FINE,
         bodies=layered(("0.02 um", FAST), ("0.004 um", archard(2 * K)), FRESH, archard()),
@@ -154,5 +154,5 @@ def test_a_point_just_above_the_bottom_of_a_layer_passes_it(below):
         )
 
     depth = gradient(layer("1 um"), {5.0: Depth("ball")}, []).value
-    paths = ["bodies.ball.layers.0.thickness", "load.normal"]
+    paths = ["bodies.ball.layers.1.thickness", "load.normal"]
     assert Kind(layer(depth * (1 + 5e-6)), Depth("ball"), paths, 1e-6).off() < CLOSE

@@ -51,7 +51,7 @@ def test_a_study_of_one_case_does_not_go_with_several_results(ran):
 
 
 def test_a_folder_without_results_is_told_and_none_is_made(tmp_path):
-    with pytest.raises(tribo.CaseError, match=r"there is no folder .*; make it first"):
+    with pytest.raises(tribo.CaseError, match=r"there is no folder .*; make it with: mkdir"):
         tribo_report.write_report(tmp_path, tmp_path / "new" / "report.html")
     with pytest.raises(tribo.CaseError, match="holds no result file"):
         tribo_report.write_report(tmp_path, tmp_path / "report.html")

@@ -33,7 +33,7 @@ MEASURED = {
     "quantity": "mass",
     "time_s": None,
     "position_m": None,
-    "place": "measured.0",
+    "place": "measured.1",
     "unit": "kg",
     "measured": 2e-6,
     "below": False,
@@ -108,8 +108,9 @@ def test_a_calibration_tells_its_estimates(tmp_path):
     )
     assert second.endswith("the data do not bound it.")
     page = (tmp_path / "fit-report.html").read_text(encoding="utf-8")
-    assert "is known to 2.0 %, the least known to 20 % (one standard deviation)" in page
-    assert "Correlation of bodies.ball.wear.k and bodies.disk.wear.k: 0.00." in page
+    for part, spread in (("best", "2.0 %"), ("least", "20 %")):
+        assert f"of the {part} known combination</th><td>{spread}</td>" in page
+    assert "correlation of bodies.ball.wear.k and bodies.disk.wear.k" in page
     assert "The case as fitted, to copy" in page
     assert "sphere, radius 5 mm" in page
     # Nothing to draw: Plotly is left out.

@@ -96,7 +96,7 @@ def test_it_refuses_a_wear_compliance_rather_than_ignore_it():
 @pytest.mark.parametrize("call", ["check", "solve"])
 def test_load_that_the_window_cannot_bear_is_an_error(call):
     problem = ball(load=3000.0, cap=4e9)
-    with pytest.raises(CaseError, match=r"bears no more than 1960 N\. Enlarge the window"):
+    with pytest.raises(CaseError, match=r"bears no more than 1960 N; enlarge grid\.size"):
         solver().check(problem.system) if call == "check" else solver().solve(problem)
 
 

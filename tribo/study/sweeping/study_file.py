@@ -73,11 +73,11 @@ def load_study(path: str | Path | Mapping[str, Any]) -> tuple[Study, dict[str, A
         study = _validated({**path, "case": str(given)})
         return study, apply_settings(case_tables(case), study.settings)
     path = Path(path)
-    tables = read_toml(path, "a study", "a study names a case and says what varies in it")
+    tables = read_toml(path, "a study", "'tribo new sweep' writes a study to start from")
     if "bodies" in tables and "case" not in tables:
         raise CaseError(
-            f"{path} is a case, not a study; a study names a case, as case = {path.name!r}, and "
-            "says what varies in it, in [grid] say"
+            f"{path} is a case, not a study, which names a case and says what varies in it; begin "
+            "one with: tribo new sweep study.toml"
         )
     study = _validated(tables)
     try:
@@ -92,7 +92,7 @@ def _validated(data: dict[str, Any]) -> Study:
         if key in data:
             data[key] = by_path(data[key], key)
     if isinstance(data.get("list"), list):
-        data["list"] = [by_path(point, f"list.{i}") for i, point in enumerate(data["list"])]
+        data["list"] = [by_path(point, f"list.{i}") for i, point in enumerate(data["list"], 1)]
     sample = data.get("sample")
     if isinstance(sample, dict) and "ranges" in sample:
         sample["ranges"] = by_path(sample["ranges"], "sample.ranges")

@@ -30,7 +30,7 @@ def tribo_cases() -> tuple[Path, ...]:
 @hookimpl
 def tribo_templates() -> list[CaseTemplate]:
     """Offer the paper's test, worn by dissipated energy."""
-    summary = "the paper's test, worn by dissipated energy"
+    summary = "The paper's test, worn by dissipated energy."
     return [CaseTemplate("energy.ball_on_disk", summary, EXAMPLE.read_text(encoding="utf-8"))]
 
 

@@ -42,12 +42,16 @@ Shown = TypeVar("Shown", Calibration, Choice, Plan)
     "--measured",
     required=True,
     type=PATH,
-    help="File of measured values and parameters to fit, in TOML.",
+    help="Read measured values and the numbers to fit from this TOML file.",
 )
 @SET
 @PLUGIN
 @click.option(
-    "--level", type=float, default=0.95, show_default=True, help="Probability of the intervals."
+    "--level",
+    type=float,
+    default=0.95,
+    show_default=True,
+    help="Give intervals of this probability.",
 )
 @click.option(
     "-o",
@@ -60,7 +64,7 @@ Shown = TypeVar("Shown", Calibration, Choice, Plan)
     "--plan",
     type=float,
     metavar="PART",
-    help="Instead, print how many tests give intervals of ± this part, as 0.1.",
+    help="Print instead how many tests give intervals of ± this part, as 0.1.",
 )
 @JSON
 def calibrate(
@@ -75,9 +79,9 @@ def calibrate(
 ) -> None:
     """Fit CASE's wear coefficients, or other numbers of it, to measured wear.
 
-    Takes one or more tests, which may differ from CASE or be repeated. Prints estimates with
-    intervals, residuals, notes on the data, and predictions of the fitted case. Compares several
-    cases, of different wear laws say, by Schwarz's criterion.
+    The measured values come from one or more tests, which may differ from CASE or be repeated. The
+    command prints estimates with intervals, residuals, warnings about the data, and predictions of
+    the fitted case. It compares several cases, of different wear laws say, by Schwarz's criterion.
 
     \b
     Examples:
@@ -140,7 +144,7 @@ def _fit_local(
     from tribo_inverse.map_tables import check_free, maps_json, print_maps, write_maps
 
     check_free(output, force)
-    mapped = {f"map.{i}": entry for i, entry in enumerate(measurements.map)}
+    mapped = {f"map.{i}": entry for i, entry in enumerate(measurements.map, 1)}
     found = calibrate_maps(tables, mapped, on_run=_print_pass)
     if as_json:
         echo_json(maps_json(found, level))

@@ -75,13 +75,14 @@ def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
 
 def maps_table(found: FittedMaps, level: float) -> DataTable:
     """Return the range of the factors, and the number of cells where it differs from 1."""
-    title = f"Local coefficients, {found.gradients + found.products} runs and passes back"
-    columns, rows = ("", "known", "factor there", f"below 1 at {100 * level:g} %", "above 1"), []
+    title = f"Local coefficients, by {found.gradients + found.products} runs and passes back"
+    below = f"cells below 1, at {100 * level:g} %"
+    columns, rows = ("map", "known cells", "factor in these", below, "cells above 1"), []
     for name, each in found.maps.items():
         told, (lower, upper) = each.told, each.interval(level)
         ends = each.factor[told] if np.any(told) else np.ones(1)
         counts = told, told & (upper < 1), told & (lower > 1)
-        cells, *differ = (f"{np.sum(count)} cells" for count in counts)
+        cells, *differ = (str(np.sum(count)) for count in counts)
         there = f"{ends.min():.2f} to {ends.max():.2f}"
         rows.append(TableRow((name, f"{cells} of {told.size}", there, *differ)))
     return DataTable(title, list(map(Heading, columns)), rows)
@@ -102,7 +103,7 @@ def print_maps(found: FittedMaps, level: float) -> None:
     console.table(maps_table(found, level))
     console.print(fit_words(found), markup=False)
     for note in found.notes:
-        console.print(f"Note: {note}", markup=False)
+        console.print(f"Warning: {note}", markup=False)
 
 
 def map_pictures(found: FittedMaps, level: float) -> dict[str, Callable[[], Figure]]:

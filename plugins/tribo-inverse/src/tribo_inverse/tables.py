@@ -1,9 +1,9 @@
-"""Tables and sentences that `tribo calibrate` prints for fitted parameters."""
+"""Tables that `tribo calibrate` prints for fitted parameters."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -22,21 +22,19 @@ BLIND = 0.2
 """Singular value of the Jacobian below which a combination of parameters counts as unknown."""
 LONGEST_NAME = 30
 """Characters of a name that fit in a table of 80 columns."""
-BROKEN = ("interval", "relative")
-"""Ends of the headings of columns of intervals."""
+BROKEN = "interval"
+"""End of the headings of columns of intervals."""
 
 
 def print_fit(found: Calibration) -> None:
-    """Print estimates, residuals, predictions, the goodness of fit and notes."""
+    """Print estimates, residuals, predictions, the goodness of fit and warnings."""
     console = Console()
-    console.table(estimates_table(found))
-    console.table(data_table(found))
-    if len(found.predictions):
-        console.table(predictions_table(found))
-    for line in fit_sentences(found):
-        console.print(line, markup=False)
+    tables = estimates_table(found), data_table(found), predictions_table(found)
+    for table in (*tables, quality_table(found)):
+        if table.rows:
+            console.table(table)
     for note in found.notes:
-        console.print(f"[yellow]Note:[/] {escape(note)}")
+        console.print(f"[yellow]Warning:[/] {escape(note)}")
 
 
 def print_plan(found: Plan) -> None:
@@ -49,8 +47,8 @@ def print_plan(found: Plan) -> None:
     console, count = Console(), sum(counts)
     part = f"±{percent(found.within)} %"
     console.print(f"{count} test{'s' * (count != 1)} give intervals within {part}.")
-    console.table(_table("Tests", ["how many"], zip(names, counts, strict=True)))
-    console.table(_table("Expected", [level], zip(paths, ends, strict=True)))
+    console.table(_table("Tests to make", ["number"], zip(names, counts, strict=True)))
+    console.table(_table("Expected intervals", [level], zip(paths, ends, strict=True)))
 
 
 def print_choice(found: Choice) -> None:
@@ -88,7 +86,7 @@ def _table(
 
 def estimates_table(found: Calibration) -> DataTable:
     """Return the parameters with their intervals."""
-    rows, columns = [], ["estimate", f"{100 * found.level:g} % interval", "relative"]
+    rows, columns = [], _columns("estimate", found)
     for each in found.parameters.itertuples():
         digits = digits_of(each.lower, each.upper)
         ends, relative = _interval(each, f"{each.lower:.{digits}g}", f"{each.upper:.{digits}g}")
@@ -100,7 +98,7 @@ def estimates_table(found: Calibration) -> DataTable:
         if each.held or each.limited or math.isinf(each.upper):
             relative = ""
         rows.append((each.path, value, ends, relative))
-    return _table(f"Fitted in {found.runs} runs", columns, rows)
+    return _table(f"Fitted numbers, by {found.runs} runs", columns, rows)
 
 
 def data_table(found: Calibration) -> DataTable:
@@ -114,51 +112,55 @@ def data_table(found: Calibration) -> DataTable:
         many = each.depths > 1
         residual = f"rms {each.residual:.1f}" if many else signed(each.residual, 1)
         rows.append((_name(each), *shown, residual))
-    return _table("Measured", ["value", "uncertainty", "computed", "residual"], rows)
+    columns = ["value", "uncertainty", "computed", "residual, σ"]
+    return _table("Measured values, with standard uncertainties", columns, rows)
 
 
 def predictions_table(found: Calibration) -> DataTable:
     """Return the predictions of the fitted case."""
-    rows, columns = [], ["computed", f"{100 * found.level:g} % interval", "relative"]
+    rows, columns = [], _columns("computed", found)
     for each in found.predictions.itertuples():
         value, low, high = (
             in_words(each.quantity, value, digits_of(each.lower, each.upper))
             for value in (each.value, each.lower, each.upper)
         )
         rows.append((row_name(each), value, *_interval(each, low.split()[0], high)))
-    return _table("Not measured, at the end", columns, rows)
+    return _table("Predictions for the end of the test", columns, rows)
 
 
-def fit_sentences(found: Calibration) -> Iterator[str]:
-    """Return sentences on the goodness of fit, the repeatability and the correlations."""
+def quality_table(found: Calibration) -> DataTable:
+    """Return the goodness of fit, the repeatability, and what the data know of the numbers."""
+    rows: list[tuple[str, str]] = []
     if found.p_value is not None:
-        freedom = found.degrees_of_freedom
-        yield (
-            f"χ² {found.chi_square:.3g} with {freedom} degree{'s' * (freedom != 1)} of freedom, "
-            f"{p_words(found.p_value)}."
-        )
+        rows.append(("χ²", f"{found.chi_square:.3g}"))
+        rows.append(("degrees of freedom", str(found.degrees_of_freedom)))
+        rows.append(("probability of a larger χ²", p_words(found.p_value)[2:].removeprefix("= ")))
     if found.repeatability or found.repeatability_estimated:
-        how = "estimated" if found.repeatability_estimated else "as stated"
-        yield f"Repeatability, {how}: ±{percent(found.repeatability)} % from test to test."
-    best, worst = (_known(found.singular_values[i]) for i in (0, -1))
-    if len(found.parameters) > 1:
-        yield (
-            f"Of all combinations of these numbers the best known by the data is known {best}, "
-            f"the least known {worst} (one standard deviation)."
-        )
+        how = "estimated" if found.repeatability_estimated else "stated"
+        spread = f"{percent(found.repeatability)} %"
+        rows.append((f"standard deviation from test to test, {how}", spread))
     paths = list(found.parameters["path"])
+    if len(paths) > 1:
+        best, worst = (_known(found.singular_values[i]) for i in (0, -1))
+        rows.append(("standard deviation of the best known combination", best))
+        rows.append(("standard deviation of the least known combination", worst))
     for i, first in enumerate(paths):
         for j, second in enumerate(paths[:i]):
             both = signed(found.correlation[i, j], 2)
-            yield f"Correlation of {second} and {first}: {both}."
+            rows.append((f"correlation of {second} and {first}", both))
+    return _table("Quality of the fit", ["value"], rows)
+
+
+def _columns(value: str, found: Calibration) -> list[str]:
+    return [value, f"{100 * found.level:g} % interval", "relative interval"]
 
 
 def _known(singular_value: float) -> str:
     """Return the standard deviation of a combination of parameters in words."""
     if singular_value < BLIND:
-        return "not at all"
+        return "unknown"
     spread = 1 / singular_value
-    return f"to {percent(spread)} %" if spread < 1 else f"to a factor {math.exp(spread):.2g}"
+    return f"{percent(spread)} %" if spread < 1 else f"a factor {math.exp(spread):.2g}"
 
 
 def _name(row: Any) -> str:

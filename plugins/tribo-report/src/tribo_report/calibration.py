@@ -25,7 +25,7 @@ from tribo_inverse.calibration.quantities import in_si, p_words
 from tribo_inverse.findings import UNLIKELY, bound
 from tribo_inverse.fitted import fit_picture
 from tribo_inverse.map_tables import read_maps
-from tribo_inverse.tables import data_table, estimates_table, fit_sentences, predictions_table
+from tribo_inverse.tables import data_table, estimates_table, predictions_table, quality_table
 
 from tribo_report.maps import maps_page
 from tribo_report.page import render, stills
@@ -66,17 +66,16 @@ def _read(found: dict[str, Any]) -> Calibration:
 
 def calibration_page(found: Calibration, title: str) -> str:
     """Return the report of a calibration as HTML; see `tribo_report.write_report`."""
-    tables = [estimates_table(found), data_table(found)]
-    if len(found.predictions):
-        tables.append(predictions_table(found))
+    tables = [estimates_table(found), data_table(found), predictions_table(found)]
+    tables.append(quality_table(found))
     return render(
         "study.html.j2",
         kind="Calibration",
         title=title,
         answers=list(_answers(found)),
         tables_title="What was fitted",
-        tables=tables,
-        remarks=list(fit_sentences(found)),
+        tables=[table for table in tables if table.rows],
+        remarks=[],
         notes=found.notes,
         stills=stills(
             {"fit, relative to the measured values": partial(fit_picture, found.brief, found.data)}

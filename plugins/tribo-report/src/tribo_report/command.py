@@ -12,7 +12,9 @@ from tribo.kernel_api import PATH
 @click.argument("what", nargs=-1, required=True, type=PATH)
 @click.option("-o", "--output", type=PATH, help="Write this file, by default WHAT-report.html.")
 @click.option(
-    "--verified", type=PATH, help="Output of 'tribo verify CASE --json', for uncertainties."
+    "--verified",
+    type=PATH,
+    help="Take uncertainties from this output of 'tribo verify CASE --json'.",
 )
 def report(what: tuple[Path, ...], output: Path | None, verified: Path | None) -> None:
     """Write a report of WHAT to hand on: one HTML file that opens offline in any browser.

@@ -31,17 +31,26 @@ MOST_DIGITS = 6
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=PATH, metavar="[BEFORE] AFTER")
-@click.option("--ideal", metavar="SURFACE", help="Shape before the test, as in a case.")
-@click.option("--pitch", multiple=True, metavar="LENGTH", help="Pixel pitch; twice for x, y.")
-@click.option("--radius", metavar="LENGTH", help="Radius of the ball, for formulas.")
-@click.option("--track-length", metavar="LENGTH", help="Track length; by default the map's.")
-@click.option("--form", type=int, default=1, help="Form removed: 1 tilt, 2 curvature too.")
+@click.option("--ideal", metavar="SURFACE", help="Take this shape before the test, as in a case.")
+@click.option(
+    "--pitch",
+    multiple=True,
+    metavar="LENGTH",
+    help="Take this distance of pixels; give it twice for x and y.",
+)
+@click.option("--radius", metavar="LENGTH", help="Use formulas for a ball of this radius.")
+@click.option(
+    "--track-length", metavar="LENGTH", help="Take a track of this length, by default the map's."
+)
+@click.option(
+    "--form", type=int, default=1, help="Remove this form: 1 for tilt, 2 for curvature too."
+)
 @click.option(
     "-o",
     "--output",
     multiple=True,
     type=PATH,
-    help="Picture to write, as scar.png, or the depth map, as depth.npy; several times for both.",
+    help="Write a picture, as scar.png, or the depth map, as depth.npy; may be repeated.",
 )
 @JSON
 def scar(
@@ -165,8 +174,8 @@ def _print(found: MeasuredScar) -> None:
     rows = [
         _row("volume in the map, mm³", 1e9, found.volume, found.volume_uncertainty),
         _row("largest depth, µm", 1e6, found.depth, found.depth_uncertainty),
-        _row("along sliding, mm", 1e3, found.along, found.along_uncertainty or 0.0),
-        _row("across, mm", 1e3, found.across, found.across_uncertainty or 0.0),
+        _row("length along sliding, mm", 1e3, found.along, found.along_uncertainty or 0.0),
+        _row("width across, mm", 1e3, found.across, found.across_uncertainty or 0.0),
         *(
             _row(name, scale, value, relative * value)
             for name, scale, value in (
@@ -177,20 +186,19 @@ def _print(found: MeasuredScar) -> None:
         ),
     ]
     if found.piled_up:
-        rows.append(_row("piled up, mm³", 1e9, found.piled_up, found.piled_up_uncertainty))
+        rows.append(_row("volume piled up, mm³", 1e9, found.piled_up, found.piled_up_uncertainty))
     if found.missing:
-        rows.append(("missing in it, %", f"{100 * found.missing:.3g}", ""))
+        rows.append(("missing pixels in the scar, %", f"{100 * found.missing:.3g}", ""))
     if found.outliers:
         rows.append(("outliers in both maps", str(found.outliers), ""))
     moved = laid.shift_uncertainty
     rows += [
-        _row("shift along x in the map after, µm", 1e6, laid.shift[0], moved[0]),
-        _row("shift along y, µm", 1e6, laid.shift[1], moved[1]),
-        _row("rotation, mrad", 1e3, laid.rotation, laid.rotation_uncertainty),
+        _row("shift of the map after along x, µm", 1e6, laid.shift[0], moved[0]),
+        _row("shift of the map after along y, µm", 1e6, laid.shift[1], moved[1]),
+        _row("rotation of the map after, mrad", 1e3, laid.rotation, laid.rotation_uncertainty),
         ("noise of the unworn difference, nm", f"{1e9 * laid.noise:.3g}", ""),
     ]
-    headings = list(map(Heading, ("", "", "±")))
-    title = "Scar, with standard uncertainties"
-    console.table(DataTable(title, headings, [TableRow(row) for row in rows]))
+    headings = list(map(Heading, ("", "value", "standard uncertainty")))
+    console.table(DataTable("Scar", headings, [TableRow(row) for row in rows]))
     if found.inferred:
         console.table(inferred_table(found.inferred))

@@ -25,7 +25,7 @@ def tribo_components() -> tuple[type[Component], ...]:
 @hookimpl
 def tribo_templates() -> list[CaseTemplate]:
     """Offer the paper's test in its warm bath, with wear that follows the temperature."""
-    summary = "the paper's test, with wear that follows the temperature of the contact"
+    summary = "The paper's test, with wear that follows the temperature of the contact."
     return [CaseTemplate("thermal.ball_on_disk", summary, EXAMPLE.read_text(encoding="utf-8"))]
 
 

@@ -57,7 +57,7 @@ def _named(
     keys = [ANY if key == "any-body" else key for key in keys]
     places = [place for place in known if _fits(place, keys)]
     if places == [] and keys == ["load", "normal"]:
-        raise CaseError("has several stages; name one, as load.normal.0.normal", path)
+        raise CaseError("has several stages; name one, as load.normal.1.normal", path)
     if not places:
         paths = [".".join(map(str, place)) for place in known]
         raise CaseError(
@@ -95,4 +95,4 @@ def changed(value: Any, place: Sequence[Any], number: float) -> Any:
         return type(value).model_validate({**dict(value), key: inside})
     if isinstance(value, Mapping):
         return {**value, key: changed(value[key], rest, number)}
-    return tuple(changed(v, rest, number) if i == key else v for i, v in enumerate(value))
+    return tuple(changed(v, rest, number) if i == key else v for i, v in enumerate(value, 1))

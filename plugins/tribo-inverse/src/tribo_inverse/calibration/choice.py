@@ -141,7 +141,7 @@ def _measurements_of_each(
         name: tuple(entry for entry in measurements.fit if is_number(case, entry.path))
         for name, case in known.items()
     }
-    for i, entry in enumerate(measurements.fit):
+    for i, entry in enumerate(measurements.fit, 1):
         if not any(entry in fit for fit in fits.values()):
             raise CaseError(f"{entry.path} is a number of none of the cases", f"fit.{i}.path")
     for name, fit in fits.items():

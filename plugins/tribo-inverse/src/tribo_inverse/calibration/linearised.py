@@ -293,6 +293,9 @@ class Linearised:
             point = self.least(self.point, ~own)
             rest = replace(self, point=point, responses=self.at(point))
             root = root_covariance(rest.sensitivity()[~own])
+            if np.max(np.sum(root**2, axis=1)) >= _UNDETERMINED**2:
+                found.append(np.nan)
+                continue
             # The error of the estimate adds to the error of each value.
             from_estimate = self.weights.weigh(rest.effects(point)) @ root
             residuals = self.weights.weigh(rest.responses[:n] - self.problem.observed)
@@ -304,8 +307,7 @@ class Linearised:
                 covariance += from_estimate[values] @ from_estimate[values].T
                 likelihood += multivariate_normal.logpdf(residuals[values], cov=covariance)
                 likelihood += self.weights.log_determinant(values)
-            determined = np.max(np.sum(root**2, axis=1)) < _UNDETERMINED**2
-            found.append(likelihood if determined else np.nan)
+            found.append(float(likelihood))
         return np.array(found)
 
     def _estimated(self, point: Array) -> float:

@@ -332,8 +332,8 @@ class Measurements(Table):
         """All tests, by their place in the file."""
         own = {"": TestEntry(measured=self.measured)} if self.measured else {}
         return own | {
-            f"test.{i}.": each.model_copy(update={"name": each.name or f"test {i + 1}"})
-            for i, each in enumerate(self.test)
+            f"test.{i}.": each.model_copy(update={"name": each.name or f"test {i}"})
+            for i, each in enumerate(self.test, 1)
         }
 
     def table(self) -> pd.DataFrame:
@@ -348,7 +348,7 @@ class Measurements(Table):
         for of, (place, test) in enumerate(self.tests.items()):
             named = [
                 entry.rows().assign(place=f"{place}measured.{i}")
-                for i, entry in enumerate(test.measured)
+                for i, entry in enumerate(test.measured, 1)
             ]
             one = pd.concat(named).assign(test=test.name, of=of)
             one["specimen"] += specimens

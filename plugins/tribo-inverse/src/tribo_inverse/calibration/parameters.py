@@ -31,7 +31,7 @@ def find_parameters(
     case: Case, fit: Sequence[FitEntry], measured: Collection[str]
 ) -> list[Parameter]:
     """Return the parameters in `fit`, or by default the k of each body in `measured`."""
-    asked = [(f"fit.{i}", entry) for i, entry in enumerate(fit)]
+    asked = [(f"fit.{i}", entry) for i, entry in enumerate(fit, 1)]
     if not fit:
         of_bodies = [f"bodies.{name}.wear.k" for name in case.bodies if name in measured]
         asked = [("fit", FitEntry(path=path)) for path in of_bodies if is_number(case, path)]
@@ -97,7 +97,7 @@ def _number(case: Case, keys: tuple[str, ...]) -> tuple[float, Quantity]:
 def _bounded(place: str, entry: FitEntry, value: float, mark: Quantity) -> Parameter:
     """Return a parameter with the bounds given, within the bounds of its field."""
     above = max(mark.above or 0.0, 0.0)
-    positive = replace(mark, above=above)
+    positive = mark if mark.at_least else replace(mark, above=above)
 
     def read(name: str, given: float | str | None, default: float) -> float:
         with located(f"{place}.{name}"):

@@ -80,7 +80,7 @@ def find_setups(
             cases[key] = case, Simulation(case).model
         tests_of.setdefault(key, []).append(test)
         indices.append([*cases].index(key))
-        for i, entry in enumerate(test.measured):
+        for i, entry in enumerate(test.measured, 1):
             _check_entry(cases[key][1], entry, f"{place}measured.{i}")
     names = [first.name for first, *_ in tests_of.values()]
     for name in names:
