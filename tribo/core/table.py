@@ -56,7 +56,7 @@ class Table(BaseModel, metaclass=_TableClass):
     ...     Spring(stifness=2.0)
     ... except tribo.CaseError as error:
     ...     print(error)
-    stifness: unknown key 'stifness'; did you mean 'stiffness'? Allowed: stiffness
+    stifness: unknown key; did you mean 'stiffness'? Allowed: stiffness
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
