@@ -83,7 +83,7 @@ def test_json_is_one_object_and_files_compare_alike(folder, compared):
 @pytest.mark.parametrize(
     ("files", "options", "message"),
     [
-        (["my.toml"], [], "is a case; say what varies in it with --vary"),
+        (["my.toml"], [], "--vary contact.type=dcfft,winkler"),
         (["my.toml", "b.h5"], CONTACTS, "--vary varies one case, 2 files are given"),
         (["my.toml"], [*CONTACTS, "--at", "1 h"], "nothing is saved at 3600 s, only at 0, 20, 60"),
         (["a.h5", "b.h5"], ["--force"], "--set and --force are for a case that varies"),

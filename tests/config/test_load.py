@@ -101,7 +101,7 @@ def test_each_mistake_is_a_line(path):
 @pytest.mark.parametrize(
     ("grid", "message"),
     [
-        ({"size": 1e-3, "cells": 3}, "grid.cells: 3: must be from 4 to 16384"),
+        ({"size": 1e-3, "cells": 3}, "grid.cells: 3: must be from 4 to 16384, as in 128"),
         ({"cells": 8}, "grid.size: missing; a length [m] is needed, as in '5 mm'"),
     ],
 )

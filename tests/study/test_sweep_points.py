@@ -104,7 +104,10 @@ GRID, SAMPLE = "[grid]\n", '[sample]\nmethod = "sobol"\ncount = 2\n[sample.range
         (SAMPLE, "sample.ranges: at least 1"),
         (SAMPLE + "load.normal = {low = 1}", 'sample.ranges."load.normal".high: missing'),
         (SAMPLE + "load.normal = {low = 0, high = 2}", "sample.ranges: the low ends cannot be"),
-        (SAMPLE + "load.normal = {low = '2 N', high = 1}", "sample.ranges.load.normal: low must"),
+        (
+            SAMPLE + "load.normal = {low = '2 N', high = 1}",
+            "sample.ranges.load.normal: low, 2 N, must",
+        ),
         (SAMPLE + "grid.cells = {low = 16, high = 32}", "grid.cells: is not a quantity"),
         (
             SAMPLE + "'friction.coefficient' = {low = 0, high = 1, scale = 'log'}",
@@ -122,7 +125,7 @@ def test_what_is_wrong_is_said_before_anything_runs(tmp_path, text, message):
 
 def test_a_case_in_the_place_of_a_study_is_told(tmp_path):
     sweeps.study(tmp_path)
-    with pytest.raises(CaseError, match=r"case\.toml is a case, not a study; .*case = 'case.toml'"):
+    with pytest.raises(CaseError, match=r"case\.toml is a case, not a study.*tribo new sweep"):
         plan(tmp_path / "case.toml", tmp_path / "out")
 
 

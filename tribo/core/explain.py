@@ -31,7 +31,7 @@ _WORDS = {
             "a table is needed, {given} was given"
         ),
         "list_type tuple_type set_type frozen_set_type iterable_type": (
-            "a list is needed, {given} was given"
+            "a list in brackets is needed, {given} was given"
         ),
         "greater_than": "{given}: must be greater than {gt}",
         "greater_than_equal": "{given}: must be at least {ge}",

@@ -18,7 +18,7 @@ FEWEST, MOST = 4, 16384
 
 def out_of_range(cells: int) -> str:
     """Return the message for a number of cells that a case cannot have."""
-    return f"{cells}: must be from {FEWEST} to {MOST}"
+    return f"{cells}: must be from {FEWEST} to {MOST}, as in 128"
 
 
 def _some(cells: int) -> int:

@@ -19,7 +19,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from tribo.core.errors import CaseError
 from tribo.core.rounding import ROUND_OFF
-from tribo.core.words import shown
+from tribo.core.words import did_you_mean, shown
 
 Dimension = tuple[int, int, int, int, int, int]
 """Exponents of m, kg, s, K, mol and lap."""
@@ -165,7 +165,9 @@ def _power(factor: str) -> tuple[Fraction, Dimension, int]:
         raise ValueError("degC has an offset; use K in a compound unit")
     if _ROCKWELL.fullmatch(name):
         raise ValueError("Rockwell hardness has no fixed conversion; give GPa or HV (Vickers)")
-    raise ValueError(f"unknown unit {name!r}")
+    prefixed = [prefix + symbol for prefix in PREFIXES for symbol in _SYMBOLS]
+    like = did_you_mean(name, [*_SYMBOLS, *_UNPREFIXED, *prefixed])
+    raise ValueError(f"unknown unit {name!r}" + (f" (did you mean {like!r}?)" if like else ""))
 
 
 def number(text: str) -> float:

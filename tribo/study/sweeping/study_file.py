@@ -101,7 +101,10 @@ def _validated(data: dict[str, Any]) -> Study:
     except ValidationError as error:
         raise case_error(error) from None
     if not (study.grid or study.zip or study.list or study.sample):
-        raise CaseError("nothing varies; give [grid], [zip], [[list]] or [sample]")
+        raise CaseError(
+            "nothing varies; give [grid], [zip], [[list]] or [sample], as grid = "
+            "{ 'load.normal' = ['50 N', '100 N'] }"
+        )
     return study
 
 
@@ -157,7 +160,7 @@ def _sampled(sample: Sample, data: Mapping[str, Any], first: Point) -> list[Poin
         place = f"sample.ranges.{path}"
         if low[path] >= high[path]:
             raise CaseError(
-                f"low must be less than high; {given.low} and {given.high} are given", place
+                f"low, {given.low}, must be less than high, {given.high}; exchange them", place
             )
         if given.scale == "log" and low[path] <= 0:
             raise CaseError(

@@ -95,8 +95,8 @@ def scar(
     if len(files) != (1 if ideal else 2):
         count = "1 file is" if len(files) == 1 else f"{len(files)} files are"
         raise CaseError(
-            f"{count} given; give the maps before and after, or the one after with "
-            "the shape before as --ideal"
+            f"{count} given; give the maps before and after, or the one after and the shape "
+            'before it, as --ideal \'{ type = "sphere", radius = "5 mm" }\''
         )
     if len(pitch) > 2:
         raise CaseError("give one --pitch, or two, along x and along y")
