@@ -36,8 +36,9 @@ class Debris(Effect):
 
     def state_rates(self, contact: ContactConditions) -> Mapping[str, Array]:
         """Return how fast the height changes, in m/s."""
-        leaves = np.where(contact.pressure > 0, contact.state["debris_thickness"] / self.length, 0)
-        return {"debris_thickness": contact.speed * (sum(contact.wear_rates.values()) - leaves)}
+        thickness, worn = contact.state["debris_thickness"], sum(contact.wear_rates.values())
+        leaves = np.where(contact.pressure > 0, thickness / self.length, 0)
+        return {"debris_thickness": contact.speed * (worn - leaves)}
 
 
 if __name__ == "__main__":

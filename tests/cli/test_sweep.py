@@ -47,7 +47,8 @@ def test_json_has_the_rows_of_the_table(swept):
 
 @pytest.mark.slow
 def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path, monkeypatch):
-    monkeypatch.setattr("tribo.cli.sweep._executor", lambda *_: nullcontext(sweeps.Inline()))
+    inline = nullcontext(sweeps.Inline())
+    monkeypatch.setattr("tribo.study.sweeping.sweep.processes", lambda jobs: inline)
     sweeps.study(tmp_path, sweeps.QUICK + '[grid]\ngrid.size = ["0.6 mm", "0.2 mm"]')
     code, out, err = tribo("sweep", "study.toml", "-o", "out", "--jobs", 1, cwd=tmp_path)
     assert code == 3
