@@ -51,6 +51,7 @@ def loops(result: Result, frequency: float) -> Figure:
         number = frequency * result.times[save]
         axes.plot(1e6 * moved, force, color=str(shade), label=f"{number:.0f} cycles")
     axes.legend()
+    axes.locator_params(axis="x", nbins=5)
     return figure
 
 
