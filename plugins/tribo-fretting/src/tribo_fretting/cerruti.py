@@ -20,9 +20,9 @@ def tangential_compliances(materials: Collection[Material]) -> tuple[float, floa
 
 def dundurs_beta(materials: Collection[Material]) -> float:
     """Return Dundurs' β, the coupling of pressure and traction; 0 for bodies of one material."""
-    whole, less = tangential_compliances(materials)
+    whole, mixed = tangential_compliances(materials)
     one, other = ((1 + m.poisson) * (1 - 2 * m.poisson) / m.young for m in materials)
-    return (one - other) / (2 * math.pi * (whole - less))
+    return (one - other) / (2 * math.pi * (whole - mixed))
 
 
 def coefficients(
@@ -74,9 +74,9 @@ class Cerruti:
         # Even in both, or odd in both: the spectra are real.
         uxx, uyy, uxy = scipy.fft.rfft2(kernels).real
         self._spectra = np.array([[uxx, uxy], [uxy, uyy]])[:components, :components]
-        # The normal displacement is alike: 1/(πE*) is A − B.
-        whole, less = compliances
-        self._symbols = HalfSpace(shape, spacing, 1 / (math.pi * (whole - 0.5 * less))).symbol()
+        # As of the normal displacement: 1/(πE*) is A − B, and here A − B/2 on average.
+        whole, mixed = compliances
+        self._symbols = HalfSpace(shape, spacing, 1 / (math.pi * (whole - 0.5 * mixed))).symbol()
         self.typical = float(np.mean(self._symbols))
         """A mean eigenvalue, in m/Pa."""
         self._symbols[0, 0] += rig * shape[0] * shape[1]
