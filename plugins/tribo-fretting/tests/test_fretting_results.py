@@ -1,13 +1,14 @@
 """What a report and pictures say of a result that frets."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from fretting_problems import LOAD, MU, K, ball, case
 from tribo import Simulation
 
 from tribo_fretting.closed_forms import force_ratio, stick_radius
 from tribo_fretting.columns import COLUMNS
-from tribo_fretting.figures import loop
+from tribo_fretting.figures import loop, running_conditions
 from tribo_fretting.plugin import tribo_figures
 
 
@@ -40,6 +41,14 @@ def test_rows_give_the_last_cycle(result):
     last = result.saves()[-1]
     assert {f"quantities.{column.label}" for column in COLUMNS} == rows.keys()
     assert all(rows[f"quantities.{column.label}"] == last[column.label] for column in COLUMNS)
+
+
+def test_running_conditions_are_drawn_over_load_and_amplitude():
+    columns = ["load.normal_N", "kinematics.amplitude_m", "stick_part"]
+    runs = pd.DataFrame([[25.0, 3e-6, 0.0], [100.0, 1e-6, 0.6]], columns=columns)
+    dots = running_conditions(runs).axes[0].collections[0]
+    assert np.asarray(dots.get_offsets()) == pytest.approx(np.array([[25, 3], [100, 1]]))
+    assert dots.get_array().tolist() == [0, 0.6]
 
 
 def test_no_stick_zone_is_left_in_gross_slip():
