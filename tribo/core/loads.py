@@ -175,13 +175,15 @@ class Load(Table):
         A place, in m from the middle, may lie `reach` (m) beyond the places given; `CaseError` if
         it lies further off.
         """
+        at, shares = self._along
         if len(places) == 1:
+            change = 100 * (max(shares) / min(shares) - 1)
             raise CaseError(
-                "the load can change along the stroke only where the motion is resolved; give "
-                "kinematics.positions, as 33, or leave it out",
+                f"the load changes by {change:.3g} % along the stroke, which takes a motion in "
+                "positions: give a reciprocating motion kinematics.positions, as 33, or leave "
+                "load.along out, and wear is off by up to as much",
                 "load.along",
             )
-        at, shares = self._along
         first, last = float(np.min(places)), float(np.max(places))
         if at[0] > first + reach or at[-1] < last - reach:
             raise CaseError(

@@ -18,8 +18,8 @@ class Ball(NamedTuple):
     """A ball of 10 mm on a like flat, or another curvature, after its normal contact."""
 
     grid: Grid
+    problem: ContactProblem
     pressure: Array
-    approach: float
     contact_radius: float
     materials: tuple[Material, Material]
 
@@ -48,9 +48,8 @@ def ball(cells, poisson=0.3, young=207e9, load=LOAD, radius=RADIUS, window=None)
     x, y = grid.mesh
     system = ContactSystem(grid, modulus, load)
     problem = ContactProblem(system, (x**2 + y**2) / (2 * radius), load)
-    solution = DcFft(tolerance=1e-11).solve(problem)
-    pair = (material, material)
-    return Ball(grid, solution.pressure, solution.approach, contact_radius, pair)
+    pressure = DcFft(tolerance=1e-11).solve(problem).pressure
+    return Ball(grid, problem, pressure, contact_radius, (material, material))
 
 
 def case(cells=24, amplitude="2.2 um", k=K, **changes):

@@ -95,6 +95,7 @@ def bodies(**changes):
 LONG = [STAGES[0], {"until": "5000 s", "amplitude": "100 um"}]
 ALUMINIUM = {"young": "70 GPa", "poisson": 0.33}
 LAYER = {"thickness": "1 um", "young": "400 GPa"}
+ENDS = [{"at": "-3 um", "share": 0.9}, {"at": "3 um", "share": 1.1}]
 REFUSED = {
     "no friction": ({"friction": None}, "coefficient of friction"),
     "friction of 0": ({"friction": {"coefficient": 0}}, "friction is 0"),
@@ -104,6 +105,7 @@ REFUSED = {
         {"bodies": bodies(layers=[LAYER], wear={"type": "archard", "k": 0})},
         "elastic layer",
     ),
+    "load along": ({"load": {"normal": LOAD, "along": ENDS}}, "changes by 22.2 %"),
     "hardness": ({"bodies": bodies(material={**STEEL, "hardness": "1 GPa"})}, "1 GPa"),
     "unlike": (
         {

@@ -58,10 +58,11 @@ def punch_radius(cells, grid):
 
 
 @pytest.mark.slow
-def test_a_ball_held_at_its_approach_wears_to_the_limit_of_dimensionality_reduction():
+@pytest.mark.parametrize(("window", "off"), [(2.8, 0.01), (3.4, 2e-4)])
+def test_a_ball_held_at_its_approach_wears_to_the_limit_of_dimensionality_reduction(window, off):
     # Popov, V. L. (2014), Sci. Rep. 4, 3749.
     moved = shift(1 - STUCK**3, MU * LOAD, RADIUS, tangential_compliance([CORK, CORK]))
-    grid = Grid(2.6 * RADIUS, 64)
+    grid = Grid(window * RADIUS, 64)
     ball = Body(surface=Paraboloid(radius=BALL), material=CORK, wear=Archard(k=1e-15))
     case = Case(
         grid=grid,
@@ -70,7 +71,8 @@ def test_a_ball_held_at_its_approach_wears_to_the_limit_of_dimensionality_reduct
         bodies={"ball": ball, "flat": Body(surface=Flat(), material=CORK)},
         kinematics=Fretting(amplitude=moved, frequency=20.0, cycles=3e7),
         effects=[HeldApproach()],
-        stepping=Implicit(depth_tolerance=0.1, pressure_tolerance=1.0),
+        # The load follows by steps: long ones press too far meanwhile, and wear the stick zone.
+        stepping=Implicit(depth_tolerance=0.01, pressure_tolerance=1.0),
     )
     with pytest.warns(match="resolution"):
         result = case.run()
@@ -78,12 +80,11 @@ def test_a_ball_held_at_its_approach_wears_to_the_limit_of_dimensionality_reduct
     stuck = (pressure > 0) & (result.field("local_slip", -1, "ball") == 0)
     assert last["approach_m"] == pytest.approx(APPROACH, rel=1e-6, abs=0)
     assert np.sum(pressure[stuck]) >= 0.9999 * np.sum(pressure)
-    counted = sqrt(stuck.sum() * grid.cell_area / pi)
-    assert counted == pytest.approx(STUCK * RADIUS, abs=0.5 * grid.spacing[0])
-    # That is half a cell in load and volume: take the radius of a punch of the same cells.
+    # Cells stick as a punch does whose radius is a part of a cell off; at 3.4 a it is a/2.
     c = punch_radius(stuck, grid)
+    assert c == pytest.approx(STUCK * RADIUS, rel=off, abs=0)
     load = LOAD * worn_load_share(c / RADIUS)
     edge = brentq(depth, RADIUS, 2 * RADIUS, args=(c,))
     volume = quad(lambda r: 2 * pi * r * depth(r, c), c, edge)[0]
-    assert last["load_N"] == pytest.approx(load, rel=3e-4, abs=0)
-    assert last["bodies"]["ball"]["wear_volume_m3"] == pytest.approx(volume, rel=3e-3, abs=0)
+    assert last["load_N"] == pytest.approx(load, rel=1e-4, abs=0)
+    assert last["bodies"]["ball"]["wear_volume_m3"] == pytest.approx(volume, rel=3e-4, abs=0)

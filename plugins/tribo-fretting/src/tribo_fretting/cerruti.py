@@ -3,31 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Collection
 from functools import lru_cache
 
 import numpy as np
 import scipy
-from tribo import Array, Material
-
-FLOOR = 0.05
-"""Least eigenvalue that preconditions, as a part of the mean one: folded kernels oscillate."""
+from tribo import Array, HalfSpace, Material
 
 
-def tangential_compliances(materials: Iterable[Material]) -> tuple[float, float]:
+def tangential_compliances(materials: Collection[Material]) -> tuple[float, float]:
     """Return A = Σ 1/(2πG) and B = Σ ν/(2πG) of two bodies, in 1/Pa, with G = E/(2(1 + ν))."""
     shear = [(m.young / (2 * (1 + m.poisson)), m.poisson) for m in materials]
     whole = sum(1 / (2 * math.pi * g) for g, _ in shear)
     return whole, sum(nu / (2 * math.pi * g) for g, nu in shear)
 
 
-def dundurs_beta(materials: Iterable[Material]) -> float:
+def dundurs_beta(materials: Collection[Material]) -> float:
     """Return Dundurs' β, the coupling of pressure and traction; 0 for bodies of one material."""
-    one, other = (
-        (2 * (1 + m.poisson) / m.young, 1 - 2 * m.poisson, 1 - m.poisson) for m in materials
-    )
-    unlike = one[0] * one[1] - other[0] * other[1]
-    return 0.5 * unlike / (one[0] * one[2] + other[0] * other[2])
+    whole, mixed = tangential_compliances(materials)
+    one, other = ((1 + m.poisson) * (1 - 2 * m.poisson) / m.young for m in materials)
+    return (one - other) / (2 * math.pi * (whole - mixed))
 
 
 def coefficients(
@@ -77,25 +72,19 @@ class Cerruti:
         self._padded = tuple(scipy.fft.next_fast_len(2 * n - 1, real=True) for n in shape)
         kernels = coefficients((self._padded[0], self._padded[1]), spacing, compliances)
         # Even in both, or odd in both: the spectra are real.
-        self._spectra = scipy.fft.rfft2(kernels).real
-        (nx, ny), twice = shape, (2 * shape[0], 2 * shape[1])
-        folded = coefficients(twice, spacing, compliances)[:components]
-        folded = folded.reshape(components, 2, nx, 2, ny).sum(axis=(1, 3))
-        self._symbols = scipy.fft.rfft2(folded).real
+        uxx, uyy, uxy = scipy.fft.rfft2(kernels).real
+        self._spectra = np.array([[uxx, uxy], [uxy, uyy]])[:components, :components]
+        # As of the normal displacement: 1/(πE*) is A − B, and here A − B/2 on average.
+        whole, mixed = compliances
+        self._symbols = HalfSpace(shape, spacing, 1 / (math.pi * (whole - 0.5 * mixed))).symbol()
         self.typical = float(np.mean(self._symbols))
         """A mean eigenvalue, in m/Pa."""
-        np.maximum(self._symbols, FLOOR * self.typical, out=self._symbols)
-        self._symbols[0, 0, 0] += rig * nx * ny
+        self._symbols[0, 0] += rig * shape[0] * shape[1]
 
     def apply(self, traction: Array) -> Array:
         """Return the displacement (m) under a traction (Pa), both (components, nx, ny)."""
-        (nx, ny), (uxx, uyy, uxy) = self.shape, self._spectra
-        modes = scipy.fft.rfft2(traction, self._padded)
-        if self.components == 1:
-            modes *= uxx
-        else:
-            one, other = modes
-            modes = np.array([uxx * one + uxy * other, uxy * one + uyy * other])
+        nx, ny = self.shape
+        modes = np.sum(self._spectra * scipy.fft.rfft2(traction, self._padded), axis=1)
         moved = scipy.fft.irfft2(modes, self._padded)[:, :nx, :ny]
         moved[0] += self.rig * np.sum(traction[0])
         return np.asarray(moved)

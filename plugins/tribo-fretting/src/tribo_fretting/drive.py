@@ -88,7 +88,7 @@ class Drive(Table):
         amplitude δ is less, if Q reaches it.
 
         The limit μp (Pa) has the shape of the grid, the amplitude δ is in m. The answer has both
-        components of the traction, and beyond the contact the slip of a point that begins to touch.
+        components of the traction; beyond the contact it is 0.
         """
         compliances = tangential_compliances(materials.values())
         return _first_loading(self, grid, compliances, limit.tobytes(), amplitude)
@@ -114,7 +114,5 @@ def _first_loading(
     inside = loaded(amplitude)
     traction = np.zeros((2, *grid.cells))
     traction[: drive.components] = box.embed(inside.traction)
-    moved = cerruti(grid.cells, grid.spacing, compliances, 2, rig).apply(traction)
-    beyond = np.hypot(amplitude - moved[0], moved[1] * (drive.components - 1))
-    slip = np.where(limit > 0, box.embed(inside.slip), beyond)
-    return Drag(amplitude, readonly(traction), readonly(slip), inside.iterations)
+    slip = readonly(box.embed(inside.slip))
+    return Drag(amplitude, readonly(traction), slip, inside.iterations)

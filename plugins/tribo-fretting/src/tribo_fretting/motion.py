@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from math import inf
 from typing import Annotated, Self
 
@@ -48,7 +47,7 @@ class Fretting(Kinematics, Drive):
     @property
     def _path(self) -> Held:
         rates = tuple(4 * self.frequency * amplitude for amplitude in self.held.rates)
-        return replace(self.held, rates=rates)
+        return Held(rates, self.held.ends)
 
     @property
     def end_time(self) -> float:
@@ -74,10 +73,6 @@ class Fretting(Kinematics, Drive):
     def distance_at(self, time: float) -> float:
         """Return the path until `time`, in m."""
         return self._path.by(time)
-
-    def time_at(self, distance: float) -> float:
-        """Return the first time at which the path is that long (m), in s."""
-        return self._path.reached(distance)
 
     def coarsened(self, half_width_x: float) -> Kinematics:
         """Return the motion for a coarse grid, whose ring of slip is narrow."""

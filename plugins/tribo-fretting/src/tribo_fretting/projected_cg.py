@@ -61,7 +61,7 @@ def dragged(operator: Cerruti, displacement: float, limit: Array) -> Drag:
     q[0] = limit
     moved = operator.apply(q)
     direction = before = np.zeros_like(q)
-    was_sliding, decrease = np.zeros_like(pressed), 1.0
+    decrease = 1.0
     for iteration in range(MOST + 1):
         slip = drive - moved
         normal = q / safe
@@ -75,10 +75,9 @@ def dragged(operator: Cerruti, displacement: float, limit: Array) -> Drag:
         curved = np.where(sliding, outward / safe, 0.0)
         scale = pressed / np.sqrt(1 + curved / operator.typical)
         z = tangent(scale * operator.preconditioned(scale * residual), normal)
-        goes_on = np.array_equal(sliding, was_sliding)
-        beta = max(0.0, float(np.sum(z * (residual - before))) / decrease) if goes_on else 0.0
+        beta = max(0.0, float(np.sum(z * (residual - before))) / decrease)
         direction = z + beta * tangent(direction, normal)
-        decrease, before, was_sliding = float(np.sum(residual * z)), residual, sliding
+        decrease, before = float(np.sum(residual * z)), residual
         response = operator.apply(direction)
         stiffness = np.sum(direction * (response + curved * direction))
         length = float(np.sum(residual * direction) / stiffness)

@@ -33,15 +33,14 @@ def pulled_back(
     operator = partial(cerruti, grid.cells, grid.spacing, components=drive.components)
     rig = drive.rig(grid)
     a = operator(tangential_compliances(materials.values()), rig=rig)
-    q, pressed, slips = drag.traction[: drive.components], limit > 0, drag.slip > 0
+    q, pressed = drag.traction[: drive.components], limit > 0
     force, pull = float(np.sum(q[0])), np.zeros_like(by)
     pull[1] = 1.0
     safe = np.where(pressed, limit, 1.0)
-    normal = np.where(pressed & slips, q / safe, 0.0)
-    beyond = (drag.displacement * pull[1:] - a.apply(q)) / np.where(slips, drag.slip, 1.0)
+    normal = np.where(drag.slip > 0, q / safe, 0.0)
 
     def adjoint(by: Array) -> Array:
-        direct: Array = by[0] * np.where(pressed, normal, beyond)
+        direct: Array = by[0] * normal
         return direct + _response(a, by[1:] - a.apply(direct), pressed, normal, drag.slip / safe)
 
     v, numbers = adjoint(by), dict[str, float]()
