@@ -37,6 +37,14 @@ def _stick_part(snapshot: Snapshot, across: int | tuple[()] = ()) -> float:
     return stuck / whole
 
 
+def _stick_half_width_x(snapshot: Snapshot) -> float:
+    return snapshot.measures.half_width_x * _stick_part(snapshot, 1)
+
+
+def _stick_half_width_y(snapshot: Snapshot) -> float:
+    return snapshot.measures.half_width_y * _stick_part(snapshot, 0)
+
+
 def _volume_per_work(snapshot: Snapshot) -> float:
     volume = sum(body.wear_volume for body in snapshot.measures.bodies.values())
     return volume / (snapshot.measures.friction_energy or np.nan)
@@ -46,17 +54,7 @@ COLUMNS = (
     Column("tangential_force", "N", "tangential force at the end of a stroke", _force),
     Column("cycle_energy", "J", "energy of a cycle", _energy),
     Column("stick_part", "1", "stick part of the contact (0: gross slip)", _stick_part),
-    Column(
-        "stick_half_width_x",
-        "m",
-        "half-width of the stick zone along x",
-        lambda now: now.measures.half_width_x * _stick_part(now, 1),
-    ),
-    Column(
-        "stick_half_width_y",
-        "m",
-        "half-width of the stick zone along y",
-        lambda now: now.measures.half_width_y * _stick_part(now, 0),
-    ),
+    Column("stick_half_width_x", "m", "half-width of the stick zone along x", _stick_half_width_x),
+    Column("stick_half_width_y", "m", "half-width of the stick zone along y", _stick_half_width_y),
     Column("volume_per_work", "m^3/J", "worn volume per work of friction", _volume_per_work),
 )

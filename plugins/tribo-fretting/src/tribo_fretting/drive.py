@@ -64,7 +64,7 @@ class Drive(Table):
     def amplitude_path(self, time: float) -> str:
         """Return the path to the amplitude up to a time, in s."""
         one = isinstance(self.amplitude, float)
-        return "amplitude" if one else f"amplitude.{self._stage_at(time)}.amplitude"
+        return "amplitude" if one else f"amplitude.{self._stage_at(time) + 1}.amplitude"
 
     def _stage_at(self, time: float) -> int:
         return min(bisect_left(self.held.ends, time), len(self.held.ends) - 1)

@@ -17,8 +17,7 @@ from tribo_fretting.partial_slip import PartialSlip
 class Fretting(Kinematics, Drive):
     """To and fro between ±δ at frequency f: a path of 4 δ each cycle, along x.
 
-    Points of both bodies stay in the contact. How much of the path each point slips is the partial
-    slip that the motion brings along, `fretting.partial_slip`.
+    Points of both bodies stay in the contact; the effect `fretting.partial_slip` is their slip.
 
     Examples
     --------

@@ -39,19 +39,8 @@ def dragged(operator: Cerruti, displacement: float, limit: Array) -> Drag:
     on a rim the cells move along it alone. There its curvature adds λ/(μp) to the stiffness, with
     the slip λ: without that the tractions of two components do not converge.
 
-    Parameters
-    ----------
-    operator : Cerruti
-        A.
-    displacement : float
-        δ along x, in m; positive.
-    limit : ndarray, shape (nx, ny)
-        μp, in Pa; 0 beyond the contact.
-
-    Raises
-    ------
-    NumericalError
-        After `MOST` iterations.
+    A is the `operator`, δ the positive `displacement` (m), μp the `limit` (Pa), shape (nx, ny), 0
+    beyond the contact. NumericalError after `MOST` iterations.
     """
     drive = np.zeros((operator.components, 1, 1))
     drive[0] = displacement
