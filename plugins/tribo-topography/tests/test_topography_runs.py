@@ -36,17 +36,6 @@ def case(tmp_path):
     return making
 
 
-def test_mistake_in_the_case_is_told_at_its_place(case):
-    wrong = case()
-    wrong["bodies"]["ball"]["surface"]["expect_size"] = ["1 N", "2 mm"]
-    with pytest.raises(CaseError, match=r"expect_size.*a length \[m\] is needed"):
-        Simulation(wrong)
-    zero = case()
-    zero["bodies"]["ball"]["surface"]["height_scale"] = 0
-    with pytest.raises(CaseError, match="height_scale is 0"):
-        Simulation(zero)
-
-
 def test_what_the_file_was_read_as_is_kept_in_the_result_and_what_is_worn_exported(
     case, tmp_path, monkeypatch
 ):
