@@ -42,12 +42,6 @@ KINDS = {
         bodies=pair(SMOOTH.model_copy(update={"depth": 1e-8}), None),
         stepping=LONG,
     ),
-    "remembers": kind(
-        Depth("disk"),
-        ["load.normal", *SHAPE, *OF_FRESH, *OF_SMOOTH, "kinematics.frequency", "kinematics.stroke"],
-        bodies=pair(FRESH, SMOOTH),
-        stepping=LONG,
-    ),
     "remembers, follows the speed": kind(
         Depth("ball"),
         [*STAGES[:2], *SHAPE, *OF_FRESH[:2], "kinematics.frequency", "kinematics.stroke"],
@@ -72,14 +66,6 @@ KINDS = {
         1e-6,
         bodies=layered(None, ("0.05 um", FAST), archard(), FRESH),
         kinematics=motion(duration=5),
-        stepping=LONG,
-    ),
-    "positions, remembers, stroke": kind(
-        Depth("disk", 5e-5),
-        ["load.normal", "kinematics.stroke"],
-        1e-6,
-        bodies=pair(FRESH, SMOOTH),
-        kinematics=resolved(stroke="0.13 mm", waveform="sinusoidal", duration=0.5),
         stepping=LONG,
     ),
     "load on a plateau, remembers": kind(
@@ -126,10 +112,9 @@ KINDS = {
     ),
     "positions, remembers": kind(
         Depth("disk", 5e-5),
-        ["load.normal", *SHAPE, *OF_FRESH, *OF_SMOOTH],
-        kinematics=motion(
-            stroke="0.125 mm", positions=5, frequency=100, duration=0.4, waveform="sinusoidal"
-        ),
+        ["load.normal", *SHAPE, *OF_FRESH, *OF_SMOOTH, "kinematics.stroke"],
+        1e-6,
+        kinematics=resolved(stroke="0.13 mm", waveform="sinusoidal", duration=0.4),
         bodies=pair(FRESH, SMOOTH),
         stepping=LONG,
     ),
