@@ -4,10 +4,12 @@ import tomllib
 from contextlib import contextmanager
 from copy import deepcopy
 
+import numpy as np
 import pytest
 from tribo.config.overrides import apply_settings
 from tribo.templates import template
 
+from tribo_inverse.calibration.linearised import Problem
 from tribo_inverse.calibration.setups import make_run
 
 SPRINGS = {
@@ -31,6 +33,25 @@ def cheap(duration):
 def of_kind(found, kind):
     """Return what was found of a kind."""
     return [each for each in found.findings if each.kind == kind]
+
+
+def problem(
+    observed,
+    sigma,
+    *,
+    predictions=0,
+    small=0.0,
+    names=("ball", "disk"),
+    reach=np.inf,
+    start=1.0,
+    **data,
+):
+    """A problem of which the first values are data; the other responses are predictions."""
+    n = len(observed)
+    each = {"below": np.zeros(n, bool), "specimen": np.arange(n), "repeatability": 0.0} | data
+    start = np.log(np.broadcast_to(start, len(names)))
+    whole = np.full(n + predictions, small), start - reach, start + reach, np.zeros((n, 0))
+    return Problem(names, observed, sigma, *each.values(), *whole)
 
 
 @contextmanager

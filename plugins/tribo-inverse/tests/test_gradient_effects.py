@@ -17,17 +17,7 @@ from gradient_effects import (
     Slips,
     Softens,
 )
-from gradients import (
-    BASE,
-    CLOSE,
-    FRESH,
-    LONG,
-    SHAPE,
-    few,
-    kind,
-    resolved,
-    run,
-)
+from gradients import BASE, CLOSE, FRESH, LONG, SHAPE, few, kind, resolved, run
 from paper_models import K, archard, motion, pair
 from tribo.core.errors import CaseError
 
@@ -44,39 +34,35 @@ def pauses(**changes):
 
 SLOW = few(nonlinear_tolerance=1e-11, cycle_tolerance=1e-11)
 """What fills the gap has no slope, and a step takes many passes."""
+
+
+def briefly(objective, paths, part=1e-5, **changes):
+    given = {"stepping": SLOW, "kinematics": motion(duration=1.5)} | changes
+    return kind(objective, paths, part, **given)
+
+
 OF_GRAINS = [f"effects.0.{name}" for name in ("begins", "cover", "stays")]
 METAL = {"young": "207 GPa", "poisson": 0.3, "properties": {"leads": "45 W/(m K)"}}
 KINDS = {
-    "grains": kind(
-        Depth("disk"),
-        [*BASE, *SHAPE, *OF_GRAINS],
-        effects=[Grains()],
-        kinematics=motion(duration=1.5),
-        stepping=SLOW,
-    ),
-    "dust": kind(
+    "grains": briefly(Depth("disk"), [*BASE, *SHAPE, *OF_GRAINS], effects=[Grains()]),
+    "dust": briefly(
         Depth("disk"),
         ["load.normal", "bodies.ball.wear.over", "bodies.disk.wear.k", *SHAPE, *OF_GRAINS],
         bodies=pair(FRESH, archard()),
         effects=[Dust()],
-        kinematics=motion(duration=1.5),
-        stepping=SLOW,
     ),
-    "grains, positions": kind(
+    "grains, positions": briefly(
         Depth("disk", 5e-5),
         ["load.normal", *SHAPE, *OF_GRAINS],
         kinematics=resolved(duration=0.1, waveform="sinusoidal"),
         bodies=pair(FRESH, archard()),
         effects=[Grains(on="disk")],
-        stepping=SLOW,
     ),
-    "grains on each body": kind(
+    "grains on each body": briefly(
         Depth("disk"),
         [*BASE, *SHAPE, *OF_GRAINS, *(name.replace("0", "1") for name in OF_GRAINS)],
         bodies=pair(Buried(k=K), Buried(k=K)),
         effects=[Dust(on="ball"), Dust(on="disk", begins=1e-7, stays=1.0)],
-        kinematics=motion(duration=1.5),
-        stepping=SLOW,
     ),
     "heat": kind(
         Depth("ball"),
@@ -90,13 +76,7 @@ KINDS = {
         kinematics=motion(duration=4),
         stepping=LONG,
     ),
-    "slip": kind(
-        Depth("disk"),
-        [*BASE, *SHAPE, "effects.0.most"],
-        effects=[Slips()],
-        kinematics=motion(duration=1.5),
-        stepping=SLOW,
-    ),
+    "slip": briefly(Depth("disk"), [*BASE, *SHAPE, "effects.0.most"], effects=[Slips()]),
     "heat through a body that does not wear": kind(
         Depth("ball"),
         ["bodies.disk.material.properties.leads"],
@@ -109,7 +89,7 @@ KINDS = {
         kinematics=motion(duration=4),
         stepping=LONG,
     ),
-    "rest": kind(
+    "rest": briefly(
         {2.0: Pressure(2e-5, 0), 4.0: Depth("disk")},
         [
             *("load.normal.0.normal", "load.normal.1.normal", *SHAPE, "bodies.ball.wear.over"),
@@ -122,7 +102,6 @@ KINDS = {
         bodies=pair(FRESH, archard()),
         effects=[Grows()],
         kinematics=pauses(),
-        stepping=SLOW,
         save_times=(2.0,),
     ),
     "rest, of one temperature": kind(
@@ -135,7 +114,7 @@ KINDS = {
         stepping=LONG,
         save_times=(2.0,),
     ),
-    "spreads": kind(
+    "spreads": briefly(
         Depth("disk"),
         [
             *BASE[:1],
@@ -145,7 +124,6 @@ KINDS = {
         bodies=pair(FRESH, archard()),
         effects=[Creeps()],
         kinematics=motion(duration=1),
-        stepping=SLOW,
     ),
     "pressure beside": kind(
         Depth("ball"),
