@@ -165,22 +165,6 @@ def test_a_map_of_the_whole_track_is_met_where_the_stroke_is_resolved(noisy):
     assert experiment.data["x_m"].max() == pytest.approx(1.5e-3, abs=0.1e-3)
 
 
-@pytest.mark.slow
-def test_estimate_and_interval_do_not_depend_on_the_start(noisy):
-    """Depths grow with the coefficient, and their slopes, which are differences, with them."""
-    entry = noisy(ARCHARD) | {"uncertainty": "50 nm"}
-    found = [
-        calibrate(ARCHARD, {"measured": [entry], "fit": [{"path": K, "start": factor * 3e-16}]})
-        for factor in (0.1, 1.4)
-    ]
-    values, lower, upper = np.array(
-        [fit.parameters[["value", "lower", "upper"]].iloc[0] for fit in found], dtype=float
-    ).T
-    half = 0.5 * (upper - lower)
-    assert np.ptp(values) < 0.1 * half[0]
-    assert half[1] == pytest.approx(half[0], rel=0.1, abs=0)
-
-
 def test_blocks_leave_out_what_was_not_measured():
     depth = np.arange(50.0 * 50).reshape(50, 50)
     depth[:3, :2] = np.nan

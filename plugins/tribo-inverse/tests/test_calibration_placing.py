@@ -12,12 +12,14 @@ from tribo.core.errors import NumericalError, TriboError
 from tribo.lab.heights import Heights
 from tribo.simulation.run import Simulation
 
+from tribo_inverse import fit_picture
 from tribo_inverse.calibration import mapped
 from tribo_inverse.calibration.calibrate import calibrate
 from tribo_inverse.calibration.mapped import calibrate_maps
 from tribo_inverse.calibration.maps import FittedMaps
 from tribo_inverse.calibration.measured import MapEntry
 from tribo_inverse.calibration.scar_shift import ScarShift, find_shift
+from tribo_inverse.tables import data_table
 
 PIN_K, DISK_K = "bodies.pin.wear.k", "bodies.disk.wear.k"
 K, TRUE = "bodies.ball.wear.k", 3e-16
@@ -76,6 +78,10 @@ def test_a_map_in_its_middle_is_left_there(fitted):
     assert covers(found)
     assert found.findings == ()
     assert not found.data[["shift_x_m", "shift_y_m"]].any(axis=None)
+    panels = [each for each in fit_picture(found.brief, found.data).axes if each.get_title()]
+    drawn = [each.get_array() for panel in panels for each in panel.collections]
+    assert sorted(np.concatenate(drawn)) == sorted(found.data["residual"])
+    assert "depth_map" in str(data_table(found))
 
 
 def test_a_map_that_is_not_levelled_is_reported(fitted):
@@ -110,6 +116,8 @@ def test_a_profile_is_met_on_a_coarse_grid(worn):
     assert covers(found)
     assert found.p_value > 0.01
     assert found.settings[K] == pytest.approx(TRUE, rel=0.005, abs=0)
+    _, panel = fit_picture(found.brief, found.data).axes
+    np.testing.assert_allclose(panel.lines[-1].get_ydata(), 1e6 * found.data["computed"])
 
 
 def test_uniform_wear_tells_no_place():

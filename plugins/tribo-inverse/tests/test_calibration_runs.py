@@ -12,12 +12,12 @@ from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.simulation.run import Simulation
 
-from tribo_inverse import fit_picture
 from tribo_inverse.calibration.calibrate import calibrate
 from tribo_inverse.calibration.measured import read_measurements
 from tribo_inverse.calibration.parameters import find_parameters
 from tribo_inverse.calibration.quantities import Reading, read
 from tribo_inverse.calibration.setups import SetupRun, make_run
+from tribo_inverse.tables import estimates_table, predictions_table
 
 TRUE = {"bodies.ball.wear.k": 3.11e-16, "bodies.disk.wear.k": 1.5e-16}
 CASE = apply_settings(cheap(300), TRUE)
@@ -160,23 +160,6 @@ def test_the_start_leaves_no_trace_in_the_uncertainties(monkeypatch):
 
 
 @pytest.mark.slow
-def test_profiles_are_fitted_where_they_were_measured(true_run):
-    at = np.linspace(-0.4e-3, 0.4e-3, 9)
-    data = {
-        "body": "disk",
-        "quantity": "profile_across",
-        "position": at.tolist(),
-        "value": np.interp(at, true_run.grid.y, true_run.body("disk").wear_depth[-1, 0]).tolist(),
-        "uncertainty": "0.02 um",
-    }
-    found = calibrate(CASE, {"measured": [data], "fit": fitting(DISK_K, start=2.5e-16)})
-    assert found.settings[DISK_K] == pytest.approx(DISK, rel=0.01, abs=0)
-    assert list(found.data["position_m"]) == at.tolist()
-    _, panel = fit_picture(found.brief, found.data).axes
-    np.testing.assert_allclose(panel.lines[-1].get_ydata(), 1e6 * found.data["computed"])
-
-
-@pytest.mark.slow
 def test_a_profile_beside_the_scar_has_no_shape():
     at = np.linspace(0.45e-3, 0.48e-3, 12)
     beside = {"body": "disk", "quantity": "profile_across", "position": at.tolist()}
@@ -254,6 +237,7 @@ def test_what_nothing_fitted_changes_is_predicted_without_an_interval():
     found = calibrate(CASE, {"measured": [BALL_LOSS]})
     loss = found.predictions.query("body == 'disk' and quantity == 'mass'").iloc[0]
     assert loss["lower"] == loss["value"] == loss["upper"]
+    assert "not fitted" in str(predictions_table(found))
 
 
 def test_numbers_that_the_data_cannot_tell_apart_stay_near_their_start(true_run):
@@ -318,6 +302,7 @@ def test_an_estimate_held_by_its_bound_has_no_interval_and_data_and_model_disagr
     ball, disk = held.parameters.itertuples()
     assert ball.value == pytest.approx(1.2 * BALL, rel=1e-6, abs=0)
     assert (ball.held, disk.held) == (True, False)
+    assert "held by its upper bound" in str(estimates_table(held))
     assert (ball.lower, ball.upper) == (0, 1.2 * BALL)
     assert held.chi_square == pytest.approx(64)
     assert held.brief["residual"].iloc[0] == pytest.approx(-8)
