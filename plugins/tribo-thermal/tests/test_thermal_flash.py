@@ -12,6 +12,7 @@ from tribo_thermal.flash import Flash
 STEEL = {"young": "207 GPa", "poisson": 0.3}
 HEAT = {"conductivity": "46 W/(m K)", "density": "7850 kg/m^3", "heat_capacity": "460 J/(kg K)"}
 FRESH, WORN = 148.837e-6, 530e-6
+PATH = {"length": "1 mm", "area": "1 mm^2"}
 MOVING, RESTING = {"ball": 0.0, "disk": 1.0}, {"ball": 1.0, "disk": 0.0}
 
 
@@ -35,9 +36,12 @@ def contact(radius, swept=("disk",), material=None, load=100.0):
     )
 
 
+def flash(**config):
+    return Flash(**{"ambient": "90 degC", "source": "parabolic", "rise": "maximum", **config})
+
+
 def rises(where, **config):
-    given = {"ambient": "90 degC", "source": "parabolic", "rise": "maximum", **config}
-    effect = Flash(**given)
+    effect = flash(**config)
     # As when a case is composed, before anything runs.
     effect.check(where.system, where.swept, "dcfft")
     return effect.rises(where)
@@ -68,6 +72,17 @@ def test_partition_is_bloks_and_gives_one_temperature():
     assert 1 / both["ball"] == pytest.approx(1 / one + 1 / other, rel=1e-12, abs=0)
 
 
+def test_a_bulk_that_warms_no_more_is_as_hot_as_without_a_capacity():
+    effect, where = flash(heat_paths={"ball": {**PATH, "capacity": 5}}), contact(FRESH)
+
+    def after(bulk):
+        return replace(where, state={"bulk_rise_ball": np.full((1, 1), bulk)})
+
+    cold, warm = (effect.state_rates(after(bulk))["bulk_rise_ball"].item() for bulk in (0.0, 1.0))
+    settled = effect.rises(after(cold / (cold - warm)))
+    assert settled == pytest.approx(rises(where, heat_paths={"ball": PATH}), rel=1e-9, abs=0)
+
+
 def test_nothing_is_warmed_where_nothing_touches():
     assert rises(contact(WORN, load=0.0)) == {"ball": 0.0, "disk": 0.0}
 
@@ -81,7 +96,6 @@ def test_a_missing_property_is_named_with_its_place(missing):
     assert rises(contact(WORN, swept=(), material=material))["ball"] > 0
 
 
-PATH = {"length": "1 mm", "area": "1 mm^2"}
 REFUSED = {
     "all bodies are swept": ({}, ("ball", "disk")),
     "heat_fraction .*the bodies are ball, disk": ({"heat_fraction": {"ball": 1.0}}, ("disk",)),
