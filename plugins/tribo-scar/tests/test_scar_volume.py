@@ -8,6 +8,11 @@ from tribo import Flat, Heights, TriboWarning
 from tribo_scar import measured_scar
 
 
+def test_a_shallow_scar_is_measured_out_to_its_edge():
+    before, after, lost = pair(depth=40e-9)
+    assert measured_scar(before, after).volume == pytest.approx(volume(lost), rel=0.1, abs=0)
+
+
 @pytest.mark.filterwarnings("ignore:.*in one gap")
 def test_the_volume_of_a_hole_in_the_scar_is_interpolated_and_its_uncertainty_says_so(standard):
     before, after, lost, whole = standard
