@@ -1,16 +1,13 @@
 """The paper's test on springs and a small grid, in long steps: to calibrate in little time."""
 
 import tomllib
-from contextlib import contextmanager
 from copy import deepcopy
 
 import numpy as np
-import pytest
 from tribo.config.overrides import apply_settings
 from tribo.templates import template
 
 from tribo_inverse.calibration.linearised import Problem
-from tribo_inverse.calibration.setups import make_run
 
 SPRINGS = {
     "contact": {"type": "winkler"},
@@ -52,20 +49,3 @@ def problem(
     start = np.log(np.broadcast_to(start, len(names)))
     whole = np.full(n + predictions, small), start - reach, start + reach, np.zeros((n, 0))
     return Problem(names, observed, sigma, *each.values(), *whole)
-
-
-@contextmanager
-def kept_runs():
-    """Make no run of a calibration twice."""
-    kept = {}
-
-    def remembered(tables, parameters, values, wanted, *rest):
-        paths = [each.path for each in parameters]
-        key = repr((tables, paths, values.tobytes(), wanted))
-        if key not in kept:
-            kept[key] = make_run(tables, parameters, values, wanted, *rest)
-        return kept[key]
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("tribo_inverse.calibration.experiment.make_run", remembered)
-        yield

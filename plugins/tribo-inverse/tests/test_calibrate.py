@@ -5,7 +5,6 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from calibrations import kept_runs
 from click.testing import CliRunner
 from command_line import tribo
 from tribo.cli.main import tribo as main
@@ -22,8 +21,8 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture(scope="module")
 def asked():
-    """Return how the command ends with more options, in one process that makes no run twice."""
-    with kept_runs(), pytest.MonkeyPatch.context() as patch:
+    """Return how the command ends with more options, in one process."""
+    with pytest.MonkeyPatch.context() as patch:
         patch.chdir(EXAMPLES)
         yield lambda *options: CliRunner().invoke(main, [*WEIGHED, *options])
 

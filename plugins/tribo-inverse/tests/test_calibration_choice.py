@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from calibrations import cheap, kept_runs, problem
+from calibrations import cheap, problem
 from scipy.stats import multivariate_normal
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
@@ -26,7 +26,6 @@ def weighed(load, part):
 
 
 @pytest.mark.slow
-@kept_runs()
 def test_the_law_that_made_the_data_is_chosen_where_they_are_exact():
     """A pressure falls as the scar grows, so that losses of other laws are not as the load."""
     exact = {"test": [weighed(load, 0.02) for load in (40, 100)]}

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from calibrations import cheap, kept_runs, of_kind
+from calibrations import cheap, of_kind
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.config.write import to_toml
@@ -30,12 +30,6 @@ POWER = apply_settings(
 )
 TRUE = {K: 3e-16, N: 1.3}
 NOISE = 10e-9
-
-
-@pytest.fixture(scope="module", autouse=True)
-def runs_made_once():
-    with kept_runs():
-        yield
 
 
 def run(case, **changes):

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from calibrations import cheap, kept_runs, of_kind
+from calibrations import cheap, of_kind
 from scipy.ndimage import shift as moved
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
@@ -25,12 +25,6 @@ PIN_K, DISK_K = "bodies.pin.wear.k", "bodies.disk.wear.k"
 K, TRUE = "bodies.ball.wear.k", 3e-16
 CASE = apply_settings(cheap(60), {"grid.cells": 32, K: TRUE, "bodies.disk.wear.k": TRUE})
 PIXELS, PITCH, NOISE = 128, 1e-3 / 128, 20e-9
-
-
-@pytest.fixture(scope="module", autouse=True)
-def runs_made_once():
-    with kept_runs():
-        yield
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
-from calibrations import cheap, kept_runs, of_kind, on_springs
+from calibrations import cheap, of_kind, on_springs
 from scipy.stats import norm
 from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.config.load import validate_case
@@ -46,12 +46,6 @@ def run_with(**changes):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", TriboWarning)
         return Simulation(validate_case(apply_settings(CASE, changes))).run()
-
-
-@pytest.fixture(scope="module", autouse=True)
-def runs_made_once():
-    with kept_runs():
-        yield
 
 
 @pytest.fixture(scope="module")
