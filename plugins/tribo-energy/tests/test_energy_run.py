@@ -5,24 +5,13 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from tribo import CaseError, Simulation
+from tribo import Simulation
 from tribo.lab.report import lab_report
 
 from tribo_energy.plugin import EXAMPLE, tribo_figures
 
 HERE = Path(__file__).parent
 ALPHA, MU, LOAD = 3.11e-15, 0.1, 100.0
-
-
-@pytest.mark.parametrize(
-    ("without", "needs"),
-    [("effects", "friction_traction"), ("friction", "coefficient of friction")],
-)
-def test_a_case_without_friction_is_refused(without, needs):
-    data = tomllib.loads(EXAMPLE.read_text())
-    del data[without]
-    with pytest.raises(CaseError, match=needs):
-        Simulation(data)
 
 
 @pytest.mark.slow
