@@ -37,6 +37,7 @@ def done(asked):
 def test_it_prints_estimates_with_intervals_and_what_to_run(done):
     lines = done.stdout.splitlines()
     (row,) = (line.split() for line in lines if line.startswith(" bodies.disk.wear.k"))
+    # 0.2 mg, of two readings, each off by up to half of 0.1 mg.
     assert " ".join(row) == "bodies.disk.wear.k 7.08e-16 1/Pa 4.25e-16 to 9.91e-16 ±40 %"
     assert max(len(line) for line in lines if line.startswith(" ")) <= 80
     fitted = "--set bodies.ball.wear.k=7.077e-15 --set bodies.disk.wear.k=7.077e-16"

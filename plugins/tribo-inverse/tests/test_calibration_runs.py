@@ -89,8 +89,8 @@ def test_several_tests_give_one_coefficient_and_share_runs():
 
 
 @pytest.mark.slow
-def test_the_experiment_gives_the_weighed_coefficients_and_the_crown():
-    """2.0 and 0.2 mg in 360 m at 100 N; the crown is that of the closed rigid limit, within it."""
+def test_the_crown_that_weighed_losses_foretell_is_that_of_the_closed_rigid_limit():
+    """2.0 and 0.2 mg in 360 m at 100 N, which `tribo calibrate` fits in its own test."""
     disk = {"before": "27.6445 g", "after": "27.6443 g"}
     data = {
         "measured": [
@@ -101,14 +101,9 @@ def test_the_experiment_gives_the_weighed_coefficients_and_the_crown():
     }
     found = calibrate(SPLIT, data)
     ball, disk = found.parameters.itertuples()
-    assert ball.value == pytest.approx(7.08e-15, rel=1e-3, abs=0)
-    assert disk.value == pytest.approx(7.08e-16, rel=1e-3, abs=0)
     # Two readings, each off by up to half a step: 0.1 of 2 mg and of 0.2 mg at most.
     assert ball.resolution_limit == pytest.approx(0.05)
     assert disk.resolution_limit == pytest.approx(0.5)
-    half = 1.96 * 0.5 / 6**0.5
-    assert disk.lower == pytest.approx(disk.value * (1 - half), rel=1e-3, abs=0)
-    assert disk.upper == pytest.approx(disk.value * (1 + half), rel=1e-3, abs=0)
     assert [each.place for each in of_kind(found, "reading")] == [BALL_K, DISK_K]
     (crown,) = found.predictions.query("body == 'ball' and quantity == 'crown'").itertuples()
 
