@@ -1,79 +1,32 @@
-"""Film thickness, its share of the load and its friction, alone and in runs."""
+"""Where a film ends, what the lab is told of it, and the curve of the README."""
 
 import runpy
+from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
 import pytest
-from tribo import Simulation
+from tribo import load_case
 
 from tribo_film.mixed import Mixed
 from tribo_film.plugin import tribo_lab_rows
 
-STEEL = {"young": "207 GPa", "poisson": 0.3}
-OIL = {"viscosity": 0.1, "pressure_viscosity": 2e-8, "radius": 5e-3}
-K = 1e-16
+CASE = files("tribo_film") / "cases" / "film_mixed" / "case.toml"
+QUICK = ["contact.type=winkler", "grid.size=0.7 mm", "grid.cells=24", "kinematics.distance=2"]
 HERE = Path(__file__).parent
 
 
-def case(speed=0.1, **film):
-    wear = {"type": "archard", "k": K}
-    ball = {"surface": {"type": "sphere", "radius": "5 mm"}, "material": STEEL, "wear": wear}
-    effects = [Mixed(**{**OIL, "roughness": 1e-7, **film}).model_dump()] if film is not None else []
-    return {
-        "grid": {"size": "0.7 mm", "cells": 24},
-        "load": {"normal": 100},
-        "bodies": {"ball": ball, "disk": {"surface": "flat", "material": STEEL}},
-        "contact": "winkler",
-        "kinematics": {
-            "type": "unidirectional",
-            "speed": speed,
-            "track_length": "100 mm",
-            "distance": 2,
-        },
-        "effects": effects,
-    }
-
-
-def lost(given):
-    with Simulation(given).run() as result:
-        last = result.saves()[-1]
-        return last["bodies"]["ball"]["wear_volume_m3"], last["friction_force_N"]
-
-
-def summit_integral(apart):
-    """∫ (s − apart)^5/2 exp(−s²/2) ds from there on, by Gauss's rule in √(s − apart)."""
-    root, weight = np.polynomial.legendre.leggauss(80)
-    root, weight = 2 * (root + 1), 2 * weight
-    return float(np.sum(weight * 2 * root**6 * np.exp(-((apart + root**2) ** 2) / 2)))
-
-
-@pytest.mark.parametrize("ratio", [0.0, 1.0, 4.0])
-def test_asperities_carry_their_pressure_at_the_thickness_of_the_film(ratio):
-    film = Mixed(**OIL, roughness=1e-7)
-    assert 1 - film.share(ratio) == pytest.approx(
-        summit_integral(ratio) / summit_integral(0.0), rel=1e-8, abs=0
-    )
-
-
-def test_without_viscosity_it_is_the_dry_case_to_the_bit():
-    dry = case()
-    dry["effects"], dry["friction"] = [], {"coefficient": 0.12}
-    volume, force = lost(dry)
-    assert lost(case(viscosity=0.0)) == (volume, pytest.approx(force, rel=1e-12))
-
-
-def test_over_a_thick_film_nothing_wears():
-    with Simulation(case(roughness=1e-30)).run() as result:
-        assert result.body("ball").effects["load_share"][-1].max() == 1
-        assert result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"] == 0
+@pytest.mark.parametrize("sharing", ["asperities", "olver_spikes"])
+def test_without_a_film_it_is_dry_to_the_bit_and_a_thick_one_carries_all(sharing):
+    oil = {"viscosity": 0.1, "pressure_viscosity": 2e-8, "radius": 5e-3, "roughness": 1e-7}
+    film = Mixed(**oil, sharing=sharing)
+    assert (film.share(0.0), film.friction(0.0)) == (0.0, 0.12)
+    assert (film.share(1e22), film.friction(1e22)) == (1.0, pytest.approx(0.03))
 
 
 @pytest.mark.parametrize(("k", "beyond"), [(1e-16, False), (1e-14, True)])
 def test_the_lab_is_told_where_wear_is_too_deep_for_the_film(k, beyond):
-    given = case()
-    given["bodies"]["ball"]["wear"]["k"] = k
-    with Simulation(given).run() as result:
+    with load_case(CASE, overrides=[*QUICK, f"bodies.ball.wear.k={k}"]).run() as result:
         (row,) = tribo_lab_rows(result)
         depth = result.body("ball").wear_depth[-1].max()
         assert row.value == pytest.approx(depth / result.saves()[0]["approach_m"])
@@ -83,7 +36,7 @@ def test_the_lab_is_told_where_wear_is_too_deep_for_the_film(k, beyond):
 
 
 def test_the_lab_is_told_nothing_of_a_film_that_is_not_there():
-    with Simulation({**case(), "effects": []}).run() as result:
+    with load_case(CASE, overrides=[*QUICK, "effects=[]"]).run() as result:
         assert tribo_lab_rows(result) == []
 
 

@@ -1,14 +1,13 @@
 """The paper's test on springs and a small grid, in long steps: to calibrate in little time."""
 
 import tomllib
-from contextlib import contextmanager
 from copy import deepcopy
 
-import pytest
+import numpy as np
 from tribo.config.overrides import apply_settings
 from tribo.templates import template
 
-from tribo_inverse.calibration.setups import make_run
+from tribo_inverse.calibration.linearised import Problem
 
 SPRINGS = {
     "contact": {"type": "winkler"},
@@ -33,18 +32,20 @@ def of_kind(found, kind):
     return [each for each in found.findings if each.kind == kind]
 
 
-@contextmanager
-def kept_runs():
-    """Make no run of a calibration twice."""
-    kept = {}
-
-    def remembered(tables, parameters, values, wanted, *rest):
-        paths = [each.path for each in parameters]
-        key = repr((tables, paths, values.tobytes(), wanted))
-        if key not in kept:
-            kept[key] = make_run(tables, parameters, values, wanted, *rest)
-        return kept[key]
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("tribo_inverse.calibration.experiment.make_run", remembered)
-        yield
+def problem(
+    observed,
+    sigma,
+    *,
+    predictions=0,
+    small=0.0,
+    names=("ball", "disk"),
+    reach=np.inf,
+    start=1.0,
+    **data,
+):
+    """A problem of which the first values are data; the other responses are predictions."""
+    n = len(observed)
+    each = {"below": np.zeros(n, bool), "specimen": np.arange(n), "repeatability": 0.0} | data
+    start = np.log(np.broadcast_to(start, len(names)))
+    whole = np.full(n + predictions, small), start - reach, start + reach, np.zeros((n, 0))
+    return Problem(names, observed, sigma, *each.values(), *whole)

@@ -7,7 +7,6 @@ from types import SimpleNamespace
 
 import pandas as pd
 import pytest
-from calibrations import kept_runs
 from click.testing import CliRunner
 from command_line import tribo
 from tribo.cli.console import Console
@@ -35,8 +34,8 @@ def weighed(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def asked(weighed):
-    """Return how the command ends with more options, in one process that makes no run twice."""
-    with kept_runs(), pytest.MonkeyPatch.context() as patch:
+    """Return how the command ends with more options, in one process."""
+    with pytest.MonkeyPatch.context() as patch:
         patch.chdir(weighed)
         yield lambda *options: CliRunner().invoke(main, [*WEIGHED, *options])
 

@@ -4,14 +4,13 @@ import json
 
 import numpy as np
 import pytest
-from calibrations import cheap, kept_runs
+from calibrations import cheap, problem
 from scipy.stats import multivariate_normal
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
 
 from tribo_inverse.calibration.choice import choose_case
 from tribo_inverse.calibration.fit import fit
-from tribo_inverse.calibration.linearised import Problem
 
 ARCHARD = cheap(100)
 POWER = {"type": "power", "k": 3.11e-16, "p_exponent": 2.0, "reference_pressure": "1 GPa"}
@@ -27,7 +26,6 @@ def weighed(load, part):
 
 
 @pytest.mark.slow
-@kept_runs()
 def test_the_law_that_made_the_data_is_chosen_where_they_are_exact():
     """A pressure falls as the scar grows, so that losses of other laws are not as the load."""
     exact = {"test": [weighed(load, 0.02) for load in (40, 100)]}
@@ -62,19 +60,8 @@ def test_what_is_wrong_with_one_case_is_told_before_another_is_run():
 def test_a_test_left_out_is_foretold_by_the_others():
     """A mean of n values with a known scatter foretells the next with σ √(1 + 1/n)."""
     values = np.array([0.9, 1.05, 1.1])
-    problem = Problem(
-        names=("k",),
-        observed=values,
-        sigma=np.full(3, 0.01),
-        below=np.zeros(3, dtype=bool),
-        specimen=np.arange(3),
-        repeatability=0.0,
-        small=np.zeros(4),
-        lower=np.full(1, -np.inf),
-        upper=np.full(1, np.inf),
-        common=np.zeros((3, 0)),
-    )
-    found = fit(lambda k: np.repeat(k, 4), problem, np.ones(1))
+    made = problem(values, np.full(3, 0.01), names=("k",), predictions=1)
+    found = fit(lambda k: np.repeat(k, 4), made, np.ones(1))
     own = []
     for i in range(3):
         mean = np.mean(np.delete(values, i))

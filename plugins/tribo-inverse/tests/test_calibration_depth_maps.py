@@ -6,22 +6,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from calibrations import cheap, kept_runs, of_kind
-from tribo.cli.console import Console
+from calibrations import cheap, of_kind
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.config.write import to_toml
 from tribo.core.errors import CaseError, TriboWarning
 from tribo.simulation.run import Simulation
 
-from tribo_inverse import fit_picture
 from tribo_inverse.calibration.calibrate import calibrate
 from tribo_inverse.calibration.cells import block_means, cell_means
 from tribo_inverse.calibration.choice import choose_case
 from tribo_inverse.calibration.experiment import Experiment
 from tribo_inverse.calibration.measured import read_measurements
 from tribo_inverse.calibration.plan import plan_tests
-from tribo_inverse.tables import data_table
 
 K, N = "bodies.ball.wear.k", "bodies.ball.wear.p_exponent"
 DISK_K = "bodies.disk.wear.k"
@@ -33,12 +30,6 @@ POWER = apply_settings(
 )
 TRUE = {K: 3e-16, N: 1.3}
 NOISE = 10e-9
-
-
-@pytest.fixture(scope="module", autouse=True)
-def runs_made_once():
-    with kept_runs():
-        yield
 
 
 def run(case, **changes):
@@ -93,23 +84,6 @@ def test_a_coefficient_and_an_exponent_are_found_from_maps_at_two_loads(found):
     assert len(found.data) == 2 * (16 * 16 - 2)
     assert found.p_value > 0.01
     assert list(found.brief["test"]) == ["heavy", "light"]
-
-
-@pytest.mark.slow
-def test_a_map_is_one_row_of_the_table_and_of_the_picture(found, capsys):
-    Console(width=80).table(data_table(found))
-    text = capsys.readouterr().out
-    (row,) = (line.split() for line in text.splitlines() if "heavy" in line)
-    assert " ".join(row).startswith("heavy: ball, depth_map, mean 0.")
-    assert row[-2] == "rms"
-    # The noise of a block is no larger than what the grid may put it off by, of which is none here.
-    assert 0.4 < float(row[-1]) < 0.8
-    axes, *panels = fit_picture(found.brief, found.data).axes
-    assert len(axes.get_yticks()) == 2
-    # Of each map the residuals at all blocks, and their colours.
-    maps = [each for panel in panels if panel.get_title() for each in panel.collections]
-    drawn = np.concatenate([each.get_array() for each in maps])
-    assert sorted(drawn) == sorted(found.data["residual"])
 
 
 @pytest.mark.slow
@@ -183,22 +157,6 @@ def test_a_map_of_the_whole_track_is_met_where_the_stroke_is_resolved(noisy):
         assert len(own) == count - (body == "disk") * 2
         assert np.std(own) == pytest.approx(1, abs=0.15)
     assert experiment.data["x_m"].max() == pytest.approx(1.5e-3, abs=0.1e-3)
-
-
-@pytest.mark.slow
-def test_estimate_and_interval_do_not_depend_on_the_start(noisy):
-    """Depths grow with the coefficient, and their slopes, which are differences, with them."""
-    entry = noisy(ARCHARD) | {"uncertainty": "50 nm"}
-    found = [
-        calibrate(ARCHARD, {"measured": [entry], "fit": [{"path": K, "start": factor * 3e-16}]})
-        for factor in (0.1, 1.4)
-    ]
-    values, lower, upper = np.array(
-        [fit.parameters[["value", "lower", "upper"]].iloc[0] for fit in found], dtype=float
-    ).T
-    half = 0.5 * (upper - lower)
-    assert np.ptp(values) < 0.1 * half[0]
-    assert half[1] == pytest.approx(half[0], rel=0.1, abs=0)
 
 
 def test_blocks_leave_out_what_was_not_measured():

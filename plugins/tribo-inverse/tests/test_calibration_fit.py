@@ -2,15 +2,15 @@
 
 import numpy as np
 import pytest
+from calibrations import problem
 from scipy.stats import norm, t
 from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.core.errors import CaseError, NumericalError, OutOfWindow
 
 from tribo_inverse.calibration.fit import differenced, fit, interval, limit, steps
-from tribo_inverse.calibration.linearised import Problem, Weights, root_covariance
+from tribo_inverse.calibration.linearised import Weights, root_covariance
 
 TRUE = np.array([7.08e-15, 7.08e-16])
-NAMES = ("ball", "disk")
 
 
 def worn(k):
@@ -32,17 +32,6 @@ def worn(k):
             end.ball_volume[0],
         ]
     )
-
-
-def problem(
-    observed, sigma, *, predictions=0, small=0.0, names=NAMES, reach=np.inf, start=TRUE, **data
-):
-    """A problem of which the first values are data; the other responses are predictions."""
-    n = len(observed)
-    each = {"below": np.zeros(n, bool), "specimen": np.arange(n), "repeatability": 0.0} | data
-    ends = np.log(start) - reach, np.log(start) + reach
-    whole = np.full(n + predictions, small), *ends, np.zeros((n, 0))
-    return Problem(names, observed, sigma, *each.values(), *whole)
 
 
 class Counted:

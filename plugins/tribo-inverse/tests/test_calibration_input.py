@@ -20,6 +20,7 @@ GOOD = {"body": "ball", "quantity": "mass", "value": "2 mg", "uncertainty": "0.1
 PROFILE = {"quantity": "profile_along", "uncertainty": "1 um"}
 SCAR = {"quantity": "scar_along", "uncertainty": "1 um"}
 K = "bodies.ball.wear.k"
+POWER = {"type": "power", "k": 3e-16, "p_exponent": 1.5, "reference_pressure": "1 GPa"}
 
 
 def refused(*measured, fit=(), case=CASE):
@@ -95,31 +96,13 @@ def test_a_wrong_value_is_told(changes, place, words):
         ({"path": K, "start": -1}, ".1.start", "must be greater than 0"),
         ({"path": K, "lower": 1e-15}, ".1", "3.11e-16, must lie between lower, 1e-15, and upper"),
         ({"path": "bodies.ball.material.poisson", "upper": 0.6}, ".1.upper", "less than 0.5"),
+        ({"path": "bodies.disk.wear.p_exponent", "lower": 0.8}, ".1.lower", "must be at least 1"),
     ],
 )
 def test_a_wrong_parameter_is_told(fit, place, words):
-    text = refused(GOOD, fit=[fit])
+    text = refused(GOOD, fit=[fit], case=apply_settings(CASE, {"bodies.disk.wear": POWER}))
     assert text.startswith(f"fit{place}: ")
     assert words in text
-
-
-def test_a_bound_beyond_that_of_the_number_itself_is_told():
-    law = {"type": "power", "k": 3e-16, "p_exponent": 1.5, "reference_pressure": "1 GPa"}
-    fit = {"path": "bodies.ball.wear.p_exponent", "lower": 0.8}
-    text = refused(GOOD, fit=[fit], case=apply_settings(CASE, {"bodies.ball.wear": law}))
-    assert text.startswith("fit.1.lower: 0.8: must be at least 1")
-
-
-@pytest.mark.parametrize(
-    ("measured", "fit", "start"),
-    [
-        ([GOOD, GOOD], ["load.normal", 'load."normal"'], "fit.2.path: "),
-        ([GOOD], [K, "bodies.disk.wear.k"], "2 parameters cannot be fitted to 1 measured value:"),
-        ([], [K], "nothing is measured; give each value as [[measured]]"),
-    ],
-)
-def test_parameters_that_data_do_not_fit_are_told(measured, fit, start):
-    assert refused(*measured, fit=[{"path": path} for path in fit]).startswith(start)
 
 
 @pytest.mark.parametrize(
@@ -141,49 +124,42 @@ def test_a_case_that_lacks_what_is_needed_is_told(changes, remedy):
     assert remedy in text if remedy.endswith(("wear", "density")) else text.startswith(remedy)
 
 
-@pytest.mark.parametrize(
-    ("given", "place"),
-    [
-        ({"measured": GOOD}, "measured"),
-        ({"test": {"measured": [GOOD]}}, "test"),
-        ({"test": [{"measured": GOOD}]}, "test.1.measured"),
-    ],
-)
-def test_one_entry_is_a_list_too(given, place):
-    name = place.rpartition(".")[2]
-    with pytest.raises(
-        CaseError, match=rf"^{place}: write \[\[{name}\]\] at the beginning of each"
-    ):
-        calibrate(CASE, given)
-
-
 def test_a_level_is_a_probability():
     with pytest.raises(CaseError, match="the level, 95, must lie between 0 and 1"):
         calibrate(CASE, {"measured": [GOOD]}, level=95)
 
 
+def one_test(**changes):
+    return {"test": [{"measured": [GOOD], **changes}], "fit": [{"path": K}]}
+
+
+LOADS = [{"name": "a", "set": {"load.normal": load}, "measured": [GOOD]} for load in (50, 70)]
+TWICE = [{"path": "load.normal"}, {"path": 'load."normal"'}]
+PAIR = [{"path": K}, {"path": "bodies.disk.wear.k"}]
+
+
 @pytest.mark.parametrize(
-    ("test", "words"),
+    ("data", "words"),
     [
-        ({"set": {"load.normal": "-5 N"}}, "test.1.set: load.normal: "),
-        ({"set": {"bodies": {"bal": {"wear": {"k": 1}}}}}, "test.1.set: bodies: "),
-        ({"set": {K: 1e-15}}, f"test.1.set: {K} is given, and {K} is fitted"),
-        ({"set": {"bodies.ball.wear": {"type": "archard", "k": 1}}}, "test.1.set: bodies.ball."),
-        ({"measured": [changed(time="2 h")]}, "test.1.measured.1.time: 7200 s is not reached"),
-        ({"measured": [changed(value="< 2 mm")]}, "test.1.measured.1.value: '2 mm' is a length"),
+        ({"measured": [GOOD, GOOD], "fit": TWICE}, "fit.2.path: "),
+        ({"measured": [GOOD], "fit": PAIR}, "2 parameters cannot be fitted to 1 measured value:"),
+        ({"measured": []}, "nothing is measured; give each value as [[measured]]"),
+        ({"measured": GOOD}, "measured: write [[measured]] at the beginning of each"),
+        ({"test": {"measured": [GOOD]}}, "test: write [[test]] at the beginning of each"),
+        (one_test(measured=GOOD), "test.1.measured: write [[measured]] at the beginning of each"),
+        ({"test": LOADS}, "test: two tests that differ are called 'a'"),
+        (one_test(set={"load.normal": "-5 N"}), "test.1.set: load.normal: "),
+        (one_test(set={"bodies": {"bal": {"wear": {"k": 1}}}}), "test.1.set: bodies: "),
+        (one_test(set={K: 1e-15}), f"test.1.set: {K} is given, and {K} is fitted"),
+        (one_test(set={"bodies.ball.wear": {"type": "archard", "k": 1}}), "test.1.set: bodies."),
+        (one_test(measured=[changed(time="2 h")]), "test.1.measured.1.time: 7200 s is not"),
+        (one_test(measured=[changed(value="< 2 mm")]), "test.1.measured.1.value: '2 mm' is a"),
     ],
 )
-def test_a_wrong_test_is_told(test, words):
-    measured = {"test": [{"measured": [GOOD], **test}], "fit": [{"path": K}]}
+def test_tests_and_parameters_that_do_not_go_together_are_told(data, words):
     with pytest.raises(CaseError) as caught:
-        calibrate(CASE, measured, on_run=unreached)
+        calibrate(CASE, data, on_run=unreached)
     assert str(caught.value).startswith(words)
-
-
-def test_tests_that_differ_have_names_of_their_own():
-    tests = [{"name": "a", "set": {"load.normal": load}, "measured": [GOOD]} for load in (50, 70)]
-    with pytest.raises(CaseError, match="two tests that differ are called 'a'"):
-        calibrate(CASE, {"test": tests}, on_run=unreached)
 
 
 @pytest.mark.parametrize(

@@ -4,15 +4,15 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from calibrations import cheap, kept_runs, of_kind
+from calibrations import cheap, of_kind
 from scipy.ndimage import shift as moved
-from tribo.cli.console import Console
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
-from tribo.core.errors import CaseError, NumericalError, TriboError
+from tribo.core.errors import NumericalError, TriboError
 from tribo.lab.heights import Heights
 from tribo.simulation.run import Simulation
 
+from tribo_inverse import fit_picture
 from tribo_inverse.calibration import mapped
 from tribo_inverse.calibration.calibrate import calibrate
 from tribo_inverse.calibration.mapped import calibrate_maps
@@ -25,12 +25,6 @@ PIN_K, DISK_K = "bodies.pin.wear.k", "bodies.disk.wear.k"
 K, TRUE = "bodies.ball.wear.k", 3e-16
 CASE = apply_settings(cheap(60), {"grid.cells": 32, K: TRUE, "bodies.disk.wear.k": TRUE})
 PIXELS, PITCH, NOISE = 128, 1e-3 / 128, 20e-9
-
-
-@pytest.fixture(scope="module", autouse=True)
-def runs_made_once():
-    with kept_runs():
-        yield
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +55,7 @@ def covers(found):
     return each.lower < TRUE < each.upper
 
 
-def test_a_map_off_its_middle_is_met_and_told(fitted, capsys):
+def test_a_map_off_its_middle_is_met_and_told(fitted):
     found = fitted((52e-6, -31e-6))
     assert covers(found)
     assert found.p_value > 0.01
@@ -71,8 +65,6 @@ def test_a_map_off_its_middle_is_met_and_told(fitted, capsys):
     assert found.degrees_of_freedom == len(found.data) - 3
     assert found.data["shift_x_m"].unique() == pytest.approx([52e-6], abs=1e-6)
     assert found.data["shift_y_m"].unique() == pytest.approx([-31e-6], abs=1e-6)
-    Console(width=120).table(data_table(found))
-    assert "mean, off centre by +5" in capsys.readouterr().out
 
 
 def test_a_map_in_its_middle_is_left_there(fitted):
@@ -80,6 +72,10 @@ def test_a_map_in_its_middle_is_left_there(fitted):
     assert covers(found)
     assert found.findings == ()
     assert not found.data[["shift_x_m", "shift_y_m"]].any(axis=None)
+    panels = [each for each in fit_picture(found.brief, found.data).axes if each.get_title()]
+    drawn = [each.get_array() for panel in panels for each in panel.collections]
+    assert sorted(np.concatenate(drawn)) == sorted(found.data["residual"])
+    assert "depth_map" in str(data_table(found))
 
 
 def test_a_map_that_is_not_levelled_is_reported(fitted):
@@ -114,6 +110,8 @@ def test_a_profile_is_met_on_a_coarse_grid(worn):
     assert covers(found)
     assert found.p_value > 0.01
     assert found.settings[K] == pytest.approx(TRUE, rel=0.005, abs=0)
+    _, panel = fit_picture(found.brief, found.data).axes
+    np.testing.assert_allclose(panel.lines[-1].get_ydata(), 1e6 * found.data["computed"])
 
 
 def test_uniform_wear_tells_no_place():
@@ -122,49 +120,49 @@ def test_uniform_wear_tells_no_place():
     assert find_shift(Heights(pixels, (1e-6, 1e-6)), depth, (1e-6, 1e-6), NOISE) == ScarShift()
 
 
-def test_the_map_of_a_local_coefficient_is_told_as_well(worn, tmp_path, monkeypatch):
+@pytest.fixture
+def located(worn, tmp_path, monkeypatch):
+    """What is found from a map of a local coefficient, whose fit moves it by 2 µm in the middle."""
+
     def unfitted(model, depths, priors, placed, on_run):
         off = 2e-6 if placed["ball"] == [0.25e-3, 0.25e-3] else 0.0
         return FittedMaps({"ball": SimpleNamespace(off=(off, 0.0), told=True)}, 0, 0, 1.0, 1.0)
 
-    monkeypatch.setattr(mapped, "fit_maps", unfitted)
-    entry = {"body": "ball", "depth": str(tmp_path / "map.npy"), "pitch": PITCH}
-    entry = MapEntry(**entry, uncertainty=NOISE, length=1e-4)
+    def found(depth, k=TRUE, fit_maps=unfitted, **changes):
+        monkeypatch.setattr(mapped, "fit_maps", fit_maps)
+        np.save(tmp_path / "map.npy", depth)
+        entry = {"body": "ball", "depth": str(tmp_path / "map.npy"), "pitch": PITCH}
+        entry = MapEntry(**entry, uncertainty=NOISE, length=1e-4, **changes)
+        return calibrate_maps(apply_settings(CASE, {K: k}), {"map.1": entry}).findings
+
+    return found
+
+
+def test_the_map_of_a_local_coefficient_is_told_as_well(worn, located):
     for shift in (52, 4):
-        np.save(tmp_path / "map.npy", moved(worn, (1e-6 * shift / PITCH, 0), order=1) + 3e-7)
-        *places, level = calibrate_maps(CASE, {"map.1": entry}).findings
+        *places, level = located(moved(worn, (1e-6 * shift / PITCH, 0), order=1) + 3e-7)
         # And 2 µm more by the fit.
         assert places[0].value == pytest.approx(1e-6 * (shift + 2), abs=2e-8)
         assert (level.kind, level.value) == ("level", pytest.approx(3e-7, rel=0.03))
-    np.save(tmp_path / "map.npy", worn)
-    centred = entry.model_copy(update={"centred": True})
-    assert not calibrate_maps(CASE, {"map.1": centred}).notes
-    words = {4: "has 3.99 times the", 0.2: "has 0.2 times the", 0: "has none of the volume"}
-    for factor, told in words.items():
-        np.save(tmp_path / "map.npy", factor * worn)
-        with pytest.raises(CaseError, match=rf"^map\.1\.depth: it {told}"):
-            calibrate_maps(CASE, {"map.1": centred})
-    np.save(tmp_path / "map.npy", 0.2 * worn)
-    wide = centred.model_copy(update={"spread": 1.0})
-    assert not calibrate_maps(CASE, {"map.1": wide}).notes
+    assert not located(worn, centred=True)
+    assert not located(0.2 * worn, centred=True, spread=1.0)
+
+
+def failing(*given, **named):
+    raise NumericalError("no step")
 
 
 @pytest.mark.parametrize(
     ("scale", "k", "words"),
     [
         (-1.0, TRUE, r"map\.1\.depth: the depths are negative"),
-        (1.0, 1e-3 * TRUE, r"map\.1\.depth: it has .* times the volume"),
+        (4, TRUE, r"map\.1\.depth: it has 3\.99 times the"),
+        (0.2, TRUE, r"map\.1\.depth: it has 0\.2 times the"),
+        (0, TRUE, r"map\.1\.depth: it has none of the volume"),
         (1.0, TRUE, r"check the maps' pitch, level and uncertainty, .*; no step"),
         (1.0, 0.0, r"map\.1\.body: 'ball' does not wear in this case"),
     ],
 )
-def test_a_map_that_is_not_of_the_case_is_refused(worn, tmp_path, monkeypatch, scale, k, words):
-    def failing(*given, **named):
-        raise NumericalError("no step")
-
-    monkeypatch.setattr(mapped, "fit_maps", failing)
-    np.save(tmp_path / "map.npy", scale * worn)
-    entry = {"body": "ball", "depth": str(tmp_path / "map.npy"), "pitch": PITCH}
-    entry = MapEntry(**entry, uncertainty=NOISE, length=1e-4)
+def test_a_map_that_is_not_of_the_case_is_refused(worn, located, scale, k, words):
     with pytest.raises(TriboError, match=words):
-        calibrate_maps(apply_settings(CASE, {K: k}), {"map.1": entry})
+        located(scale * worn, k, failing, centred=True)

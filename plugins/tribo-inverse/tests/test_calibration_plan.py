@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from calibrations import cheap
+from calibrations import cheap, problem
 from scipy.stats import norm, t
 from tribo.core.errors import CaseError
 
 from tribo_inverse.calibration.calibrate import calibrate
-from tribo_inverse.calibration.linearised import Linearised, Problem, Weights, root_covariance
+from tribo_inverse.calibration.linearised import Linearised, Weights, root_covariance
 from tribo_inverse.calibration.plan import Search, plan_tests
 
 CASE = cheap(300)
@@ -46,19 +46,8 @@ def test_the_expected_interval_is_that_of_a_calibration():
     counts, sigma = np.array([3, 2]), np.array([0.1, 0.05, 0.1, 0.05])
     of = np.concatenate([np.tile(rows, n) for rows, n in zip([[0, 1], [2, 3]], counts)])  # noqa: B905
     n = len(of)
-    problem = Problem(
-        names=("ball", "disk"),
-        observed=np.ones(n),
-        sigma=sigma[of],
-        below=np.zeros(n, dtype=bool),
-        specimen=np.arange(n) // 2,
-        repeatability=None,
-        small=np.zeros(n),
-        lower=np.full(2, -np.inf),
-        upper=np.full(2, np.inf),
-        common=np.zeros((n, 0)),
-    )
-    here = Linearised(problem, np.zeros(2), np.ones(n), effects[of], Weights.of(sigma[of]))
+    made = problem(np.ones(n), sigma[of], specimen=np.arange(n) // 2, repeatability=None)
+    here = Linearised(made, np.zeros(2), np.ones(n), effects[of], Weights.of(sigma[of]))
     here = here.weighed(np.zeros(2), 0.2)
     whole = here.sensitivity()
     kinds = np.array([whole[:2].T @ whole[:2], whole[-2:].T @ whole[-2:]])
@@ -80,13 +69,8 @@ def test_a_case_is_planned_without_values():
     # The short test's loss is of the size of its uncertainty; the long one's scatter decides.
     assert list(found.tests["count"]) == [0, 10]
     assert found.runs == 4
-    assert list(json.loads(json.dumps(found.as_json()))) == [
-        "level",
-        "within",
-        "runs",
-        "tests",
-        "parameters",
-    ]
+    keys = ["level", "within", "runs", "tests", "parameters"]
+    assert list(json.loads(json.dumps(found.as_json()))) == keys
 
 
 @pytest.mark.parametrize(
@@ -96,7 +80,7 @@ def test_a_case_is_planned_without_values():
         (
             {"repeatability": 0.2},
             10,
-            "^the half-width of the interval, 10, must lie between 0 and 1, as 0.1 does$",
+            "the half-width of the interval, 10, must lie between 0 and 1",
         ),
         ({"repeatability": 2.9}, 0.01, "1000 tests are not enough for ±1 %, but give ±18 %"),
     ],

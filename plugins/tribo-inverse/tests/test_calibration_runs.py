@@ -1,21 +1,17 @@
 """A calibration gives back what the data were made with, and says what they cannot tell."""
 
-import json
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
-from calibrations import cheap, kept_runs, of_kind, on_springs
+from calibrations import cheap, of_kind, on_springs
 from scipy.stats import norm
-from tribo.cli.console import Console
 from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.simulation.run import Simulation
 
-from tribo_inverse import fit_picture
 from tribo_inverse.calibration.calibrate import calibrate
 from tribo_inverse.calibration.measured import read_measurements
 from tribo_inverse.calibration.parameters import find_parameters
@@ -50,12 +46,6 @@ def run_with(**changes):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", TriboWarning)
         return Simulation(validate_case(apply_settings(CASE, changes))).run()
-
-
-@pytest.fixture(scope="module", autouse=True)
-def runs_made_once():
-    with kept_runs():
-        yield
 
 
 @pytest.fixture(scope="module")
@@ -99,8 +89,8 @@ def test_several_tests_give_one_coefficient_and_share_runs():
 
 
 @pytest.mark.slow
-def test_the_experiment_gives_the_weighed_coefficients_and_the_crown():
-    """2.0 and 0.2 mg in 360 m at 100 N; the crown is that of the closed rigid limit, within it."""
+def test_the_crown_that_weighed_losses_foretell_is_that_of_the_closed_rigid_limit():
+    """2.0 and 0.2 mg in 360 m at 100 N, which `tribo calibrate` fits in its own test."""
     disk = {"before": "27.6445 g", "after": "27.6443 g"}
     data = {
         "measured": [
@@ -111,14 +101,9 @@ def test_the_experiment_gives_the_weighed_coefficients_and_the_crown():
     }
     found = calibrate(SPLIT, data)
     ball, disk = found.parameters.itertuples()
-    assert ball.value == pytest.approx(7.08e-15, rel=1e-3, abs=0)
-    assert disk.value == pytest.approx(7.08e-16, rel=1e-3, abs=0)
     # Two readings, each off by up to half a step: 0.1 of 2 mg and of 0.2 mg at most.
     assert ball.resolution_limit == pytest.approx(0.05)
     assert disk.resolution_limit == pytest.approx(0.5)
-    half = 1.96 * 0.5 / 6**0.5
-    assert disk.lower == pytest.approx(disk.value * (1 - half), rel=1e-3, abs=0)
-    assert disk.upper == pytest.approx(disk.value * (1 + half), rel=1e-3, abs=0)
     assert [each.place for each in of_kind(found, "reading")] == [BALL_K, DISK_K]
     (crown,) = found.predictions.query("body == 'ball' and quantity == 'crown'").itertuples()
 
@@ -161,26 +146,6 @@ def test_the_start_leaves_no_trace_in_the_uncertainties(monkeypatch):
     np.testing.assert_allclose(far.data["sigma"], near.data["sigma"], rtol=0.05)
     assert far.chi_square == pytest.approx(near.chi_square, rel=0.1)
     assert far.parameters["value"][0] == pytest.approx(near.parameters["value"][0], rel=1e-3, abs=0)
-
-
-@pytest.mark.slow
-def test_profiles_are_fitted_where_they_were_measured(true_run):
-    at = np.linspace(-0.4e-3, 0.4e-3, 9)
-    data = {
-        "body": "disk",
-        "quantity": "profile_across",
-        "position": at.tolist(),
-        "value": np.interp(at, true_run.grid.y, true_run.body("disk").wear_depth[-1, 0]).tolist(),
-        "uncertainty": "0.02 um",
-    }
-    found = calibrate(CASE, {"measured": [data], "fit": fitting(DISK_K, start=2.5e-16)})
-    assert found.settings[DISK_K] == pytest.approx(DISK, rel=0.01, abs=0)
-    assert list(found.data["position_m"]) == at.tolist()
-    (row,) = found.brief.itertuples()
-    assert (row.depths, row.measured) == (9, pytest.approx(np.mean(data["value"]), abs=0))
-    _, panel = fit_picture(found.brief, found.data).axes
-    np.testing.assert_allclose(panel.lines[-1].get_ydata(), 1e6 * found.data["computed"])
-    assert np.array(panel.get_xlim()) == pytest.approx([-0.44, 0.44])
 
 
 @pytest.mark.slow
@@ -256,38 +221,12 @@ def test_a_bound_that_cannot_be_run_leaves_what_follows_from_it_open():
     assert list(scars["upper"]) == [np.inf]
 
 
-@pytest.mark.slow
-def test_a_groove_that_ends_with_its_stroke_is_noticed():
-    """The paper's hour, resolved: losses and groove known to 2 %, the average 18 % too deep."""
-    file = Path(__file__).parents[3] / "docs" / "_data" / "resolved_hour.json"
-    rows = json.loads(file.read_text())["tables"]["resolved hour"]
-    (groove,) = (
-        row["groove_um"] * 1e-6
-        for row in rows
-        if (row["case"], row["positions"], row["cells"]) == ("equal coefficients", 33, 96)
-    )
-    loss = BALL * LOAD * 360 * DENSITY
-    data = [measured(body, "mass", loss, 0.02) for body in ("ball", "disk")]
-    data.append(measured("disk", "depth", groove, 0.02))
-    coarse = {"grid": {"size": "1.4 mm", "cells": 24}, "stepping.depth_tolerance": 0.1}
-    hour = on_springs("ball_on_disk", coarse)
-    found = calibrate(hour, {"measured": data})
-    assert found.chi_square == pytest.approx(38, abs=8)
-    assert found.p_value < 1e-6
-    (misfit,) = of_kind(found, "misfit")
-    assert (misfit.value, misfit.limit) == (found.chi_square, 1)
-
-
 def test_what_nothing_fitted_changes_is_predicted_without_an_interval():
     """The disk's loss is that of its coefficient, which is the case's."""
     found = calibrate(CASE, {"measured": [BALL_LOSS]})
     loss = found.predictions.query("body == 'disk' and quantity == 'mass'").iloc[0]
     assert loss["lower"] == loss["value"] == loss["upper"]
-    console = Console(width=80, record=True)
-    console.table(predictions_table(found))
-    assert "disk, mass" in (text := console.export_text())
-    assert "not fitted" in text
-    assert "±0.0 %" not in text
+    assert "not fitted" in str(predictions_table(found))
 
 
 def test_numbers_that_the_data_cannot_tell_apart_stay_near_their_start(true_run):
@@ -352,9 +291,7 @@ def test_an_estimate_held_by_its_bound_has_no_interval_and_data_and_model_disagr
     ball, disk = held.parameters.itertuples()
     assert ball.value == pytest.approx(1.2 * BALL, rel=1e-6, abs=0)
     assert (ball.held, disk.held) == (True, False)
-    console = Console(width=80, record=True)
-    console.table(estimates_table(held))
-    assert console.export_text().count("held by its upper bound") == 1
+    assert "held by its upper bound" in str(estimates_table(held))
     assert (ball.lower, ball.upper) == (0, 1.2 * BALL)
     assert held.chi_square == pytest.approx(64)
     assert held.brief["residual"].iloc[0] == pytest.approx(-8)

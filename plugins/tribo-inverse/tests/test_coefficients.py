@@ -1,11 +1,9 @@
 """Pictures of local coefficients frame all that they show."""
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from tribo_inverse.calibration.maps import LocalMap
-from tribo_inverse.fitted import fit_picture
 from tribo_inverse.pictures import depth_fit
 
 NOISE = 1e-8 * np.array([[1.0, -2.0, 0.5, -1.0]])
@@ -30,33 +28,3 @@ def test_the_residuals_of_a_scar_are_coloured_about_white():
     figure = depth_fit(fitted(measured, np.full((2, 2), 1e-6)))
     (image,) = figure.axes[1].images
     np.testing.assert_allclose(image.get_clim(), [-100, 100])
-
-
-def test_the_sign_of_large_residuals_of_a_scar_is_seen_in_grey():
-    off = np.outer(np.ones(9), np.linspace(-8, 8, 9))
-    figure = depth_fit(fitted(np.zeros((9, 9)), 1e-8 * off))
-    (lines,) = figure.axes[1].collections
-    np.testing.assert_allclose(lines.levels, [-3, 3])
-    assert [dashes is not None for _, dashes in lines.get_linestyle()] == [True, False]
-
-
-def test_a_fit_stands_over_what_was_measured():
-    data = pd.DataFrame(
-        {
-            "test": ["", "long"],
-            "body": ["ball", "disk"],
-            "quantity": ["scar_across", "mass"],
-            "time_s": [np.nan, 60.0],
-            "measured": [1e-3, 2e-7],
-            "below": [False, True],
-            "sigma": [1e-5, 1e-7],
-            "computed": [1.1e-3, 2e-7],
-        }
-    )
-    figure = fit_picture(data)
-    fitted = next(line for line in figure.axes[0].lines if line.get_label() == "fitted")
-    np.testing.assert_allclose(fitted.get_xdata(), [1.1, 1.0])
-    labels = [text.get_text() for text in figure.axes[0].get_yticklabels()]
-    assert labels == ["ball, scar_across", "long: disk, mass at 60 s"]
-    (limit,) = [each for each in figure.axes[0].lines if "below this limit" in each.get_label()]
-    assert limit.get_xydata().tolist() == [[1.0, 0.0]]

@@ -17,21 +17,9 @@ from gradient_effects import (
     Slips,
     Softens,
 )
-from gradients import (
-    BASE,
-    CLOSE,
-    FRESH,
-    LONG,
-    SHAPE,
-    few,
-    kind,
-    layered,
-    resolved,
-    run,
-)
+from gradients import BASE, CLOSE, FRESH, LONG, SHAPE, few, kind, resolved, run
 from paper_models import K, archard, motion, pair
 from tribo.core.errors import CaseError
-from tribo.stepping.explicit import Explicit
 
 from tribo_inverse.adjoint.gradient import gradient
 from tribo_inverse.adjoint.objective import Depth, Pressure, Volume
@@ -46,38 +34,35 @@ def pauses(**changes):
 
 SLOW = few(nonlinear_tolerance=1e-11, cycle_tolerance=1e-11)
 """What fills the gap has no slope, and a step takes many passes."""
+
+
+def briefly(objective, paths, part=1e-5, **changes):
+    given = {"stepping": SLOW, "kinematics": motion(duration=1.5)} | changes
+    return kind(objective, paths, part, **given)
+
+
 OF_GRAINS = [f"effects.1.{name}" for name in ("begins", "cover", "stays")]
+METAL = {"young": "207 GPa", "poisson": 0.3, "properties": {"leads": "45 W/(m K)"}}
 KINDS = {
-    "grains": kind(
-        Depth("disk"),
-        [*BASE, *SHAPE, *OF_GRAINS],
-        effects=[Grains()],
-        kinematics=motion(duration=1.5),
-        stepping=SLOW,
-    ),
-    "dust": kind(
+    "grains": briefly(Depth("disk"), [*BASE, *SHAPE, *OF_GRAINS], effects=[Grains()]),
+    "dust": briefly(
         Depth("disk"),
         ["load.normal", "bodies.ball.wear.over", "bodies.disk.wear.k", *SHAPE, *OF_GRAINS],
         bodies=pair(FRESH, archard()),
         effects=[Dust()],
-        kinematics=motion(duration=1.5),
-        stepping=SLOW,
     ),
-    "grains, positions": kind(
+    "grains, positions": briefly(
         Depth("disk", 5e-5),
         ["load.normal", *SHAPE, *OF_GRAINS],
         kinematics=resolved(duration=0.1, waveform="sinusoidal"),
         bodies=pair(FRESH, archard()),
         effects=[Grains(on="disk")],
-        stepping=SLOW,
     ),
-    "grains on each body": kind(
+    "grains on each body": briefly(
         Depth("disk"),
         [*BASE, *SHAPE, *OF_GRAINS, *(name.replace("0", "1") for name in OF_GRAINS)],
         bodies=pair(Buried(k=K), Buried(k=K)),
         effects=[Dust(on="ball"), Dust(on="disk", begins=1e-7, stays=1.0)],
-        kinematics=motion(duration=1.5),
-        stepping=SLOW,
     ),
     "heat": kind(
         Depth("ball"),
@@ -91,94 +76,63 @@ KINDS = {
         kinematics=motion(duration=4),
         stepping=LONG,
     ),
+    "slip": briefly(Depth("disk"), [*BASE, *SHAPE, "effects.1.most"], effects=[Slips()]),
+    "heat through a body that does not wear": kind(
+        Depth("ball"),
+        ["bodies.disk.material.properties.leads"],
+        bodies={
+            "ball": {"surface": {"type": "sphere", "radius": "5 mm"}, "material": METAL}
+            | {"wear": Softens(k=K)},
+            "disk": {"surface": {"type": "flat"}, "material": METAL},
+        },
+        effects=[Sinks()],
+        kinematics=motion(duration=4),
+        stepping=LONG,
+    ),
+    "rest": briefly(
+        {2.0: Pressure(2e-5, 0), 4.0: Depth("disk")},
+        [
+            *("load.normal.1.normal", "load.normal.2.normal", *SHAPE, "bodies.ball.wear.over"),
+            *(f"effects.1.{name}" for name in ("begins", "rate", "stays")),
+            *(f"kinematics.frequency.{name}" for name in ("1.frequency", "1.until", "2.until")),
+        ],
+        1e-4,
+        seed=1,
+        load=[{"at": 0, "normal": 10.0}, {"at": 4, "normal": 20.0}],
+        bodies=pair(FRESH, archard()),
+        effects=[Grows()],
+        kinematics=pauses(),
+        save_times=(2.0,),
+    ),
+    "rest, of one temperature": kind(
+        {2.0: Pressure(2e-5, 0), 4.0: Depth("ball")},
+        ["load.normal", "effects.1.capacity", *SHAPE, "kinematics.frequency.2.until"],
+        1e-4,
+        bodies=pair(Softens(k=K), archard()),
+        effects=[Heat()],
+        kinematics=pauses(),
+        stepping=LONG,
+        save_times=(2.0,),
+    ),
+    "spreads": briefly(
+        Depth("disk"),
+        [
+            *BASE[:1],
+            *SHAPE,
+            *(f"effects.1.{name}" for name in ("rate", "stays", "spreads", "over")),
+        ],
+        bodies=pair(FRESH, archard()),
+        effects=[Creeps()],
+        kinematics=motion(duration=1),
+    ),
+    "pressure beside": kind(
+        Depth("ball"),
+        ["load.normal", "bodies.ball.wear.k", *SHAPE],
+        bodies=pair(Softens(k=K), archard()),
+        effects=[Blurs()],
+        stepping=LONG,
+    ),
 }
-KINDS["slip"] = kind(
-    Depth("disk"),
-    [*BASE, *SHAPE, "effects.1.most"],
-    effects=[Slips()],
-    kinematics=motion(duration=1.5),
-    stepping=SLOW,
-)
-METAL = {"young": "207 GPa", "poisson": 0.3, "properties": {"leads": "45 W/(m K)"}}
-KINDS["explicit, beside heat that no law follows"] = kind(
-    Depth("ball"),
-    ["load.normal.1.normal", "load.normal.2.normal", "bodies.ball.wear.k"],
-    kinematics=motion(duration=4),
-    load=[{"at": 0, "normal": 10.0}, {"at": 4, "normal": 20.0}],
-    effects=[Heat()],
-    stepping=Explicit(time_step=1, allow_unstable=True),
-)
-KINDS["heat through a body that does not wear"] = kind(
-    Depth("ball"),
-    ["bodies.disk.material.properties.leads"],
-    bodies={
-        "ball": {"surface": {"type": "sphere", "radius": "5 mm"}, "material": METAL}
-        | {"wear": Softens(k=K)},
-        "disk": {"surface": {"type": "flat"}, "material": METAL},
-    },
-    effects=[Sinks()],
-    kinematics=motion(duration=4),
-    stepping=LONG,
-)
-KINDS["rest"] = kind(
-    {2.0: Pressure(2e-5, 0), 4.0: Depth("disk")},
-    [
-        *("load.normal.1.normal", "load.normal.2.normal", *SHAPE, "bodies.ball.wear.over"),
-        *(f"effects.1.{name}" for name in ("begins", "rate", "stays")),
-        *(f"kinematics.frequency.{name}" for name in ("0.frequency", "0.until", "1.until")),
-    ],
-    1e-4,
-    seed=1,
-    load=[{"at": 0, "normal": 10.0}, {"at": 4, "normal": 20.0}],
-    bodies=pair(FRESH, archard()),
-    effects=[Grows()],
-    kinematics=pauses(),
-    stepping=SLOW,
-    save_times=(2.0,),
-)
-KINDS["rest, of one temperature"] = kind(
-    {2.0: Pressure(2e-5, 0), 4.0: Depth("ball")},
-    ["load.normal", "effects.1.capacity", *SHAPE, "kinematics.frequency.2.until"],
-    1e-4,
-    bodies=pair(Softens(k=K), archard()),
-    effects=[Heat()],
-    kinematics=pauses(),
-    stepping=LONG,
-    save_times=(2.0,),
-)
-KINDS["spreads"] = kind(
-    Depth("disk"),
-    [*BASE[:1], *SHAPE, *(f"effects.1.{name}" for name in ("rate", "stays", "spreads", "over"))],
-    bodies=pair(FRESH, archard()),
-    effects=[Creeps()],
-    kinematics=motion(duration=1),
-    stepping=SLOW,
-)
-KINDS["pressure beside"] = kind(
-    Depth("ball"),
-    ["load.normal", "bodies.ball.wear.k", *SHAPE],
-    bodies=pair(Softens(k=K), archard()),
-    effects=[Blurs()],
-    stepping=LONG,
-)
-KINDS["layers"] = kind(
-    Depth("disk"),
-    ["load.normal", *SHAPE, "bodies.disk.layers.1.thickness", *OF_GRAINS],
-    1e-6,
-    bodies=layered(None, ("0.08 nm", archard(2 * K))),
-    effects=[Grains()],
-    kinematics=motion(duration=0.02),
-    stepping=SLOW,
-)
-KINDS["layers, pressure beside"] = kind(
-    Depth("ball"),
-    ["load.normal", *SHAPE, "bodies.disk.layers.1.thickness", "bodies.ball.wear.k"],
-    1e-6,
-    bodies=layered(("0.05 um", archard(K / 2)), ("0.002 um", archard(2 * K)), Softens(k=K)),
-    effects=[Blurs()],
-    kinematics=motion(duration=4),
-    stepping=LONG,
-)
 
 
 @pytest.mark.slow

@@ -32,106 +32,77 @@ FAST = RunningIn(law=archard(2 * K), factor=4.0, over="0.5 GPa m")
 SLOW = SMOOTH.model_copy(update={"law": archard(K / 2), "depth": 1e-7})
 FLEETING = SMOOTH.model_copy(update={"law": archard(4 * K), "depth": 5e-9})
 """Of which a cell, in a step of many parts, would lose many times the roughness there is."""
+OF_BALL = ["bodies.ball.layers.1.thickness", "bodies.ball.layers.1.wear.law.k"]
 OF_LAYER = ["bodies.disk.layers.1.thickness", "bodies.disk.layers.1.wear.over"]
 
 
+def exact(objective, paths, part=1e-5, **changes):
+    return kind(objective, paths, part, **{"stepping": LONG} | changes)
+
+
 KINDS = {
-    "comes to rest": kind(
+    "comes to rest": exact(
         Depth("ball"),
         ["bodies.ball.wear.settled"],
         bodies=pair(SMOOTH.model_copy(update={"depth": 1e-8}), None),
-        stepping=LONG,
     ),
-    "remembers": kind(
-        Depth("disk"),
-        ["load.normal", *SHAPE, *OF_FRESH, *OF_SMOOTH, "kinematics.frequency", "kinematics.stroke"],
-        bodies=pair(FRESH, SMOOTH),
-        stepping=LONG,
-    ),
-    "remembers, follows the speed": kind(
+    "remembers, follows the speed": exact(
         Depth("ball"),
         [*STAGES[:2], *SHAPE, *OF_FRESH[:2], "kinematics.frequency", "kinematics.stroke"],
         load=RAMP[:2],
         kinematics=motion(duration=5),
         bodies=pair(OF_SPEED),
-        stepping=LONG,
     ),
-    "layers": kind(
-        Depth("disk"),
-        [
-            *("load.normal", *SHAPE, "bodies.ball.wear.k", "bodies.ball.layers.1.wear.k"),
-            *("bodies.ball.layers.1.thickness", "bodies.disk.layers.1.thickness"),
-        ],
-        1e-6,
-        bodies=layered(("0.3 um", archard(K / 2)), ("0.05 um", archard(2 * K))),
-        stepping=LONG,
-    ),
-    "layers, remembers": kind(
+    "layers, remembers": exact(
         Depth("disk"),
         ["load.normal", *SHAPE, *OF_LAYER, "bodies.disk.wear.over"],
         1e-6,
         bodies=layered(None, ("0.05 um", FAST), archard(), FRESH),
         kinematics=motion(duration=5),
-        stepping=LONG,
     ),
-    "positions, remembers, stroke": kind(
-        Depth("disk", 5e-5),
-        ["load.normal", "kinematics.stroke"],
-        1e-6,
-        bodies=pair(FRESH, SMOOTH),
-        kinematics=resolved(stroke="0.13 mm", waveform="sinusoidal", duration=0.5),
-        stepping=LONG,
-    ),
-    "load on a plateau, remembers": kind(
+    "load on a plateau, remembers": exact(
         Depth("disk"),
         ["load.normal.2.normal", "load.normal.3.normal"],
         load=[{"at": 0, "normal": 10.0}, {"at": 10, "normal": 20.0}, {"at": 20, "normal": 20.0}],
         bodies=pair(FRESH, archard()),
-        stepping=LONG,
     ),
-    "layers, remembers for a small part of a step": kind(
+    "layers, remembers for a small part of a step": exact(
         Depth("disk"),
         ["load.normal", "bodies.disk.layers.1.thickness"],
         1e-6,
         grid=SMALL,
         bodies=layered(None, ("0.01 um", SLOW), None, FLEETING),
         kinematics=motion(duration=4),
-        stepping=LONG,
     ),
-    "layers, passed late in a step, remembers": kind(
+    "layers, passed late in a step, remembers": exact(
         Depth("ball"),
         ["load.normal", "bodies.ball.layers.1.thickness", "bodies.ball.wear.over"],
         grid=FINE,
         bodies=layered(("0.05 um", archard()), of_ball=FRESH),
         kinematics=motion(duration=1.75537),
-        stepping=LONG,
         save_times=(0.63749,),
     ),
-    "layers, parts cut off": kind(
+    "layers, parts cut off": exact(
         Depth("ball"),
         ["load.normal", "bodies.disk.layers.1.thickness", "bodies.disk.wear.depth"],
         contact=Winkler(plasticity=False),
         bodies=layered(None, ("0.05 um", archard(2 * K)), SMOOTH, SMOOTH),
         kinematics=motion(duration=5),
-        stepping=LONG,
     ),
-    "positions, layers, remembers": kind(
+    "positions, layers, remembers": exact(
         Depth("disk", 5e-5),
-        ["load.normal", *SHAPE, "bodies.ball.layers.1.thickness", "bodies.ball.wear.over"],
+        ["load.normal", *SHAPE, *OF_BALL, "bodies.ball.wear.over"],
         1e-6,
         grid=FINE,
         bodies=layered(("0.02 um", FAST), ("0.004 um", archard(2 * K)), FRESH, archard()),
         kinematics=resolved(duration=0.25),
-        stepping=LONG,
     ),
-    "positions, remembers": kind(
+    "positions, remembers": exact(
         Depth("disk", 5e-5),
-        ["load.normal", *SHAPE, *OF_FRESH, *OF_SMOOTH],
-        kinematics=motion(
-            stroke="0.125 mm", positions=5, frequency=100, duration=0.4, waveform="sinusoidal"
-        ),
+        ["load.normal", *SHAPE, *OF_FRESH, *OF_SMOOTH, "kinematics.stroke"],
+        1e-6,
+        kinematics=resolved(stroke="0.13 mm", waveform="sinusoidal", duration=0.4),
         bodies=pair(FRESH, SMOOTH),
-        stepping=LONG,
     ),
 }
 

@@ -6,14 +6,11 @@ import tracemalloc
 import numpy as np
 import pytest
 from gradients import BASE, CLOSE, FINE, HARD, Kind, layered, resolved, run
-from paper_models import K, archard, motion, pair, states
-from scipy.optimize import minimize
+from paper_models import K, archard, motion, pair
 from tribo import Finding, Observer
 from tribo.case import Layer, Stop
 from tribo.config.load import validate_case
-from tribo.contact.padded_half_space import HalfSpace
 from tribo.contact.winkler import Winkler
-from tribo.core.box import whole
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
@@ -24,20 +21,16 @@ from tribo.simulation import march
 from tribo.simulation.positions import composed
 from tribo.surfaces.height_map import HeightMap
 from tribo.templates import template
-from tribo.wear.archard import Archard
 
 from tribo_inverse.adjoint.gradient import gradient, value_and_gradient
-from tribo_inverse.adjoint.linear import StepSystem
 from tribo_inverse.adjoint.numbers import find
 from tribo_inverse.adjoint.objective import (
     Deepest,
     Depth,
     EndTime,
-    Misfit,
     Volume,
 )
 from tribo_inverse.adjoint.sensitivity import sensitivity
-from tribo_inverse.increment.carriers import Carrier
 from tribo_inverse.recording import tape
 
 NAN, INF = np.nan, np.inf
@@ -51,12 +44,6 @@ class Turns(Effect):
         return {"turns": np.full((1, 1), contact.speed)}
 
 
-@pytest.mark.parametrize("path", ["contact.tolerance", "grid.size.1"])
-def test_how_a_run_is_computed_has_no_derivative(path):
-    with pytest.raises(CaseError, match=f"{path}: is a number of the numerics"):
-        gradient(run(), Volume("ball"), [path])
-
-
 class Ends(Observer):
     """Ends the run after 10 mm."""
 
@@ -64,93 +51,61 @@ class Ends(Observer):
         return [Finding("stop", "far enough")] * (snapshot.state.distance > 0.01)
 
 
-def test_a_run_that_a_model_ends_has_no_gradient():
-    with pytest.raises(CaseError, match=r"observers\.1: .*far enough"):
-        gradient(run(observers=[Ends()]), Volume("ball"), ["load.normal"])
+STAGES = [{"until": 5, "normal": 20}, {"until": 9, "normal": 10}, {"until": 20, "normal": 20}]
+EVENLY = {"load": {"normal": STAGES}, "save_times": (9.0,)}
+HARD_PAIR = pair(archard(), archard(), ("2 GPa", "2 GPa"))
+COATING = Layer(thickness="1 um", wear=archard(), hardness="1 GPa")
+COATED = [("ball", HARD_PAIR[0][1].model_copy(update={"layers": (COATING,)})), HARD_PAIR[1]]
+ACROSS = {"path": "circle", "extent": (1e-4, 1e-4), "speed": 0.02, "revolutions": 9}
+REFUSED = {
+    "contact.tolerance: is a number of the numerics": ({}, ["contact.tolerance"]),
+    "grid.size.1: is a number of the numerics": ({}, ["grid.size.1"]),
+    "ball.wear.K: is no number with decimals in this case": ({}, ["bodies.ball.wear.K"]),
+    "a list of names is needed, 'load.normal' was given": ({}, "load.normal"),
+    "moves the positions of the cycle by whole cells": (
+        {"grid": FINE, "kinematics": resolved()},
+        ["kinematics.stroke"],
+    ),
+    "stands for different numbers": (
+        {"bodies": pair(archard(), archard(2 * K))},
+        ["bodies.*.wear.k"],
+    ),
+    r"either may be the softer; name both, as bodies\.\*": ({"bodies": HARD_PAIR}, [HARD]),
+    "layer of another hardness": ({"bodies": COATED}, []),
+    "load.normal.2.until: has .*: a change of it separates events that coincide at 9 s": (
+        EVENLY,
+        ["load.normal.2.until"],
+    ),
+    "disk moves across as well as along x": (
+        {"kinematics": Planar(**ACROSS, positions="cells")},
+        [],
+    ),
+    r"observers\.1: .*far enough": ({"observers": [Ends()]}, []),
+}
 
 
-def test_a_hardness_of_both_bodies_is_named_once():
-    case = run(bodies=pair(archard(), archard(), ("2 GPa", "2 GPa")))
-    with pytest.raises(CaseError, match=r"either may be the softer; name both, as bodies\.\*"):
-        gradient(case, Volume("disk"), [HARD])
+@pytest.mark.parametrize("words", REFUSED)
+def test_what_has_no_derivative_is_refused(words):
+    changes, paths = REFUSED[words]
+    with pytest.raises(CaseError, match=words):
+        gradient(run(**changes), Volume("ball"), paths)
+
+
+def test_what_can_be_asked_in_place_of_what_is_refused():
     both = "bodies.*.material.hardness"
-    assert gradient(case, Depth("disk"), [both])[both] == 0
+    assert gradient(run(bodies=HARD_PAIR), Depth("disk"), [both])[both] == 0
+    first = "load.normal.1.until"
+    assert gradient(run(**EVENLY), Volume("ball"), [first])[first] > 0
 
 
 def test_measured_heights_have_to_be_asked_for():
     heights = np.full((9, 9), 1e-9).tolist()
     ball, disk = pair(archard(), archard())
     surface = HeightMap(size=("2 mm", "2 mm"), heights=heights, on=ball[1].surface)
-    bodies = [(ball[0], ball[1].model_copy(update={"surface": surface})), disk]
-    case = run(bodies=bodies)
+    case = run(bodies=[(ball[0], ball[1].model_copy(update={"surface": surface})), disk])
     first = "bodies.ball.surface.heights.1.1"
     assert [path for path, *_ in find(case, None) if "heights" in path] == []
     assert [path for path, *_ in find(case, [first])] == [first]
-
-
-def coated():
-    ball, disk = pair(archard(), archard(), ("2 GPa", "2 GPa"))
-    layer = Layer(thickness="1 um", wear=archard(), hardness="1 GPa")
-    return [(ball[0], ball[1].model_copy(update={"layers": (layer,)})), disk]
-
-
-def test_layers_that_yield_at_another_hardness_are_refused():
-    with pytest.raises(CaseError, match="layer of another hardness"):
-        gradient(run(bodies=coated()), Volume("ball"), [])
-
-
-@pytest.mark.parametrize(
-    ("path", "message"),
-    [
-        ("bodies.ball.wear.K", "bodies.ball.wear.K: is no number with decimals in this case"),
-        ("kinematics.stroke", "moves the positions of the cycle by whole cells"),
-        ("bodies.*.wear.k", "stands for different numbers"),
-    ],
-)
-def test_a_number_without_derivative_is_refused(path, message):
-    case = run(grid=FINE, kinematics=resolved(), bodies=pair(archard(), archard(2 * K)))
-    with pytest.raises(CaseError, match=message):
-        gradient(case, Volume("ball"), [path])
-
-
-def test_a_stage_that_ends_at_a_save_has_no_derivative_in_its_time():
-    load = {"normal": [{"until": "5 s", "normal": 20}, {"until": "9 s", "normal": 10}]}
-    load["normal"].append({"until": "20 s", "normal": 20})
-    case, path = run(load=load, save_times=(9.0,)), "load.normal.2.until"
-    with pytest.raises(
-        CaseError, match=f"{path}: has .*: a change of it separates events that coincide at 9 s"
-    ):
-        gradient(case, Volume("ball"), [path])
-    assert gradient(case, Volume("ball"), ["load.normal.1.until"])["load.normal.1.until"] > 0
-
-
-def test_a_refusal_names_its_place_once():
-    class Exact(Archard):
-        type = "exact"
-
-        def check(self, material):
-            if self.k != K:
-                raise CaseError("only one is known", "bodies.ball.wear.k")
-
-    case = run(bodies=pair(Exact(k=K), archard()))
-    with pytest.raises(CaseError) as refused:
-        gradient(case, Volume("ball"), ["bodies.*.wear.k"])
-    assert str(refused.value) == "bodies.*.wear.k: has no derivative here: only one is known"
-
-
-def test_a_path_across_is_refused():
-    path = Planar(path="circle", extent=(1e-4, 1e-4), speed=0.02, revolutions=9, positions="cells")
-    with pytest.raises(CaseError, match="disk moves across as well as along x"):
-        gradient(run(kinematics=path), Volume("ball"), [])
-
-
-def test_one_name_in_place_of_a_list_is_refused():
-    with pytest.raises(CaseError, match=r"a list of names is needed, 'load.normal' was given"):
-        gradient(run(), Volume("ball"), "load.normal")
-    with pytest.raises(CaseError, match=r"give \['ball'\]"):
-        value_and_gradient(run(), Volume("ball"), wear_rate="ball")
-    with pytest.raises(CaseError, match="there is no body 'ring' that wears: ball, disk"):
-        value_and_gradient(run(), Volume("ball"), wear_rate=["ring"])
 
 
 @pytest.mark.parametrize(
@@ -170,16 +125,16 @@ def test_unknowns_that_the_case_may_not_have_are_refused(path, unknowns, message
 
 
 def test_factors_that_are_no_factors_are_refused():
+    for names, words in {
+        "ball": r"give \['ball'\]",
+        ("ring",): "there is no body 'ring' that wears: ball, disk",
+    }.items():
+        with pytest.raises(CaseError, match=words):
+            value_and_gradient(run(), Volume("ball"), wear_rate=names)
     fit = value_and_gradient(run(), Volume("ball"), wear_rate=["ball"])
     for log in (NAN, INF):
         with pytest.raises(CaseError, match="wear rate of ball is negative, NaN or infinite"):
             fit(fit.start + log)
-
-
-def test_of_what_does_not_wear_nothing_is_told_in_per_cent():
-    found = gradient(run(bodies=pair(archard(), None)), Volume("disk"), ["load.normal"])
-    assert found["load.normal"] == 0
-    assert str(found).startswith("The objective is 0")
 
 
 def test_without_paths_all_numbers_count_and_the_rest_says_why():
@@ -308,19 +263,6 @@ def test_memory_does_not_grow_with_the_steps_of_a_run(monkeypatch):
     assert many - few < 40e3
 
 
-def test_scipy_finds_what_made_a_scar():
-    made = run(save_times=(20.0,), bodies=pair(archard(1.3 * K), archard(0.8 * K)))
-    last = states(composed(made))[-1]
-    looks = Misfit("disk", last.bodies["disk"].wear, 1e-8)
-    paths = ["bodies.ball.wear.k", "bodies.disk.wear.k"]
-    fit = value_and_gradient(run(stepping=made.stepping), looks, paths)
-    value, slope = fit(fit.start)
-    ahead = fit(fit.start + 1e-5)[0]
-    assert (ahead - value) / 1e-5 == pytest.approx(sum(slope), rel=1e-2)
-    found = minimize(fit, fit.start, jac=True, method="BFGS", options={"gtol": 1e-4})
-    np.testing.assert_allclose(np.exp(found.x), [1.3, 0.8], rtol=1e-2)
-
-
 def test_factors_on_the_wear_rate_are_unknowns_too():
     case, factor = run(), 1.7
     fit = value_and_gradient(case, Volume("ball"), (), ["ball"])
@@ -329,26 +271,3 @@ def test_factors_on_the_wear_rate_are_unknowns_too():
         factor * gradient(case, Volume("ball"), []).value, rel=1e-9, abs=0
     )
     assert np.sum(slope) == pytest.approx(value, rel=1e-9, abs=0)
-
-
-def test_a_stroke_that_mirrors_itself_is_solved_on_one_side(monkeypatch):
-    cells, random = (8, 8), np.random.default_rng(0)
-    box = whole(cells)
-    operator = HalfSpace(cells, (1e-5, 1e-5), 1e11)
-    starts = [0, 3, 6]
-    inside = np.zeros((3, *cells), dtype=bool)
-    inside[:, 2:6, 2:6] = True
-    # Laws are asked beyond the contact too, where it need not mirror itself.
-    slope = np.where(inside, 1e-16, random.random(inside.shape))
-    given = random.random(inside.shape)
-    given += np.where(inside, given[::-1, ::-1], 0.0)
-    bodies = [(Carrier(8, [0, 0, 0], None), slope), (Carrier(14, starts, None), slope)]
-    system = StepSystem(operator, box, np.array([0.25, 0.5, 0.25]), bodies, inside)
-    zero = np.zeros_like(given)
-    asked = []
-    apply = HalfSpace.apply
-    monkeypatch.setattr(HalfSpace, "apply", lambda self, p: asked.append(len(p)) or apply(self, p))
-    one_side = system.solve(given, zero, zero)
-    assert set(asked) == {2}
-    monkeypatch.setattr(StepSystem, "_mirrors", lambda *given: False)
-    np.testing.assert_allclose(one_side, system.solve(given, zero, zero), rtol=1e-6, atol=0)

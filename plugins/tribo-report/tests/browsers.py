@@ -1,7 +1,6 @@
 """Real browsers without a window, driven by WebDriver BiDi."""
 
 import json
-import re
 import shutil
 import socket
 import subprocess
@@ -85,37 +84,38 @@ class Page:
         self.ask("input.performActions", context=self.context, actions=[keys])
 
 
-def _free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+PROGRAMS = {
+    "chromium": [("chromium", "chromium-browser", "google-chrome"), ("chromedriver",)],
+    "firefox": [("firefox-esr", "firefox")],
+}
+"""Names of what each browser needs."""
 
 
-def _program(*names):
-    return next((path for path in map(shutil.which, names) if path), None)
+def _programs(name):
+    return [next(filter(None, map(shutil.which, names)), None) for names in PROGRAMS[name]]
 
 
 def missing(name):
     """Return what a browser lacks here; empty if it can be driven."""
-    needed = {
-        "chromium": [("chromium", "chromium-browser", "google-chrome"), ("chromedriver",)],
-        "firefox": [("firefox-esr", "firefox")],
-    }
-    lacking = [names[0] for names in needed[name] if _program(*names) is None]
+    found = zip(PROGRAMS[name], _programs(name), strict=True)
+    lacking = [names[0] for names, program in found if program is None]
     return f"{', '.join(lacking)} not found" if lacking else ""
 
 
 @contextmanager
 def browser(name):
     """Start a browser with a profile of its own, and yield its page."""
-    port = _free_port()
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
     with ExitStack() as stack:
         profile = stack.enter_context(tempfile.TemporaryDirectory(ignore_cleanup_errors=True))
+        command = [_programs(name)[-1]]
         if name == "chromium":
-            command = [_program("chromedriver"), f"--port={port}"]
+            command += [f"--port={port}"]
         else:
-            command = [_program("firefox-esr", "firefox"), "--headless", "--profile", profile]
-            command += ["--no-remote", f"--remote-debugging-port={port}"]
+            command += ["--headless", "--profile", profile, "--no-remote"]
+            command += [f"--remote-debugging-port={port}"]
         quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         process = stack.enter_context(subprocess.Popen(command, **quiet))
         stack.callback(process.terminate)
@@ -130,19 +130,19 @@ def _connected(name, port, profile):
     until = time.monotonic() + PATIENCE
     while True:
         try:
-            return _connect(name, port, profile)
+            url = f"ws://127.0.0.1:{port}/session"
+            if name == "chromium":
+                url = _session(port, profile)
+            return websocket.create_connection(url, timeout=PATIENCE, suppress_origin=True)
         except (OSError, websocket.WebSocketException):
             if time.monotonic() > until:
                 raise
             time.sleep(0.2)
 
 
-def _connect(name, port, profile):
-    if name == "firefox":
-        return websocket.create_connection(
-            f"ws://127.0.0.1:{port}/session", timeout=PATIENCE, suppress_origin=True
-        )
-    binary = _program("chromium", "chromium-browser", "google-chrome")
+def _session(port, profile):
+    """Return the address of a session that chromedriver opens."""
+    binary, _ = _programs("chromium")
     chrome = {"binary": binary, "args": [*QUIET, f"--user-data-dir={profile}"]}
     wanted = {"capabilities": {"alwaysMatch": {"webSocketUrl": True, "goog:chromeOptions": chrome}}}
     request = urllib.request.Request(
@@ -151,10 +151,4 @@ def _connect(name, port, profile):
         {"Content-Type": "application/json"},
     )
     with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
-        url = json.load(answer)["value"]["capabilities"]["webSocketUrl"]
-    return websocket.create_connection(url, timeout=PATIENCE, suppress_origin=True)
-
-
-def outside(requests):
-    """Return the requests that left the machine."""
-    return [url for url in requests if not re.match(r"(file|data|blob|about|chrome):", url)]
+        return json.load(answer)["value"]["capabilities"]["webSocketUrl"]

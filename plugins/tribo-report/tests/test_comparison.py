@@ -2,7 +2,6 @@
 
 import re
 
-import numpy as np
 import pytest
 import tribo
 from command_line import tribo as command
@@ -10,7 +9,6 @@ from made_results import SHAPES, written
 from pages import Checked
 
 import tribo_report
-from tribo_report.curves import _panels
 
 
 @pytest.fixture(scope="module")
@@ -55,10 +53,3 @@ def test_a_folder_without_results_is_told_and_none_is_made(tmp_path):
         tribo_report.write_report(tmp_path, tmp_path / "new" / "report.html")
     with pytest.raises(tribo.CaseError, match="holds no result file"):
         tribo_report.write_report(tmp_path, tmp_path / "report.html")
-
-
-def test_a_force_that_is_one_number_for_all_is_left_out():
-    path = {"distance_m": np.arange(2.0), "time_s": np.arange(2.0), "load_N": np.full(2, 5.0)}
-    tables = {name: path | {"friction_force_N": np.full(2, len(name))} for name in ("a", "bb")}
-    panels = _panels(tables, ())
-    assert [name for name, *_ in panels] == ["Friction force"]

@@ -38,13 +38,6 @@ def test_particles_further_apart_than_a_spacing_are_independent(many):
     assert abs(np.mean(fluctuation * deeper)) < 0.02 * np.mean(fluctuation**2)
 
 
-def test_a_point_has_one_resistance_on_any_grid():
-    (x, y), (fine_x, fine_y) = places(40, 2e-4), places(80, 2e-4)
-    coarse = resistance(x, y, 0 * x + 1e-7, **MADE)
-    fine = resistance(fine_x, fine_y, 0 * fine_x + 1e-7, **MADE)
-    np.testing.assert_allclose(fine[::2, ::2], coarse, rtol=1e-9)
-
-
 def test_it_is_continuous_in_place_and_depth():
     x = np.linspace(-3e-5, 3e-5, 100_001)
     depth = np.linspace(0, 5e-6, 100_001)

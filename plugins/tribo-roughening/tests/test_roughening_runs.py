@@ -95,25 +95,16 @@ def test_two_bodies_that_slide_over_each_other_each_know_their_own_depth(monkeyp
             assert body.wear_depth[-1].mean() == pytest.approx(0.3 * THICKNESS, rel=0.5, abs=0)
 
 
-def test_a_body_swept_by_the_average_has_no_places():
+@pytest.mark.parametrize(
+    ("body", "changes", "words"),
+    [
+        ("patch", {"diameter": 4e-6}, r"patch\.wear: particles of 4 µm are 2 cells of 2 µm, and 4"),
+        ("patch", {"period": 3.5 * DIAMETER}, "period must be a whole number of diameters"),
+        ("plate", {}, r"bodies\.plate\.wear: 'roughening\.detachment' wears pl"),
+    ],
+)
+def test_particles_that_have_no_places_or_cells_are_refused(body, changes, words):
     data = case(20e-9)
-    bodies = data["bodies"]
-    bodies["plate"]["wear"] = bodies["patch"]["wear"]
-    with pytest.raises(CaseError, match=r"bodies\.plate\.wear: 'roughening\.detachment' wears pl"):
-        Simulation(data)
-
-
-def test_particles_of_fewer_than_four_cells_are_refused():
-    data = case(20e-9, cells=32, particles=16)
-    data["bodies"]["patch"]["surface"] = "flat"
-    with pytest.raises(
-        CaseError, match=r"patch\.wear: particles of 16 µm are 2 cells of 8 µm, and 4"
-    ):
-        Simulation(data)
-
-
-def test_a_period_that_is_no_whole_number_of_particles_is_refused():
-    data = case(20e-9)
-    data["bodies"]["patch"]["wear"]["period"] = 3.5 * DIAMETER
-    with pytest.raises(CaseError, match=r"wear.*period must be a whole number of diameters"):
+    data["bodies"][body]["wear"] = data["bodies"]["patch"]["wear"] | changes
+    with pytest.raises(CaseError, match=words):
         Simulation(data)

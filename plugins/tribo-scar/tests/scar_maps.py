@@ -28,7 +28,7 @@ def pair(
         return ndimage.map_coordinates(surface, at + n - 0.5, order=5) + form, at * PITCH
 
     (before, _), (after, (x, y)) = heights((0, 0), 0), heights(shift, turn)
-    lost = np.maximum(depth * (1 - (x**2 + y**2) / WIDE**2), 0) if depth else np.zeros((n, n))
+    lost = cap(x, y, depth)
     after = after - lost + PITCH * (2e-3 * own[0] - 1e-3 * own[1]) + 1e-5
     maps = []
     for each in (before, after):
@@ -42,6 +42,26 @@ def seen(shift=SHIFT, turn=TURN):
     """Return where the middle of the map before lies in that after, in pixels."""
     c, s = np.cos(turn), np.sin(turn)
     return -np.array([c * shift[0] + s * shift[1], c * shift[1] - s * shift[0]])
+
+
+def cap(x, y, depth=1e-6, wide=WIDE):
+    """Return the depth of a cap of a ball, or of a groove where one place is 0."""
+    return np.maximum(depth * (1 - (x**2 + y**2) / wide**2), 0)
+
+
+def of_flat(lost, noise=3e-9, seed=0, pitch=PITCH, missing=False):
+    """Return the map of a flat after a test, with noise, but what is missing."""
+    heights = np.random.default_rng(seed).normal(0, noise, np.shape(lost)) - lost
+    return Heights(np.where(missing, np.nan, heights), (pitch, pitch))
+
+
+def places(n=96, pitch=PITCH):
+    """Return x and y of all pixels."""
+    return np.meshgrid(*[(np.arange(n) - 0.5 * (n - 1)) * pitch] * 2, indexing="ij")
+
+
+def volume(lost):
+    return np.sum(lost) * PITCH**2
 
 
 def worn(shape, **changes):

@@ -2,16 +2,15 @@
 
 import numpy as np
 import pytest
-from scar_maps import PITCH, RADIUS, SHIFT, WIDE, pair, track
-from tribo import Flat, Grid, Heights, TriboWarning
+from scar_maps import PITCH, RADIUS, SHIFT, WIDE, cap, of_flat, pair, places, track, volume
+from tribo import Flat, Heights, TriboWarning
 
 from tribo_scar import measured_scar
 
 
 def test_a_shallow_scar_is_measured_out_to_its_edge():
     before, after, lost = pair(depth=40e-9)
-    found = measured_scar(before, after)
-    assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.1, abs=0)
+    assert measured_scar(before, after).volume == pytest.approx(volume(lost), rel=0.1, abs=0)
 
 
 @pytest.mark.filterwarnings("ignore:.*in one gap")
@@ -22,10 +21,9 @@ def test_the_volume_of_a_hole_in_the_scar_is_interpolated_and_its_uncertainty_sa
     holed = Heights(np.where(hole, np.nan, after.heights), after.pitch)
     with pytest.warns(TriboWarning, match="missing where the scar is deepest"):
         found = measured_scar(before, holed)
-    volume = np.sum(lost) * PITCH**2
     assert found.missing > whole.missing + 0.03
     assert found.volume_uncertainty > 3 * whole.volume_uncertainty
-    assert abs(found.volume - volume) < 2 * found.volume_uncertainty < 0.1 * volume
+    assert abs(found.volume - volume(lost)) < 2 * found.volume_uncertainty < 0.1 * volume(lost)
     assert abs(found.depth - np.max(lost)) < 2 * found.depth_uncertainty < 0.5 * np.max(lost)
 
 
@@ -50,7 +48,7 @@ def test_a_ball_worn_flat_has_lost_what_the_formulas_say():
     assert (flat.standard, groove.standard, along.standard) == ("ASTM G99", "ASTM D7755", None)
     for each in (flat, groove, along):
         assert abs(each.relative_error) < 0.1
-    assert flat.volume_m3 == pytest.approx(np.sum(lost) * PITCH**2, rel=0.1, abs=0)
+    assert flat.volume_m3 == pytest.approx(volume(lost), rel=0.1, abs=0)
 
 
 @pytest.mark.slow
@@ -75,9 +73,9 @@ def test_a_thin_low_ridge_along_the_edge_is_not_taken_off_the_volume():
     inside = (np.hypot(*after.grid.mesh) - WIDE) / (2 * PITCH)
     ridge = 50e-9 * np.sin(np.pi * np.clip(inside, 0, 1))
     found = measured_scar(before, Heights(after.heights + ridge, after.pitch))
-    assert abs(found.volume - np.sum(lost) * PITCH**2) < 3 * found.volume_uncertainty
+    assert abs(found.volume - volume(lost)) < 3 * found.volume_uncertainty
     assert found.volume_uncertainty < 0.005 * found.volume
-    assert found.piled_up == pytest.approx(np.sum(ridge) * PITCH**2, rel=0.1, abs=0)
+    assert found.piled_up == pytest.approx(volume(ridge), rel=0.1, abs=0)
 
 
 @pytest.mark.filterwarnings("ignore:.*are outliers")
@@ -93,8 +91,7 @@ def test_neither_the_relief_of_a_worn_surface_nor_outliers_are_ridges_at_its_edg
         else:
             noise[random.random(lost.shape) < 0.01] += 100e-9
         found = measured_scar(before, Heights(after.heights + more + noise, after.pitch))
-        volume = np.sum(lost - more) * PITCH**2
-        off.append((found.volume - volume) / found.volume_uncertainty)
+        off.append((found.volume - volume(lost - more)) / found.volume_uncertainty)
         piled.append(found.piled_up / found.volume)
     assert np.sqrt(np.mean(np.square(off))) < 1.8
     assert np.mean(piled) < 0.001
@@ -102,26 +99,22 @@ def test_neither_the_relief_of_a_worn_surface_nor_outliers_are_ridges_at_its_edg
 
 def test_a_ridge_that_rises_at_the_edge_takes_nothing_off_the_volume():
     """Of a ball worn flat; smoothing would move the border into the scar by half a pixel."""
-    off, n, deep, high, wide, missing = [], 144, 6e-7, 3e-7, 3, 0.1
-    far = np.hypot(*Grid(n * PITCH, n).mesh) / PITCH
-    lost = np.maximum(deep * (1 - (far / 40) ** 2), 0)
-    ridge = high * np.sin(np.pi * np.clip((far - 40) / wide, 0, 1))
+    off, far = [], np.hypot(*places(144)) / PITCH
+    lost = cap(far, 0, 6e-7, wide=40)
+    ridge = 3e-7 * np.sin(np.pi * np.clip((far - 40) / 3, 0, 1))
     for seed in range(3):
-        random = np.random.default_rng(seed)
-        after = random.normal(0, 1e-8, far.shape) + ridge - lost
-        after[random.random(far.shape) < missing] = np.nan
-        found = measured_scar(Flat(), Heights(after, (PITCH, PITCH)))
-        errors = found.volume - np.sum(lost) * PITCH**2, found.piled_up - np.sum(ridge) * PITCH**2
+        missing = np.random.default_rng(seed).random(far.shape) < 0.1
+        found = measured_scar(Flat(), of_flat(lost - ridge, 1e-8, seed + 3, missing=missing))
+        errors = found.volume - volume(lost), found.piled_up - volume(ridge)
         off.append(np.divide(errors, (found.volume_uncertainty, found.piled_up_uncertainty)))
     assert np.max(np.abs(np.mean(off, axis=0))) < 2
 
 
 def test_maps_without_noise_are_not_taken_for_worn_all_over():
     before, *_ = pair(depth=0)
-    lost = 1e-6 * np.maximum(1 - before.grid.mesh[1] ** 2 / WIDE**2, 0)
-    lost = np.broadcast_to(lost, before.heights.shape)
+    lost = cap(0, places()[1])
     found = measured_scar(before, Heights(before.heights - lost, before.pitch))
-    assert found.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.01, abs=0)
+    assert found.volume == pytest.approx(volume(lost), rel=0.01, abs=0)
 
 
 def test_what_is_piled_up_beside_a_scar_is_told_apart(standard):
@@ -133,7 +126,7 @@ def test_what_is_piled_up_beside_a_scar_is_told_apart(standard):
     whole = measured_scar(before, Heights(after.heights + ridge, after.pitch))
     found = measured_scar(before, Heights(heights, after.pitch))
     for each in (whole, found):
-        off = each.piled_up - np.sum(ridge) * PITCH**2
+        off = each.piled_up - volume(ridge)
         assert abs(off) < 3 * each.piled_up_uncertainty < 0.3 * each.piled_up
-        assert each.volume == pytest.approx(np.sum(lost) * PITCH**2, rel=0.03, abs=0)
+        assert each.volume == pytest.approx(volume(lost), rel=0.03, abs=0)
     assert found.piled_up_uncertainty > 1.5 * whole.piled_up_uncertainty

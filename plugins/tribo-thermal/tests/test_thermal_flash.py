@@ -12,6 +12,7 @@ from tribo_thermal.flash import Flash
 STEEL = {"young": "207 GPa", "poisson": 0.3}
 HEAT = {"conductivity": "46 W/(m K)", "density": "7850 kg/m^3", "heat_capacity": "460 J/(kg K)"}
 FRESH, WORN = 148.837e-6, 530e-6
+PATH = {"length": "1 mm", "area": "1 mm^2"}
 MOVING, RESTING = {"ball": 0.0, "disk": 1.0}, {"ball": 1.0, "disk": 0.0}
 
 
@@ -35,23 +36,15 @@ def contact(radius, swept=("disk",), material=None, load=100.0):
     )
 
 
+def flash(**config):
+    return Flash(**{"ambient": "90 degC", "source": "parabolic", "rise": "maximum", **config})
+
+
 def rises(where, **config):
-    given = {"ambient": "90 degC", "source": "parabolic", "rise": "maximum", **config}
-    effect = Flash(**given)
+    effect = flash(**config)
     # As when a case is composed, before anything runs.
     effect.check(where.system, where.swept, "dcfft")
     return effect.rises(where)
-
-
-@pytest.mark.parametrize(
-    ("radius", "moving", "resting", "shared"), [(FRESH, 45, 55, 25), (WORN, 9, 15, 6)]
-)
-def test_the_papers_case_warms_as_computed_by_hand(radius, moving, resting, shared):
-    # Rounded to whole kelvins.
-    where = contact(radius)
-    assert rises(where, heat_fraction=MOVING)["disk"] == pytest.approx(moving, abs=0.5)
-    assert rises(where, heat_fraction=RESTING)["ball"] == pytest.approx(resting, abs=0.5)
-    assert rises(where)["ball"] == pytest.approx(shared, abs=0.5)
 
 
 def test_to_and_fro_the_swept_body_alone_is_hotter_as_by_greens_function():
@@ -79,6 +72,17 @@ def test_partition_is_bloks_and_gives_one_temperature():
     assert 1 / both["ball"] == pytest.approx(1 / one + 1 / other, rel=1e-12, abs=0)
 
 
+def test_a_bulk_that_warms_no_more_is_as_hot_as_without_a_capacity():
+    effect, where = flash(heat_paths={"ball": {**PATH, "capacity": 5}}), contact(FRESH)
+
+    def after(bulk):
+        return replace(where, state={"bulk_rise_ball": np.full((1, 1), bulk)})
+
+    cold, warm = (effect.state_rates(after(bulk))["bulk_rise_ball"].item() for bulk in (0.0, 1.0))
+    settled = effect.rises(after(cold / (cold - warm)))
+    assert settled == pytest.approx(rises(where, heat_paths={"ball": PATH}), rel=1e-9, abs=0)
+
+
 def test_nothing_is_warmed_where_nothing_touches():
     assert rises(contact(WORN, load=0.0)) == {"ball": 0.0, "disk": 0.0}
 
@@ -88,29 +92,24 @@ def test_a_missing_property_is_named_with_its_place(missing):
     material = {key: value for key, value in HEAT.items() if key != missing}
     with pytest.raises(CaseError, match=rf"bodies\.disk\.material\.{missing}"):
         rises(contact(WORN, material=material))
+    # A source at rest needs neither.
+    assert rises(contact(WORN, swept=(), material=material))["ball"] > 0
 
 
-def test_a_resting_source_needs_no_heat_capacity():
-    assert rises(contact(WORN, swept=(), material={"conductivity": "46 W/(m K)"}))["ball"] > 0
+REFUSED = {
+    "all bodies are swept": ({}, ("ball", "disk")),
+    "heat_fraction .*the bodies are ball, disk": ({"heat_fraction": {"ball": 1.0}}, ("disk",)),
+    "heat_paths .*the bodies are ball, disk": ({"heat_paths": {"pin": PATH}}, ("disk",)),
+    "all the heat is 1": ({"heat_fraction": {"ball": 0.5, "disk": 0.4}}, ("disk",)),
+    "a capacity needs a length": (
+        {"heat_paths": {"ball": {**PATH, "length": 0, "capacity": 5}}},
+        ("disk",),
+    ),
+}
 
 
-def test_two_swept_bodies_are_refused():
-    with pytest.raises(CaseError, match="all bodies are swept"):
-        rises(contact(WORN, swept=("ball", "disk")))
-
-
-@pytest.mark.parametrize(
-    "wrong",
-    [
-        {"heat_fraction": {"ball": 1.0}},
-        {"heat_paths": {"pin": {"length": "1 mm", "area": "1 mm^2"}}},
-    ],
-)
-def test_bodies_that_do_not_exist_are_refused(wrong):
-    with pytest.raises(CaseError, match="the bodies are ball, disk"):
-        rises(contact(WORN), **wrong)
-
-
-def test_all_the_heat_must_go_somewhere():
-    with pytest.raises(CaseError, match="all the heat is 1"):
-        Flash(ambient=363.15, heat_fraction={"ball": 0.5, "disk": 0.4})
+@pytest.mark.parametrize("words", REFUSED)
+def test_heat_that_cannot_go_where_it_is_sent_is_refused(words):
+    config, swept = REFUSED[words]
+    with pytest.raises(CaseError, match=words):
+        rises(contact(WORN, swept=swept), **config)

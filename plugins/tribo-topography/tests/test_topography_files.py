@@ -9,6 +9,9 @@ from tribo import CaseError, Grid, TriboWarning, read_heights
 import tribo_topography.read
 from tribo_topography import MeasuredSurface, describe
 
+# SurfaceTopography, at its first import.
+pytestmark = pytest.mark.filterwarnings("ignore::ImportWarning")
+
 SIZE = (0.864e-3, 0.9e-3)
 PIXELS = (72, 60)
 # An .npy file states no scale.
@@ -29,42 +32,33 @@ def quiet(path, heights, **config):
 
 @pytest.mark.parametrize("kind", ["opd", "x3p", "asc", "npy"])
 @pytest.mark.slow
-@pytest.mark.filterwarnings("ignore::ImportWarning")
-def test_size_range_sq_and_every_pixel_come_back(write, heights, kind):
-    path = write(kind)
-    measured = quiet(path, heights)
-    facts = measured.scale
-    assert facts.format == kind
-    assert facts.pixels == PIXELS
-    # Sizes and heights are kept as float32 in .opd.
-    assert facts.size == pytest.approx(SIZE, rel=1e-6)
-    assert facts.range == pytest.approx(np.ptp(heights), rel=1e-5)
-    assert facts.sq == pytest.approx(0.2e-6, rel=1e-5)
-    values = measured.height(Grid(SIZE, PIXELS))
-    np.testing.assert_allclose(values, heights, rtol=0, atol=2e-12)
-    assert describe(measured) == facts
-    if kind == "x3p":
-        found = read_heights(path)
-        np.testing.assert_allclose(found.heights, heights, rtol=0, atol=2e-12)
-        assert found.pitch == pytest.approx(np.divide(SIZE, PIXELS), rel=1e-6)
-        with pytest.warns(TriboWarning, match="states a pitch of 12 × 15 µm; that given, 1 × 2 µm"):
-            assert read_heights(path, (1e-6, 2e-6)).pitch == (1e-6, 2e-6)
-
-
-@pytest.mark.parametrize("kind", ["opd", "x3p", "asc", "npy"])
-def test_holes_are_an_error_or_filled_from_their_neighbours(write, heights, kind):
+def test_scale_and_every_pixel_come_back_and_holes_are_filled_if_asked(write, heights, kind):
     holed = heights.copy()
     holed[20:22, 30:33] = holed[0, 0] = holed[-1, 20:23] = np.nan
     path = write(kind, holed)
     with pytest.raises(CaseError, match=r"lacks 10 of 4320 pixels \(0\.23 %\); set fill"):
         surface(path).height(Grid(SIZE, PIXELS))
-    values = quiet(path, heights, fill="interpolate").height(Grid(SIZE, PIXELS))
+    with pytest.raises(CaseError, match=r"more than max_missing = 0\.001"):
+        surface(path, fill="interpolate", max_missing=1e-3).height(Grid(SIZE, PIXELS))
+    measured = quiet(path, heights, fill="interpolate")
+    facts = measured.scale
+    assert (facts.format, facts.pixels) == (kind, PIXELS)
+    # Sizes and heights are kept as float32 in .opd.
+    assert facts.size == pytest.approx(SIZE, rel=1e-6)
+    assert facts.range == pytest.approx(np.ptp(heights), rel=1e-5)
+    assert facts.sq == pytest.approx(np.nanstd(holed), rel=1e-5)
+    assert describe(measured) == facts
+    values = measured.height(Grid(SIZE, PIXELS))
     there = np.isfinite(holed)
     np.testing.assert_allclose(values[there], heights[there], rtol=0, atol=2e-12)
     # Neighbours of these waves differ by a third of Sq.
     np.testing.assert_allclose(values, heights, rtol=0, atol=0.3e-6)
-    with pytest.raises(CaseError, match=r"more than max_missing = 0\.001"):
-        surface(path, fill="interpolate", max_missing=1e-3).height(Grid(SIZE, PIXELS))
+    if kind == "x3p":
+        found = read_heights(path)
+        np.testing.assert_allclose(found.heights, holed, rtol=0, atol=2e-12)
+        assert found.pitch == pytest.approx(np.divide(SIZE, PIXELS), rel=1e-6)
+        with pytest.warns(TriboWarning, match="states a pitch of 12 × 15 µm; that given, 1 × 2 µm"):
+            assert read_heights(path, (1e-6, 2e-6)).pitch == (1e-6, 2e-6)
 
 
 def test_wrong_scale_is_caught(write, heights):
@@ -79,19 +73,15 @@ def test_wrong_scale_is_caught(write, heights):
     assert half.scale.size == (1.728e-3, 1.8e-3)
 
 
-@pytest.mark.parametrize("size", [(160.0, 160.0), (0.5e-6, 0.5e-6)])
-def test_absurd_size_is_refused_unless_it_is_stated(write, heights, size):
-    path = write("x3p", 1e-3 * heights, size)
-    with pytest.raises(CaseError, match="which is unlikely; give size if that is wrong"):
+@pytest.mark.parametrize(
+    ("size", "factor"), [((160.0, 160.0), 1e-3), ((0.5e-6, 0.5e-6), 1e-3), (SIZE, 1e4)]
+)
+def test_absurd_scale_is_refused_unless_it_is_stated(write, heights, size, factor):
+    path = write("x3p", factor * heights, size)
+    with pytest.raises(CaseError, match="which is unlikely"):
         surface(path).scale  # noqa: B018
-    assert surface(path, expect_size=size).scale.size == pytest.approx(size, rel=1e-6, abs=0)
-
-
-def test_heights_beyond_the_width_are_refused_unless_stated(write, heights):
-    path = write("x3p", 1e4 * heights)
-    with pytest.raises(CaseError, match=r"would range over .* which is unlikely"):
-        surface(path).scale  # noqa: B018
-    assert surface(path, expect_range=1e4 * np.ptp(heights)).scale.range > 1e-3
+    stated = {"expect_size": size, "expect_range": factor * np.ptp(heights)}
+    assert surface(path, **stated).scale.size == pytest.approx(size, rel=1e-6, abs=0)
 
 
 def test_unconfirmed_scale_is_told_once_with_the_figures(write):
@@ -152,6 +142,7 @@ MISTAKES = [
     ("x3p", {"format": "opd"}, r"cannot be read as 'opd'"),
     ("x3p", {"channel": "Height"}, r"no channel 'Height'.* its channels are 0 'Default'"),
     ("x3p", {"channel": 3}, r"no channel 3"),
+    ("x3p", {"height_scale": 0}, r"height_scale is 0"),
     ("x3p", {"sha256": "0" * 64}, r"is not the file that is meant: its SHA-256 is [0-9a-f]{64}"),
 ]
 
@@ -182,12 +173,9 @@ def test_file_that_is_no_surface_is_one_line(tmp_path, name, content, message):
         describe(path)
     assert "\n" not in str(raised.value)
     assert len(str(raised.value)) < 400 + 2 * len(str(path))
-
-
-def test_missing_file_says_where_it_was_looked_for(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    with pytest.raises(CaseError, match=r"no file scan.opd in .*, where tribo was started"):
-        describe("scan.opd")
+    path.unlink()
+    with pytest.raises(CaseError, match=f"no file {name} in .*, where tribo was started"):
+        describe(name)
 
 
 def test_truncated_file_is_an_error(write):

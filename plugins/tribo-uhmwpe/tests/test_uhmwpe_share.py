@@ -1,50 +1,18 @@
 """The cross-shear share of points that are always in contact, and what it makes them lose."""
 
 import runpy
+from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
 import pytest
-from tribo import LocalConditions, Material, Simulation, Surface
+from tribo import LocalConditions, Material, load_case
 
 from tribo_uhmwpe.cross_shear import CrossShear
 
-SIDE, PRESSURE = 0.4e-3, 1e6
-ALONG, ACROSS = 1e-15, 6.4e-15
-LAW = CrossShear(k_along=ALONG, k_across=ACROSS)
-
-
-class Punch(Surface):
-    """A square end with sharp edges: on springs its pressure is even, and stays so."""
-
-    def height(self, grid):
-        x, y = np.broadcast_arrays(*grid.mesh)
-        return np.where(np.maximum(abs(x), abs(y)) < 0.5 * SIDE, 0.0, -1.0)
-
-
-def run(motion, plate=None):
-    """A punch on a plate, with a save after a hundredth of a turn and after a whole one."""
-    steel = {"young": "210 GPa", "poisson": 0.3}
-    case = {
-        "grid": {"size": 1e-3, "cells": 20},
-        "load": {"normal": PRESSURE * SIDE**2},
-        "bodies": {
-            "pin": {"surface": Punch(), "material": steel, "wear": LAW},
-            "plate": {"surface": "flat", "material": steel, "wear": plate},
-        },
-        "contact": {"type": "winkler", "modulus": 1e13},
-        "stepping": {"type": "implicit", "settle": 0.5},
-        "kinematics": {"duration": 0.1, **motion},
-        "output": {"save_times": [0, 1e-3, 0.1]},
-    }
-    return Simulation(case).run()
-
-
-def share(result, save, body):
-    """The cross-shear share in the middle of a body's contact."""
-    fields = ("slid_path", "slid_cosine", "slid_sine")
-    path, *moments = (result.field(field, save, body)[10, 10] for field in fields)
-    return 0.5 * (1 - np.hypot(*moments) / path)
+LAW = CrossShear(k_along=1e-15, k_across=6.4e-15)
+CASE = files("tribo_uhmwpe") / "cases" / "cross_shear_straight" / "case.toml"
+QUICK = ["grid.cells=32", "contact={type='winkler', modulus=1e13}", "stepping.settle=0.5"]
 
 
 def test_a_fresh_point_wears_as_along_a_straight_path():
@@ -52,8 +20,8 @@ def test_a_fresh_point_wears_as_along_a_straight_path():
     fields = {"heading_x": fresh + 0.6, "heading_y": fresh + 0.8}
     state = {field.name: fresh for field in LAW.state_fields}
     material = Material(young=1e9, poisson=0.4)
-    rate = LAW.rate(LocalConditions(fresh + PRESSURE, 1.0, material, fields, state))
-    np.testing.assert_allclose(rate.depth_rate, ALONG * PRESSURE, rtol=1e-12)
+    rate = LAW.rate(LocalConditions(fresh + 1e6, 1.0, material, fields, state))
+    np.testing.assert_allclose(rate.depth_rate, 1e-15 * 1e6, rtol=1e-12)
 
 
 def test_that_the_share_jumps_as_sliding_begins_takes_no_more_calls(monkeypatch):
@@ -64,16 +32,23 @@ def test_that_the_share_jumps_as_sliding_begins_takes_no_more_calls(monkeypatch)
         return rate(law, local)
 
     monkeypatch.setattr(CrossShear, "rate", counted)
-    motion = {"type": "planar", "path": "circle", "extent": (4e-4, 4e-4), "positions": 8}
-    run({**motion, "speed": 12e-3}).close()
+    motion = "{type='planar', path='circle', extent=[4e-4, 4e-4], positions=8, speed=0.012"
+    motion = f"kinematics={motion}, duration=0.1}}"
+    load_case(CASE, overrides=[*QUICK, motion]).run().close()
     assert len(calls) < 100
 
 
-@pytest.mark.parametrize(("stroke", "positions"), [(4e-3, "average"), (2e-4, 9)])
+@pytest.mark.parametrize(("stroke", "positions"), [(4e-3, "'average'"), (2e-4, 9)])
 def test_there_is_no_cross_shear_to_and_fro(stroke, positions):
-    motion = {"type": "reciprocating", "stroke": stroke, "frequency": 10, "positions": positions}
-    with run(motion, plate=LAW) as result:
-        assert [share(result, -1, name) for name in result.body_names] == [0, 0]
+    motion = f"{{type='reciprocating', stroke={stroke}, frequency=10, positions={positions}"
+    law = "bodies.flat.wear={type='uhmwpe.cross_shear', k_along=1e-15, k_across=6.4e-15}"
+    given = [*QUICK, law, f"kinematics={motion}, duration=0.1}}"]
+    with load_case(CASE, overrides=given).run() as result:
+        for body in result.body_names:
+            fields = ("slid_path", "slid_cosine", "slid_sine")
+            path, *moments = (result.field(field, -1, body)[16, 16] for field in fields)
+            assert path > 0
+            assert 1 - np.hypot(*moments) / path == 0
 
 
 @pytest.mark.slow
