@@ -144,31 +144,6 @@ def test_malformed_distributions_harm_no_other(folder):
     assert ("odd", "loaded") in plugins
 
 
-@pytest.mark.slow
-def test_another_version_of_a_plugin_is_refused_on_resume_unless_allowed(folder):
-    cases(folder)
-    stopping = "        CALLS.append(1)\n        if len(CALLS) > 5: raise KeyboardInterrupt\n"
-    code = GOOD.replace("        return", f"{stopping}        return")
-    install(folder, code=code.replace("WARMTH", "CALLS = []\nWARMTH"))
-    begun = asked(folder, "run", "named.toml", *SHORT)
-    assert begun.returncode == 130, begun.stderr
-    info = folder / "odd-1.0.dist-info" / "METADATA"
-    info.write_text(info.read_text().replace("Version: 1.0", "Version: 1.1"))
-    # A new version may have a new key.
-    newer = GOOD.replace("    requires", "    extra: float = 1.0\n    requires")
-    (folder / "odd.py").write_text(newer)
-    refused = asked(folder, "resume", "named.h5")
-    assert refused.returncode == 2
-    assert "odd 1.0" in refused.stderr
-    assert "odd 1.1" in refused.stderr
-    allowed = asked(folder, "resume", "named.h5", "--allow-changed")
-    assert allowed.returncode == 0, allowed.stderr
-    with Result.open(folder / "named.h5") as result:
-        assert result.status == "done"
-        (later,) = result.provenance["resumed_with"]
-    assert later["components"]["bodies.ball.wear"]["version"] == "1.1"
-
-
 SCHEMAS = {
     "exits": "raise SystemExit(0)",
     "is no JSON": "return {'examples': {1, 2}}",

@@ -70,7 +70,7 @@ def test_a_law_of_a_file_runs_where_the_command_names_it_and_the_result_names_th
 
 
 @pytest.mark.slow
-def test_resume_needs_the_same_file_again(asked, folder):
+def test_resume_needs_the_same_file_again_unless_another_is_allowed(asked, folder):
     (folder / "law.py").write_text(f"CALLS = []\n{LAW}".replace("STOP", STOP))
     stopped = asked("run", "my.toml", "--plugin", "law.py", *SHORT)
     assert stopped.returncode == 130
@@ -78,12 +78,19 @@ def test_resume_needs_the_same_file_again(asked, folder):
     without = asked("resume", "my.h5")
     assert without.returncode == 2
     assert "--plugin law.py" in without.stderr
-    (folder / "law.py").write_text(LAW.replace("STOP", ""))
+    # Another version may have another key.
+    newer = LAW.replace("STOP", "").replace("= 3e-16\n", "= 3e-16\n    extra: float = 1.0\n")
+    (folder / "law.py").write_text(newer)
     changed = asked("resume", "my.h5", "--plugin", "law.py")
     assert changed.returncode == 2
     assert "--plugin law.py was" in changed.stderr
     allowed = asked("resume", "my.h5", "--plugin", "law.py", "--allow-changed")
     assert allowed.returncode == 0, allowed.stderr
+    with Result.open(folder / "my.h5") as result:
+        made = result.provenance
+    (later,) = made["resumed_with"]
+    codes = [each["components"]["bodies.ball.wear"]["code"] for each in (made, later)]
+    assert codes[0] != codes[1]
 
 
 @pytest.mark.slow
