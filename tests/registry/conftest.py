@@ -5,10 +5,11 @@ from unittest.mock import patch
 import pytest
 from command_line import tribo
 
+from tribo.cli.commands import offered
 from tribo.registry.registry import default_registry
 from tribo.result import provenance
 
-CACHES = (default_registry, provenance._code, provenance._installed)
+CACHES = (default_registry, offered, provenance._code, provenance._installed)
 CACHES += (provenance._named_modules, provenance._packages)
 
 
