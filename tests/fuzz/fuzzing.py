@@ -1,11 +1,9 @@
 """Feed tribo cases and files made at random, and see how each ends.
 
-PYTHONPATH=tests python -m fuzz.fuzzing --count 10000 --seed 1
-PYTHONPATH=tests python -m fuzz.fuzzing --only 4711 --seed 1
+Case 4711 of seed 1 again: python -c "from fuzz import trial; print(trial.timed(4711, 1))", in
+this folder's parent.
 """
 
-import argparse
-import sys
 import time
 from collections import Counter
 from concurrent.futures.process import BrokenProcessPool
@@ -46,17 +44,12 @@ class Fuzz:
             "in all, s": round(self.seconds),
         }
 
-    def __str__(self):
-        lines = [f"case {number}: {fault}" for number, fault in sorted(self.faults.items())]
-        return "\n".join([*lines, *(f"{k}: {v}" for k, v in self.figures().items())])
 
-
-def fuzz(count, seed, *, workers=None, numbers=None):
-    """Try `count` cases of `seed`, or the cases of these numbers; TimeoutError if one hangs."""
+def fuzz(count, seed, *, workers=None):
+    """Try `count` cases of `seed`; TimeoutError if one hangs."""
     done, begun = Fuzz(), time.monotonic()
-    numbers = range(count) if numbers is None else numbers
     with processes(workers) as executor:
-        futures = {number: executor.submit(trial.timed, number, seed) for number in numbers}
+        futures = {number: executor.submit(trial.timed, number, seed) for number in range(count)}
         for number, future in futures.items():
             try:
                 code, fault, seconds = future.result(HANG)
@@ -68,21 +61,6 @@ def fuzz(count, seed, *, workers=None, numbers=None):
             done.slowest = max(done.slowest, seconds)
             if fault is not None:
                 done.faults[number] = fault
+                print(f"case {number} of seed {seed}: {fault}", flush=True)
     done.seconds = time.monotonic() - begun
     return done
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=1000)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", type=int, help="the number of one case")
-    given = parser.parse_args()
-    numbers = None if given.only is None else [given.only]
-    done = fuzz(given.count, given.seed, numbers=numbers)
-    print(done)
-    sys.exit(not done.good)
-
-
-if __name__ == "__main__":
-    main()

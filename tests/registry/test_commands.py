@@ -7,14 +7,11 @@ import sys
 from importlib import import_module
 
 import pytest
-from command_line import tribo
 from fake_distributions import LAW, OBSERVER, SHORT, distribute
 
 from tribo import Case, Registry, Result
 from tribo.config.schema import json_schema
 from tribo.core.errors import TriboWarning
-from tribo.registry.registry import default_registry
-from tribo.result import provenance
 from tribo.templates import template
 
 GOOD = LAW.format(name="odd.one")
@@ -33,21 +30,6 @@ def cases(folder):
     (folder / "named.toml").write_text(named)
 
 
-def asked(folder, *args):
-    """Run a command in the folder with the plugins that are there now."""
-    for kept in (
-        default_registry,
-        provenance._code,
-        provenance._installed,
-        provenance._named_modules,
-        provenance._packages,
-    ):
-        kept.cache_clear()
-    for name in [name for name in sys.modules if (folder / f"{name}.py").exists()]:
-        del sys.modules[name]
-    return tribo(*args, cwd=folder)
-
-
 FORMAT = """
 from tribo import ExportFormat, hookimpl
 @hookimpl
@@ -57,29 +39,29 @@ def tribo_export_formats():
 
 
 @pytest.mark.slow
-def test_a_plugin_that_breaks_or_crashes_is_named_and_ends_no_command(folder, monkeypatch):
+def test_a_plugin_that_breaks_or_crashes_is_named_and_ends_no_command(folder, asked, monkeypatch):
     monkeypatch.setenv("TRIBO_PLUGINS", "odd,deadly,calm")
     cases(folder)
     install(folder, code="raise SystemExit(0)")
     install(folder, "deadly", "import os; os.abort()", name="odd.deadly")
     distribute(folder, "calm", "1.0", {"calm": "calm"}, **{"calm": FORMAT})
-    plain = asked(folder, "run", "plain.toml", *SHORT)
+    plain = asked("run", "plain.toml", *SHORT)
     assert (plain.returncode, plain.stderr.count("odd")) == (0, 0)
-    named = asked(folder, "run", "named.toml")
+    named = asked("run", "named.toml")
     assert named.returncode == 2
     (line,) = named.stderr.splitlines()
     assert line.startswith("error: bodies.ball.wear: wear law 'odd.one' cannot be used: odd")
     for command in (["schema"], ["export", "plain.h5", "--format", "calm"]):
-        done = asked(folder, *command)
+        done = asked(*command)
         assert done.returncode == 0, done.stderr
         assert "odd.one" not in done.stdout
         warned = [line for line in done.stderr.splitlines() if "left out" in line]
         assert sorted(line.split()[1] for line in warned) == ["deadly", "odd"]
-    assert asked(folder, "plugins", "list").returncode == 0
+    assert asked("plugins", "list").returncode == 0
 
 
 @pytest.mark.slow
-def test_the_doctor_tells_of_every_fault_and_none_hurts_a_list_or_a_check(folder, monkeypatch):
+def test_the_doctor_names_every_fault_and_none_hurts_a_list_or_a_check(folder, asked, monkeypatch):
     monkeypatch.setenv("TRIBO_PLUGINS", "endless,needy,left,right")
     install(folder, "endless", "while True: pass", name="odd.endless")
     install(folder, "needy", requires=["tribo<0.0.1"], name="odd.needy")
@@ -87,22 +69,22 @@ def test_the_doctor_tells_of_every_fault_and_none_hurts_a_list_or_a_check(folder
     install(folder, "right", name="odd.both")
     distribute(folder, "to_be", "1.0", {}, ["tribo>=0.1"])
     hint, conflict = "to_be 1.0 requires tribo but", "'odd.both' is offered by left 1.0 and right"
-    listed = asked(folder, "plugins", "list", "--json")
+    listed = asked("plugins", "list", "--json")
     statuses = {row["name"]: row["status"] for row in json.loads(listed.stdout)}
     assert statuses["odd.endless"] == "available"
     assert statuses["odd.both"] == "conflict"
     assert f"hint: {hint}" in listed.stderr
     with monkeypatch.context() as patient:
         patient.setenv("TRIBO_PLUGIN_TIME_LIMIT", "0.5")
-        checked = asked(folder, "plugins", "check", "odd.endless")
+        checked = asked("plugins", "check", "odd.endless")
     assert checked.returncode == 2
     assert "endless 1.0, which is not ready: within 0.5 s" in checked.stderr
     for verb in ("show", "check"):
-        done = asked(folder, "plugins", verb, "odd.both")
+        done = asked("plugins", verb, "odd.both")
         assert done.returncode == 2
         assert conflict in done.stderr
     (folder / "endless.py").write_text("import os; os.abort()")
-    doctor = asked(folder, "doctor")
+    doctor = asked("doctor")
     assert doctor.returncode == 3
     assert "broken: its import crashed the process (SIGABRT)" in doctor.stdout
     assert "incompatible: it requires tribo<0.0.1" in doctor.stdout
@@ -111,16 +93,16 @@ def test_the_doctor_tells_of_every_fault_and_none_hurts_a_list_or_a_check(folder
 
 
 @pytest.mark.parametrize("choice", [["--no-plugin", "odd"], ["--plugins", "none"]])
-def test_a_plugin_turned_off_on_the_command_line_cannot_be_used(folder, choice):
+def test_a_plugin_turned_off_on_the_command_line_cannot_be_used(folder, asked, choice):
     cases(folder)
     install(folder, "odd-tribo")
-    off = asked(folder, *choice, "check", "named.toml")
+    off = asked(*choice, "check", "named.toml")
     assert off.returncode == 2
     assert "'odd.one' cannot be used: odd-tribo 1.0 is disabled: " in off.stderr
 
 
 @pytest.mark.slow
-def test_malformed_distributions_harm_no_other(folder):
+def test_malformed_distributions_harm_no_other(folder, asked):
     cases(folder)
     install(folder)
     faults = {
@@ -134,39 +116,14 @@ def test_malformed_distributions_harm_no_other(folder):
         (info / "entry_points.txt").write_text(lines)
         if name != "nameless":
             (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
-    assert asked(folder, "plugins", "list").returncode == 0
-    done = asked(folder, "run", "named.toml", *SHORT)
+    assert asked("plugins", "list").returncode == 0
+    done = asked("run", "named.toml", *SHORT)
     assert done.returncode == 0, done.stderr
     with Result.open(folder / "named.h5") as result:
         made = result.provenance["components"]["bodies.ball.wear"]
         plugins = {(p["distribution"], p["status"]) for p in result.provenance["plugins"]}
     assert (made["distribution"], made["version"]) == ("odd", "1.0")
     assert ("odd", "loaded") in plugins
-
-
-@pytest.mark.slow
-def test_another_version_of_a_plugin_is_refused_on_resume_unless_allowed(folder):
-    cases(folder)
-    stopping = "        CALLS.append(1)\n        if len(CALLS) > 5: raise KeyboardInterrupt\n"
-    code = GOOD.replace("        return", f"{stopping}        return")
-    install(folder, code=code.replace("WARMTH", "CALLS = []\nWARMTH"))
-    begun = asked(folder, "run", "named.toml", *SHORT)
-    assert begun.returncode == 130, begun.stderr
-    info = folder / "odd-1.0.dist-info" / "METADATA"
-    info.write_text(info.read_text().replace("Version: 1.0", "Version: 1.1"))
-    # A new version may have a new key.
-    newer = GOOD.replace("    requires", "    extra: float = 1.0\n    requires")
-    (folder / "odd.py").write_text(newer)
-    refused = asked(folder, "resume", "named.h5")
-    assert refused.returncode == 2
-    assert "odd 1.0" in refused.stderr
-    assert "odd 1.1" in refused.stderr
-    allowed = asked(folder, "resume", "named.h5", "--allow-changed")
-    assert allowed.returncode == 0, allowed.stderr
-    with Result.open(folder / "named.h5") as result:
-        assert result.status == "done"
-        (later,) = result.provenance["resumed_with"]
-    assert later["components"]["bodies.ball.wear"]["version"] == "1.1"
 
 
 SCHEMAS = {
@@ -187,9 +144,9 @@ def with_schema(schema="return handler(source)"):
     return f"print('imported')\n{made}"
 
 
-def test_what_a_plugin_prints_does_not_spoil_the_schema(folder):
+def test_what_a_plugin_prints_does_not_spoil_the_schema(folder, asked):
     install(folder, code=with_schema())
-    done = asked(folder, "--plugins", "odd", "schema")
+    done = asked("--plugins", "odd", "schema")
     assert '"odd.one"' in json.dumps(json.loads(done.stdout))
     assert "imported" in done.stderr
     assert "a schema is made" in done.stderr

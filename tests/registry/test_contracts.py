@@ -8,7 +8,6 @@ from command_line import tribo
 from fake_distributions import SHORT, distribute, observer, plugins
 
 import tribo as package
-from tribo.cli.commands import offered
 from tribo.registry.hookspecs import GROUP
 from tribo.registry.registry import default_registry
 from tribo.templates import template
@@ -24,9 +23,7 @@ def other(folder, request, monkeypatch):
     points = {"other.calm": "other", "other": "other_hooks"}
     distribute(folder, "other", "4.5", points, group=group, other="1 / 0", other_hooks="1 / 0")
     monkeypatch.setenv("TRIBO_PLUGINS", "other")
-    offered.cache_clear()
-    yield group
-    offered.cache_clear()
+    return group
 
 
 @pytest.mark.slow

@@ -1,16 +1,12 @@
 """A Python file beside a case takes part where the command line names it, and nowhere else."""
 
-import sys
-
 import pytest
-from command_line import tribo
 from fake_distributions import SHORT
 
 from tribo import Result
 from tribo.core.errors import CaseError
 from tribo.registry.plugin_file import add_files
 from tribo.registry.registry import default_registry
-from tribo.result import provenance
 from tribo.templates import template
 
 LAW = """
@@ -31,25 +27,12 @@ def tribo_lab_rows(result):
 STOP = "CALLS.append(1)\n        if len(CALLS) > 5: raise KeyboardInterrupt\n"
 
 
-@pytest.fixture
-def asked(folder):
-    """A function that runs a command, as in a new process, in a folder with a case and a law."""
+@pytest.fixture(autouse=True)
+def case(folder):
+    """A case that names a law, and the file of that."""
     case = template("ball_on_disk").replace('{ type = "archard", k = "3.11e-16 1/Pa" }', '"plain"')
     (folder / "my.toml").write_text(case)
     (folder / "law.py").write_text(LAW.replace("STOP", ""))
-
-    def ask(*words):
-        forget()
-        return tribo(*words, cwd=folder)
-
-    yield ask
-    forget()
-
-
-def forget():
-    sys.modules.pop("plugin_law", None)
-    provenance._code.cache_clear()
-    default_registry.cache_clear()
 
 
 def test_a_law_of_a_file_runs_where_the_command_names_it_and_the_result_names_the_file(
@@ -70,7 +53,7 @@ def test_a_law_of_a_file_runs_where_the_command_names_it_and_the_result_names_th
 
 
 @pytest.mark.slow
-def test_resume_needs_the_same_file_again(asked, folder):
+def test_resume_needs_the_same_file_again_unless_another_is_allowed(asked, folder):
     (folder / "law.py").write_text(f"CALLS = []\n{LAW}".replace("STOP", STOP))
     stopped = asked("run", "my.toml", "--plugin", "law.py", *SHORT)
     assert stopped.returncode == 130
@@ -78,12 +61,19 @@ def test_resume_needs_the_same_file_again(asked, folder):
     without = asked("resume", "my.h5")
     assert without.returncode == 2
     assert "--plugin law.py" in without.stderr
-    (folder / "law.py").write_text(LAW.replace("STOP", ""))
+    # Another version may have another key.
+    newer = LAW.replace("STOP", "").replace("= 3e-16\n", "= 3e-16\n    extra: float = 1.0\n")
+    (folder / "law.py").write_text(newer)
     changed = asked("resume", "my.h5", "--plugin", "law.py")
     assert changed.returncode == 2
     assert "--plugin law.py was" in changed.stderr
     allowed = asked("resume", "my.h5", "--plugin", "law.py", "--allow-changed")
     assert allowed.returncode == 0, allowed.stderr
+    with Result.open(folder / "my.h5") as result:
+        made = result.provenance
+    (later,) = made["resumed_with"]
+    codes = [each["components"]["bodies.ball.wear"]["code"] for each in (made, later)]
+    assert codes[0] != codes[1]
 
 
 @pytest.mark.slow
@@ -110,11 +100,10 @@ def test_the_workers_of_a_sweep_take_a_file_too(asked, folder):
     ],
 )
 def test_a_file_that_cannot_take_part_is_one_clear_error(folder, text, words):
-    forget()
+    (folder / "law.py").unlink()
     if text is not None:
         (folder / "law.py").write_text(text.replace("STOP", ""))
     with pytest.raises(CaseError, match=r"law\.py") as failure:
         add_files([folder / "law.py"])
     assert words in str(failure.value)
     assert [each for each in default_registry().plugins if each.origin == "file"] == []
-    forget()

@@ -56,6 +56,7 @@ class Covered(WearLaw):
 
     type = "stranger.covered"
     k: Annotated[float, Quantity("1/Pa", at_least=0)]
+    """Specific wear rate without debris."""
     cover: Annotated[float, Quantity("m", above=0)]
     """Thickness t₀ of debris that lets through 1/e of the wear."""
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from strangers import twin_disk
 
-from tribo import CaseError, Registry, Simulation
+from tribo import Registry, Simulation
 
 UPPER, LOWER = 0.15, 0.10
 K = {"upper": 2e-15, "lower": 1e-15}
@@ -61,12 +61,6 @@ def test_the_longer_way_round_is_worn_less_deep(result):
     assert np.all(upper == upper[:1])
     assert result.body("upper").swept
     assert result.body("lower").swept
-
-
-def test_a_disk_that_the_case_does_not_have_is_named(registry):
-    kinematics = {**CASE["kinematics"], "circumference": {"upper": UPPER, "disk": LOWER}}
-    with pytest.raises(CaseError, match=r"^kinematics\.circumference: is given for upper, disk"):
-        Simulation({**CASE, "kinematics": kinematics}, registry=registry)
 
 
 def test_yielding_disks_get_grooves_all_the_way_round(registry):

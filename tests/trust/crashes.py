@@ -49,7 +49,7 @@ class Recorded:
     before: dict
     operations: list = field(default_factory=list)
 
-    def acknowledge(self):
+    def acknowledge(self, time=0.0):
         """Tell that the work has told of a save."""
         self.operations.append(("acknowledged",))
 

@@ -1,4 +1,4 @@
-"""Damage result files in every way and see what reading them gives."""
+"""Damage result files and see what reading them gives."""
 
 import random
 from dataclasses import dataclass
@@ -6,12 +6,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from edited import bits
+from fuzz.generate import damaged
 from trust.trial import whole
 
 from tribo import CaseError, Result
 from tribo.result.summary import summary
-
-PAGE = 4096
 
 
 @dataclass
@@ -28,47 +27,6 @@ class Damages:
         return self.files == self.refused + self.read_right
 
 
-def flip(data, chance):
-    """One to eight bits."""
-    for _ in range(chance.randint(1, 8)):
-        data[chance.randrange(len(data))] ^= 1 << chance.randrange(8)
-
-
-def truncate(data, chance):
-    del data[chance.randrange(len(data)) :]
-
-
-def swap(data, chance):
-    """Two blocks of the size of a sector, a page or several."""
-    size = chance.choice((16, 512, PAGE, 4 * PAGE))
-    first, second = (size * chance.randrange(max(1, len(data) // size)) for _ in range(2))
-    data[first : first + size], data[second : second + size] = (
-        data[second : second + size],
-        data[first : first + size],
-    )
-
-
-def blank(data, chance):
-    """A block that was never written."""
-    size = chance.choice((512, PAGE, 4 * PAGE))
-    at = size * chance.randrange(max(1, len(data) // size))
-    data[at : at + size] = bytes(len(data[at : at + size]))
-
-
-def garble(data, chance):
-    """Noise in a block."""
-    size = chance.randint(1, PAGE)
-    at = chance.randrange(len(data))
-    data[at : at + size] = chance.randbytes(len(data[at : at + size]))
-
-
-def extend(data, chance):
-    data += chance.randbytes(chance.randint(1, PAGE))
-
-
-KINDS = (flip, truncate, swap, blank, garble, extend)
-
-
 def damage_and_read(count, seed):
     """Damage `count` copies of a result and read each."""
     damages, chance = Damages(), random.Random(seed)
@@ -78,8 +36,7 @@ def damage_and_read(count, seed):
         path.write_bytes(sound)
         expected = everything(path)
         while damages.files < count:
-            data = bytearray(sound)
-            KINDS[damages.files % len(KINDS)](data, chance)
+            data = damaged(sound, chance)
             if data == sound:
                 continue
             path.write_bytes(data)

@@ -10,11 +10,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from unittest import mock
 
-from trust.trial import contents, same, simulation, whole
+from trust.trial import Acknowledge, contents, same, simulation, whole
 
 import tribo.simulation.run
 from tribo import OutputError, Result
-from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
 
 
@@ -33,15 +32,6 @@ class FullDisks:
     @property
     def good(self):
         return self.stopped == self.identical > 0 and not self.lost_saves
-
-
-class Acknowledge(Observer):
-    """Keeps the time of each save once the recorder has it."""
-
-    told: list
-
-    def on_save(self, snapshot):
-        self.told.append(snapshot.state.time)
 
 
 def fill_and_resume(count, seed):
@@ -64,18 +54,19 @@ def fill_and_resume(count, seed):
 
 
 def _one(path, room, undisturbed, disks):
-    saves = Acknowledge(told=[])
+    told = []
+    saves = Acknowledge(tell=told.append)
     try:
         with limited(room):
             simulation().run(path, observers=[saves], overwrite=True).close()
     except OutputError:
-        disks.stopped += bool(saves.told)
-        disks.not_begun += not saves.told
+        disks.stopped += bool(told)
+        disks.not_begun += not told
     else:
         disks.finished += 1
-    if saves.told and path.with_name("run.h5.run").exists():
+    if told and path.with_name("run.h5.run").exists():
         with Result.open(path) as result:
-            disks.lost_saves += len({*saves.told} - {*result.times})
+            disks.lost_saves += len({*told} - {*result.times})
         simulation().resume(path).close()
         disks.identical += same(contents(path), undisturbed)
     path.unlink(missing_ok=True)

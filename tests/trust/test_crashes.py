@@ -1,68 +1,48 @@
 """A crash before any file operation costs no acknowledged save, and no bit."""
 
-import shutil
 from functools import partial
 
-import numpy as np
 import pytest
 import sweeps
 from command_line import tribo
-from made_results import quick_reports
-from paper_models import half_space, motion, pair, small
-from strangers.debris import Debris
-from strangers.running_in import RunningIn
+from paper_models import motion, pair
 from trust.crashes import contents_of, of_each_kind, recorded
-from trust.trial import contents, same
+from trust.trial import LAW, Acknowledge, contents, same, simulation
 
 import tribo.simulation.run as tribo_run
-from tribo import CaseError, Grid, Implicit, Result, Simulation, sweep
-from tribo.config.write import to_toml
-from tribo.observers.observer import Observer
+from tribo import CaseError, Grid, Implicit, Result, sweep
 from tribo.observers.recorder import Recorder
 from tribo.stepping.explicit import Explicit
 
 # Of few cells, and of a checkpoint that was not whole.
 pytestmark = pytest.mark.filterwarnings("ignore::tribo.TriboWarning")
 
-LAW = RunningIn(k_first=9e-16, k_last=3e-16, length=5.0)
 WINDOW = Grid((0.7e-3, 0.7e-3), (8, 8))
 
 
 def averaged():
     """A case in explicit steps whose laws and effect remember and whose disk yields."""
-    model = small(
+    return simulation(
         grid=WINDOW,
-        contact=half_space(),
         bodies=pair(LAW, LAW, (None, 1.5e9)),
         kinematics=motion(duration=2),
         stepping=Explicit(time_step=1),
-        effects=[Debris(length=0.5)],
+        save_times=(),
     )
-    return Simulation(model.case)
 
 
 def resolved():
     """A case in implicit steps, which remember those before, of a cycle of positions."""
-    model = small(
+    return simulation(
         grid=WINDOW,
-        bodies=pair(LAW, LAW),
         kinematics=motion(duration=1, stroke=0.2e-3, positions=9),
         stepping=Implicit(depth_tolerance=0.1, pressure_tolerance=1),
+        effects=[],
         save_times=(0.5,),
     )
-    return Simulation(model.case)
 
 
-class Acknowledge(Observer):
-    """Tells of each save once the recorder has it."""
-
-    tell: object
-
-    def on_save(self, snapshot):
-        self.tell()
-
-
-def resumed_from_each(crashes, simulation, folder, undisturbed):
+def resumed_from_each(crashes, case, folder, undisturbed):
     """Resume from what each crash left; return how many could be, and how many had no save.
 
     Of these every fifth is run again.
@@ -74,7 +54,7 @@ def resumed_from_each(crashes, simulation, folder, undisturbed):
             if crash.acknowledged:
                 with Result.open(path) as result:
                     assert len(result.times) >= crash.acknowledged, crash
-            simulation.resume(path).close()
+            case.resume(path).close()
             resumed += 1
         except CaseError as error:
             # It had nothing saved, or all.
@@ -84,18 +64,18 @@ def resumed_from_each(crashes, simulation, folder, undisturbed):
                 refused += 1
                 if refused % 5:
                     continue
-                simulation.run(path, overwrite=True).close()
+                case.run(path, overwrite=True).close()
         assert same(contents(path), undisturbed), f"{crash.how} before {crash.at}"
         assert [each.name for each in folder.iterdir()] == ["run.h5"]
     return resumed, refused
 
 
-def ran(simulation, folder):
+def ran(case, folder):
     """Run in a new folder; return its operations with the result that nothing disturbed."""
     folder.mkdir()
     with recorded(folder) as work:
         saves = Acknowledge(tell=work.acknowledge)
-        simulation.run(folder / "run.h5", observers=[saves]).close()
+        case.run(folder / "run.h5", observers=[saves]).close()
     return work, contents(folder / "run.h5")
 
 
@@ -104,37 +84,37 @@ def test_a_run_goes_on_to_the_same_bits_from_a_crash_before_each_file_operation(
 ):
     # A checkpoint at every step, and those of saves.
     monkeypatch.setattr(tribo_run, "Recorder", partial(Recorder, checkpoint_every=0.0))
-    simulation, folder = averaged(), tmp_path / "run"
-    work, undisturbed = ran(simulation, folder)
+    case, folder = averaged(), tmp_path / "run"
+    work, undisturbed = ran(case, folder)
     crashes = of_each_kind(work.crashes())
-    resumed, refused = resumed_from_each(crashes, simulation, folder, undisturbed)
+    resumed, refused = resumed_from_each(crashes, case, folder, undisturbed)
     # Before the first checkpoint there is nothing to go on from; the last one is done.
     assert len(crashes) == resumed + refused + 1
     assert resumed > 15 > refused
 
 
 def test_what_goes_on_goes_on_again_from_a_crash_before_each_of_its_file_operations(tmp_path):
-    simulation, folder = averaged(), tmp_path / "run"
-    work, undisturbed = ran(simulation, folder)
+    case, folder = averaged(), tmp_path / "run"
+    work, undisturbed = ran(case, folder)
     last = [crash for crash in work.crashes() if crash.acknowledged == 1][-1]
     last.lay(folder)
     with recorded(folder) as again:
         again.acknowledge()
         saves = Acknowledge(tell=again.acknowledge)
-        simulation.resume(folder / "run.h5", observers=[saves]).close()
+        case.resume(folder / "run.h5", observers=[saves]).close()
     crashes = of_each_kind(again.crashes()[1:])
-    resumed, refused = resumed_from_each(crashes, simulation, folder, undisturbed)
+    resumed, refused = resumed_from_each(crashes, case, folder, undisturbed)
     assert (resumed, refused) == (len(crashes) - 1, 0)
 
 
 def test_steps_that_remember_go_on_to_the_same_bits_from_each_checkpoint(tmp_path):
-    simulation, folder = resolved(), tmp_path / "run"
-    work, undisturbed = ran(simulation, folder)
+    case, folder = resolved(), tmp_path / "run"
+    work, undisturbed = ran(case, folder)
     files = "run.h5.run/checkpoint", "run.h5.run/checkpoint.previous"
     checkpoints = {
         crash.files[files[0]]: crash for crash in work.crashes() if {*files} <= crash.files.keys()
     }
-    resumed, _ = resumed_from_each(checkpoints.values(), simulation, folder, undisturbed)
+    resumed, _ = resumed_from_each(checkpoints.values(), case, folder, undisturbed)
     assert resumed == 2
 
 
@@ -190,50 +170,3 @@ def test_runs_side_by_side_end_alike_from_a_crash_before_each_file_operation(tmp
         assert all(".h5.run" in name or name.endswith((".lock", ".new")) for name in left), left
         for name, result in results.items():
             assert same(contents(folder / name), result), f"{crash.how} before {crash.at}"
-
-
-COMMANDS = {
-    "export": ("export", "run.h5"),
-    "plot": ("plot", "run.h5"),
-    "report": ("report", "run.h5"),
-    "new": ("new", "ball_on_flat", "mine.toml"),
-    "plugins new": ("plugins", "new", "acme-law", "--kind", "wear-law"),
-    "calibrate": ("calibrate", "run.toml", "--measured", "weighed.toml", "-o", "fitted.toml"),
-    "scar": ("scar", "scar.npy", "--ideal", "flat", "--pitch", "14.6 um", "-o", "a.png"),
-}
-
-
-@pytest.fixture(scope="module")
-def made(tmp_path_factory):
-    """A folder with a case, its result, what was weighed, and a map of a scar."""
-    folder = tmp_path_factory.mktemp("made") / "made"
-    folder.mkdir()
-    (folder / "run.toml").write_text(CASE)
-    weighed = {"body": "ball", "quantity": "volume", "value": "1e-4 mm^3", "uncertainty": "5 %"}
-    (folder / "weighed.toml").write_text(to_toml({"measured": [weighed]}))
-    far = np.hypot(*Grid((0.7e-3, 0.7e-3), (48, 48)).mesh)
-    noise = 1e-8 * np.random.default_rng(0).standard_normal(far.shape)
-    np.save(folder / "scar.npy", noise - np.maximum(1e-6 - 40 * far**2, 0))
-    averaged().run(folder / "run.h5").close()
-    return folder
-
-
-@pytest.mark.parametrize("command", COMMANDS.values(), ids=COMMANDS)
-def test_a_command_leaves_whole_files_at_a_crash_before_each_operation(
-    made, tmp_path, monkeypatch, command
-):
-    quick_reports(monkeypatch)
-    folder = tmp_path / "work"
-    shutil.copytree(made, folder)
-    with recorded(folder) as work:
-        done = tribo(*command, cwd=folder)
-    assert done.returncode == 0, done.stderr
-    after = contents_of(folder)
-    crashes = work.crashes()
-    assert len(crashes) > 4
-    for crash in crashes:
-        for name, held in crash.files.items():
-            if not name.endswith(".new"):
-                assert held in (work.before.get(name, b"\0"), after[name]), (crash.how, name)
-    assert crashes[-1].files == after
-    assert not any(name.endswith(".new") for name in after)

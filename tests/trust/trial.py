@@ -4,25 +4,35 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from paper_models import half_space, motion, pair, small
+from paper_models import case, motion, pair
 from strangers.debris import Debris
 from strangers.running_in import RunningIn
 
 from tribo import Grid, Simulation
+from tribo.observers.observer import Observer
+
+LAW = RunningIn(k_first=9e-16, k_last=3e-16, length=5.0)
 
 
-def simulation():
+def simulation(**changes):
     """Eight seconds of a ball on a disk, whose laws remember, and debris between them."""
-    law = RunningIn(k_first=9e-16, k_last=3e-16, length=5.0)
-    model = small(
-        grid=Grid((0.7e-3, 0.7e-3), (20, 20)),
-        contact=half_space(),
-        bodies=pair(law, law),
-        kinematics=motion(duration=8),
-        effects=[Debris(length=0.5)],
-        save_times=(2, 4, 6),
-    )
-    return Simulation(model.case)
+    parts = {
+        "grid": Grid((0.7e-3, 0.7e-3), (20, 20)),
+        "bodies": pair(LAW, LAW),
+        "kinematics": motion(duration=8),
+        "effects": [Debris(length=0.5)],
+        "save_times": (2, 4, 6),
+    }
+    return Simulation(case(**{**parts, **changes}))
+
+
+class Acknowledge(Observer):
+    """Tells of each save once the recorder has it."""
+
+    tell: object
+
+    def on_save(self, snapshot):
+        self.tell(snapshot.state.time)
 
 
 def contents(path):

@@ -9,7 +9,8 @@ from typing import Annotated
 import numpy as np
 import pytest
 from pydantic import ConfigDict
-from testing.conformance.honest import Counts, Hill, Law
+from testing.conformance.honest_laws import Law
+from testing.conformance.honest_others import Counts, Hill
 from testing.conformance.mistakes import MISTAKES
 
 from tribo import Field, Grid, Quantity, Surface, WearRate
