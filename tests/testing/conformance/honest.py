@@ -1,5 +1,6 @@
-"""One sound implementation of each interface, for mutants to spoil."""
+"""Sound implementations of each interface, for mutants and mistakes to spoil."""
 
+import math
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -10,6 +11,7 @@ from tribo import (
     HalfSpace,
     Kinematics,
     Observer,
+    Position,
     Quantity,
     Stationary,
     Surface,
@@ -71,6 +73,36 @@ class Solver(ContactSolver):
         return 0.8 * 2 / (system.modulus * q)
 
 
+class Springs:
+    """Springs, one to a cell, as `solve_bounded` takes them."""
+
+    def __init__(self, grid, stiffness):
+        self.shape, self.spacing, self.stiffness = grid.cells, grid.spacing, stiffness
+
+    def apply(self, pressure):
+        return pressure / self.stiffness
+
+    def symbol(self):
+        nx, ny = self.shape
+        return np.full((nx, ny // 2 + 1), 1 / self.stiffness)
+
+
+class Pad(Solver):
+    """A soft pad, of stiffness modulus over thickness."""
+
+    type = "honest.pad"
+    modulus: Annotated[float, Quantity("Pa", above=0)] = 1e10
+    """Modulus of the pad, under no strain along it."""
+    thickness: Annotated[float, Quantity("m", above=0)] = 1e-4
+    """Its thickness."""
+
+    def operator(self, grid, modulus):
+        return Springs(grid, self.modulus / self.thickness)
+
+    def smallest_compliance(self, system):
+        return self.thickness / self.modulus
+
+
 class Motion(Kinematics):
     """The second body goes back and forth."""
 
@@ -101,6 +133,81 @@ class Motion(Kinematics):
         return "the contact is too long" if 4 * half_width_x > self.stroke else None
 
 
+class Ramp(Kinematics):
+    """The second body is drawn along a track, ever faster until it has its speed."""
+
+    type = "honest.ramp"
+    speed: Annotated[float, Quantity("m/s", above=0)] = 0.1
+    """Speed in the end."""
+    start: Annotated[float, Quantity("s", above=0)] = 5.0
+    """Time until it has that."""
+    track_length: Annotated[float, Quantity("m", above=0)] = 0.1
+    """Length of the closed track."""
+    duration: Annotated[float, Quantity("s", above=0)] = 100.0
+    """How long it runs."""
+
+    @property
+    def end_time(self):
+        return self.duration
+
+    def distance_at(self, time):
+        start = self.start
+        early = min(time, start)
+        return self.speed * (0.5 * early**2 / start + time - early)
+
+    def exposures(self, grid, bodies):
+        return {bodies[0]: Stationary(grid), bodies[1]: Track(grid, self.track_length)}
+
+
+class Shuttle(Kinematics):
+    """Back and forth at a constant speed, with a rest at each end of the stroke."""
+
+    type = "honest.shuttle"
+    turns_back = True
+    stroke: Annotated[float, Quantity("m", above=0)] = 3e-3
+    """Length of the stroke."""
+    speed: Annotated[float, Quantity("m/s", above=0)] = 0.06
+    """Speed along it."""
+    rest: Annotated[float, Quantity("s", above=0)] = 0.02
+    """Time at rest at each end."""
+    duration: Annotated[float, Quantity("s", above=0)] = 100.0
+    """How long it runs."""
+    swept: str | None = None
+    """The body that is moved, the last if left out."""
+
+    @property
+    def end_time(self):
+        return self.duration
+
+    @property
+    def track_extent(self):
+        return self.stroke
+
+    @property
+    def moves(self):
+        return self.stroke / self.speed
+
+    def distance_at(self, time):
+        strokes, into = divmod(time, self.moves + self.rest)
+        return self.stroke * (strokes + min(into / self.moves, 1.0))
+
+    def time_at(self, distance):
+        # The whole strokes before, of which the last is not yet over at a reversal.
+        strokes = max(math.ceil(distance / self.stroke - 1e-9) - 1, 0)
+        return strokes * self.rest + distance / self.speed
+
+    def cycle(self, grid):
+        return [Position(speeds=self.speeds(), rest=self.rest / self.stroke)]
+
+    def speeds(self):
+        return [(self.speed, 1.0)]
+
+    def exposures(self, grid, bodies):
+        swept = bodies[-1] if self.swept is None else self.swept
+        track = Track(grid, self.stroke)
+        return {name: track if name == swept else Stationary(grid) for name in bodies}
+
+
 class Hill(Surface):
     """An elliptic paraboloid whose top lies beside the centre."""
 
@@ -120,6 +227,20 @@ class Hill(Surface):
         return 1 / self.radius, 0.5 / self.radius
 
 
+class Wavy(Surface):
+    """A wave along x."""
+
+    type = "honest.wavy"
+    amplitude: Annotated[float, Quantity("m", above=0)] = 1e-6
+    """Amplitude of the wave."""
+    wavelength: Annotated[float, Quantity("m", above=0)] = 2.5e-4
+    """Its length."""
+
+    def height(self, grid):
+        x, y = grid.mesh
+        return self.amplitude * np.sin(2 * np.pi * x / self.wavelength + 0.3) + 0 * y
+
+
 class Counts(Observer):
     """Counts the steps."""
 
@@ -134,4 +255,4 @@ class Counts(Observer):
         self._steps += 1
 
 
-HONEST = (Law, Solver, Motion, Hill, Counts)
+HONEST = (Law, Solver, Motion, Hill, Counts, Ramp, Wavy, Pad)

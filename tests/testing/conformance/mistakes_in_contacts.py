@@ -3,16 +3,13 @@
 They were written without sight of the checks.
 """
 
-import math
 from dataclasses import replace
 
 import numpy as np
-from testing.conformance.honest import Counts, Hill, Motion, Solver
+from testing.conformance.honest import Counts, Hill, Motion, Ramp, Shuttle, Solver, Wavy
 from testing.conformance.mistaken import mistake
-from testing.conformance.models import Ramp, Springs, Wavy
-from testing.conformance.models_of_contact import Shuttle
 
-from tribo import Residuals, Stationary, Track
+from tribo import Residuals, Track
 
 
 def answering(words, change, **parts):
@@ -119,73 +116,72 @@ mistake(
 mistake(
     "A half-space is taken for springs, by the cell",
     Solver,
-    operator=lambda self, grid, modulus: Springs(grid, modulus / grid.spacing[0]),
+    "HalfSpace(grid.cells, grid.spacing, modulus)",
+    "Springs(grid, modulus / grid.spacing[0])",
 )
 
 # Motions.
 
+AT, TIME = "strokes + min(into / self.moves, 1.0)", "strokes * self.rest + distance / self.speed"
+SWEPT, SPEEDS = "bodies[-1] if self.swept is None else self.swept", "[(self.speed, 1.0)]"
 
-def motion(words, **parts):
-    mistake(words, Motion, **parts)
+for words, *texts in (
+    (
+        "At a reversal the time is that at which it goes on",
+        "max(math.ceil(distance / self.stroke - 1e-9) - 1, 0)",
+        "distance // self.stroke",
+    ),
+    ("The time forgets the rests", TIME, "distance / self.speed"),
+    (
+        "The time is that of the mean speed",
+        TIME,
+        "distance / self.stroke * (self.moves + self.rest)",
+    ),
+    ("It slides on while it rests", AT, "time / (self.moves + self.rest)"),
+    (
+        "The stroke back is counted off",
+        AT,
+        "0.5 - 0.5 * math.cos(math.pi * time / (self.moves + self.rest))",
+    ),
+    ("Only whole strokes count", AT, "strokes"),
+    ("The speed is that of a circular path", SPEEDS, "[(math.pi * self.speed, 1.0)]"),
+    (
+        "Shares are those of time, with the rest",
+        f"return {SPEEDS}",
+        "both = self.moves + self.rest\n"
+        "        return [(self.speed, self.moves / both), (0.0, self.rest / both)]",
+    ),
+    ("The shares are in percent", SPEEDS, "[(self.speed, 100.0)]"),
+    (
+        "The track is once to and fro, its extent once",
+        "Track(grid, self.stroke)",
+        "Track(grid, 2 * self.stroke)",
+    ),
+    ("The body that is not named moves", "if name == swept", "if name != swept"),
+    ("The key of the moving body is not used", SWEPT, "bodies[-1]"),
+):
+    mistake(words, Shuttle, *texts)
 
-
-def shuttle(words, **parts):
-    mistake(words, Shuttle, **parts)
-
-
-shuttle(
-    "At a reversal the time is that at which it goes on",
-    time_at=lambda s, d: d // s.stroke * (s.moves + s.rest) + d % s.stroke / s.speed,
-)
-shuttle("The time forgets the rests", time_at=lambda s, d: d / s.speed)
-shuttle(
-    "The time is that of the mean speed",
-    time_at=lambda s, d: d / s.stroke * (s.moves + s.rest),
-)
-shuttle(
-    "It slides on while it rests",
-    distance_at=lambda s, t: s.stroke * t / (s.moves + s.rest),
-)
-shuttle(
-    "The stroke back is counted off",
-    distance_at=lambda s, t: s.stroke * (1 - math.cos(math.pi * t / (s.moves + s.rest))) / 2,
-)
-shuttle("Only whole strokes count", distance_at=lambda s, t: s.stroke * (t // (s.moves + s.rest)))
-shuttle("The speed is that of a circular path", speeds=lambda s: [(math.pi * s.speed, 1.0)])
-shuttle(
-    "Shares are those of time, with the rest",
-    speeds=lambda s: [(s.speed, s.moves / (s.moves + s.rest)), (0.0, s.rest / (s.moves + s.rest))],
-)
-shuttle("The shares are in percent", speeds=lambda s: [(s.speed, 100.0)])
-shuttle(
-    "The track is once to and fro, its extent once",
-    exposures=lambda s, grid, bodies: {
-        n: Track(grid, 2 * s.stroke) if n == (s.swept or bodies[-1]) else Stationary(grid)
-        for n in bodies
-    },
-)
-shuttle(
-    "The body that is not named moves",
-    exposures=lambda s, grid, bodies: {
-        n: Stationary(grid) if n == (s.swept or bodies[-1]) else Track(grid, s.stroke)
-        for n in bodies
-    },
-)
-shuttle(
-    "The key of the moving body is not used",
-    exposures=lambda s, grid, bodies: {
-        n: Track(grid, s.stroke) if n == bodies[-1] else Stationary(grid) for n in bodies
-    },
-)
-motion(
-    "Both bodies are named by what is common, ball and disk",
-    exposures=lambda s, grid, bodies: {"ball": Stationary(grid), "disk": Track(grid, s.stroke)},
-)
-motion("The time is in minutes at its end", end_time=property(lambda s: s.duration / 60))
-motion("Edges are in cycles", edges=property(lambda s: (1e3 * s.duration,)))
-motion(
-    "The distance falls back each second",
-    distance_at=lambda s, t: 2 * s.stroke * s.frequency * (t - 0.3 * (t % 1.0)),
+for words, *texts in (
+    (
+        "Both bodies are named by what is common, ball and disk",
+        "{bodies[0]: Stationary(grid), bodies[1]:",
+        '{"ball": Stationary(grid), "disk":',
+    ),
+    ("The time is in minutes at its end", "return self.duration", "return self.duration / 60"),
+    (
+        "The distance falls back each second",
+        "self.frequency * time",
+        "self.frequency * (time - 0.3 * (time % 1.0))",
+    ),
+):
+    mistake(words, Motion, *texts)
+mistake("Edges are in cycles", Motion, edges=property(lambda s: (1e3 * s.duration,)))
+mistake(
+    "The ramp is half the speed at once, and is not told as an edge",
+    Ramp,
+    "0.5 * early**2 / start",
+    "0.5 * early",
 )
 
 
@@ -204,52 +200,33 @@ class OneRow(Track):
         return float(np.sum(depth)) * self._dx * self._dy
 
 
-motion("The track is laid mirrored along y", track=UpsideDown)
-motion("The envelope is the mean along the track", track=MeanEnvelope)
-motion("The volume is that of one row of cells", track=OneRow)
-
-
-def ramp_from_the_end(self, time):
-    late = max(time - self.takes(), 0.0)
-    return self.speed * (0.5 * min(time, self.takes()) + late)
-
-
-mistake(
-    "The ramp is half the speed at once, and is not told as an edge",
-    Ramp,
-    distance_at=ramp_from_the_end,
-)
+mistake("The track is laid mirrored along y", Motion, track=UpsideDown)
+mistake("The envelope is the mean along the track", Motion, track=MeanEnvelope)
+mistake("The volume is that of one row of cells", Motion, track=OneRow)
 
 # Surfaces.
 
+X, Y = "(x - self.beside)", "(y + 0.8 * self.beside)"
+FORM = f"-0.5 * c * {X} ** 2 - 0.25 * c * {Y} ** 2"
+CURVED = "1 / self.radius, 0.5 / self.radius"
 
-def hill(words, **parts):
-    mistake(words, Hill, **parts)
-
-
-hill(
-    "Places are counted from the corner of the window",
-    height=lambda s, grid: (
-        -0.5 / s.radius * (grid.mesh[0] + 0.5 * grid.size[0] - s.beside) ** 2
-        - 0.25 / s.radius * (grid.mesh[1] + 0.5 * grid.size[1]) ** 2
+for words, *texts in (
+    (
+        "Places are counted from the corner of the window",
+        *("x, y = grid.mesh", "x, y = (v + 0.5 * size for v, size in zip(grid.mesh, grid.size))"),
+        *(Y, "y"),
     ),
-)
-hill(
-    "Beyond a ball's edge its height is no number",
-    height=lambda s, grid: np.sqrt(
-        (0.03 * s.radius) ** 2 - grid.mesh[0] ** 2 - 0.5 * grid.mesh[1] ** 2
+    (
+        "Beyond a ball's edge its height is no number",
+        FORM,
+        "np.sqrt((0.03 / c) ** 2 - x**2 - 0.5 * y**2)",
     ),
-)
-hill(
-    "The curvature is that of a hollow",
-    curvature=property(lambda s: (-1 / s.radius, -0.5 / s.radius)),
-)
-hill("The curvature is in 1/mm", curvature=property(lambda s: (1e-3 / s.radius, 5e-4 / s.radius)))
-hill("Heights are in µm", height=lambda s, grid: 1e6 * Hill.height(s, grid))
-hill(
-    "Heights are in single precision",
-    height=lambda s, grid: Hill.height(s, grid).astype(np.float32),
-)
+    ("The curvature is that of a hollow", CURVED, "-1 / self.radius, -0.5 / self.radius"),
+    ("The curvature is in 1/mm", CURVED, "1e-3 / self.radius, 5e-4 / self.radius"),
+    ("Heights are in µm", FORM, f"1e6 * ({FORM})"),
+    ("Heights are in single precision", FORM, f"({FORM}).astype(np.float32)"),
+):
+    mistake(words, Hill, *texts)
 
 
 def in_one_array(self, grid):
@@ -258,21 +235,22 @@ def in_one_array(self, grid):
     return out
 
 
-hill("Heights lie in an array that the next call overwrites", _maps={}, height=in_one_array)
 mistake(
-    "Relief is scaled to the amplitude in each window",
-    Wavy,
-    height=lambda s, grid: (lambda z: z * s.amplitude / np.abs(z).max())(
-        Wavy.height(s, grid) + 1e-3 * grid.mesh[1]
-    ),
+    "Heights lie in an array that the next call overwrites", Hill, _maps={}, height=in_one_array
 )
+
+
+def scaled_in_each_window(self, grid):
+    relief = Wavy.height(self, grid) + 1e-3 * grid.mesh[1]
+    return relief * self.amplitude / np.abs(relief).max()
+
+
+mistake("Relief is scaled to the amplitude in each window", Wavy, height=scaled_in_each_window)
 mistake(
     "The phase is counted from the window's edge",
     Wavy,
-    height=lambda s, grid: (
-        s.amplitude * np.sin(2 * np.pi * (grid.mesh[0] - grid.mesh[0].min()) / s.wavelength)
-        + 0 * grid.mesh[1]
-    ),
+    "x / self.wavelength + 0.3",
+    "(x - x.min()) / self.wavelength",
 )
 mistake(
     "The curvature of a wave forgets 2 π",
@@ -284,32 +262,18 @@ mistake("A smoothed surface loses its configuration", Wavy, smoothed=lambda s: t
 # Observers.
 
 
-def counts(words, **parts):
-    mistake(words, Counts, **parts)
-
-
-def per_speed(self, snapshot):
-    self._steps += int(1.0 / snapshot.state.speed > 0)
-
-
-def of_two_bodies(self, snapshot):
-    first, second = (body.wear for body in snapshot.state.bodies.values())
-    self._steps += int(np.sum(first - second) > 0)
-
-
 def of_rates(self, snapshot):
     self._steps += len(snapshot.state.rates[0])
+
+
+def of_the_inverse(self, snapshot):
+    self._steps = int(np.linalg.inv(snapshot.state.contact.pressure).size)
 
 
 def ending(self, snapshot, reason):
     assert reason != "failed"
 
 
-counts("The rates of an implicit step are expected always", on_step=of_rates)
-counts(
-    "Wear of both bodies is expected in one shape, squared",
-    on_step=lambda self, s: setattr(
-        self, "_steps", int(np.linalg.inv(s.state.contact.pressure).size)
-    ),
-)
-counts("It takes a run to end well", on_finish=ending)
+mistake("The rates of an implicit step are expected always", Counts, on_step=of_rates)
+mistake("Wear of both bodies is expected in one shape, squared", Counts, on_step=of_the_inverse)
+mistake("It takes a run to end well", Counts, on_finish=ending)

@@ -7,105 +7,100 @@ import time
 from dataclasses import replace
 
 import numpy as np
+from testing.conformance.honest_effects import Debris, Spreading, Tribofilm
+from testing.conformance.honest_laws import Coating, Incubation, Lubricated, Oxide, RunningIn
 from testing.conformance.mistaken import mistake
-from testing.conformance.models import Coating, Debris, Oxide, RunningIn, Tribofilm
-from testing.conformance.models_of_contact import Incubation, Lubricated, Spreading
-
-from tribo import WORN_DEPTH, WearRate
-
-
-def square(array):
-    """Return an array transposed, where that has the same shape, as in a square window."""
-    turned = np.swapaxes(array, -1, -2)
-    return turned if turned.shape == array.shape else array
-
-
-def law_of(k):
-    """Return a `rate` of the running-in law by another specific wear rate."""
-
-    def rate(self, local):
-        now = k(self, local)
-        return WearRate(now * local.pressure, now + 0 * local.pressure, {"slid": self.slid(local)})
-
-    return {"rate": rate}
-
-
-def by_state(change):
-    """Return parts of the running-in law that sees a changed state."""
-
-    def k(self, local):
-        return RunningIn.k(self, replace(local, state={"slid": change(local.state["slid"])}))
-
-    return law_of(k)
-
-
-def carries(share):
-    return {"share": share}
-
 
 # Memory beside the state.
 
 
-def counted(self, local):
+def by_a_factor(words, factor, **parts):
+    """Keep a law whose k has a factor that the law finds beside its state."""
+
+    def rate(self, local):
+        good, more = RunningIn.rate(self, local), factor(self, local)
+        return replace(good, depth_rate=more * good.depth_rate, depth_slope=more * good.depth_slope)
+
+    mistake(words, RunningIn, rate=rate, **parts)
+
+
+def of_calls(self, local):
     self._calls += 1
-    return RunningIn.k(self, local) * (1 + 1 / self._calls)
+    return 1 + 1 / self._calls
 
 
-mistake("k falls with the number of calls too", RunningIn, _calls=0, **law_of(counted))
-
-
-def largest_so_far(self, local):
+def of_the_largest(self, local):
     self._largest = max(self._largest, float(local.pressure.max()))
-    return RunningIn.k(self, local) * local.pressure.max() / self._largest
+    return local.pressure.max() / self._largest
 
 
-mistake(
-    "k goes by the largest pressure of any call", RunningIn, _largest=0.0, **law_of(largest_so_far)
-)
-
-
-def by_clock(self, local):
+def of_the_clock(self, local):
     self._born = self._born or time.monotonic()
-    return RunningIn.k(self, local) * (1 + 1e-3 * (time.monotonic() - self._born))
+    return 1 + 1e-3 * (time.monotonic() - self._born)
 
 
-mistake("k ages by the clock of the machine", RunningIn, _born=None, **law_of(by_clock))
+by_a_factor("k falls with the number of calls too", of_calls, _calls=0)
+by_a_factor("k goes by the largest pressure of any call", of_the_largest, _largest=0.0)
+by_a_factor("k ages by the clock of the machine", of_the_clock, _born=None)
 
 
-def in_a_buffer(self, local):
+def in_a_buffer(self, values):
+    """Return values in an array that the next call overwrites."""
+    if self._out is None or self._out.shape != values.shape:
+        self._out = np.empty_like(values)
+    self._out[:] = values
+    return self._out
+
+
+def depth_in_a_buffer(self, local):
     good = RunningIn.rate(self, local)
-    if self._out is None or self._out.shape != local.pressure.shape:
-        self._out = np.empty_like(local.pressure)
-    self._out[:] = good.depth_rate
-    return replace(good, depth_rate=self._out)
+    return replace(good, depth_rate=in_a_buffer(self, good.depth_rate))
+
+
+def friction_in_a_buffer(self, contact):
+    (friction,) = Tribofilm.fields(self, contact).values()
+    kept = in_a_buffer(self, next(iter(friction.values())))
+    return {"friction_coefficient": dict.fromkeys(contact.materials, kept)}
 
 
 mistake(
     "The depth lies in a buffer that the next call overwrites",
     RunningIn,
     _out=None,
-    rate=in_a_buffer,
+    rate=depth_in_a_buffer,
 )
+mistake(
+    "Friction lies in a buffer that the next call overwrites",
+    Tribofilm,
+    _out=None,
+    fields=friction_in_a_buffer,
+)
+
+DISTANCE = "contact.distance / self.length"
+FADED, FORMED = "film / self.life", "contact.speed * bare / self.length"
+SHARE, THICK = '-np.expm1(-contact.state["debris"] / self.cover)', 'contact.state["debris"]'
+
 mistake(
     "Debris carries more with the distance slid, beside its state",
     Debris,
-    **carries(
-        lambda self, c: -np.expm1(-c.state["debris"] / self.cover * (1 + c.distance / self.length))
-    ),
+    "/ self.cover",
+    f"/ self.cover * (1 + {DISTANCE})",
 )
 mistake(
     "A film fades by the distance since the start of the run",
     Tribofilm,
-    faded=lambda self, c: c.state["film"] / self.life * np.exp(-c.distance / self.length),
+    FADED,
+    f"{FADED} * np.exp(-{DISTANCE})",
 )
 mistake(
     "A film forms less with the distance, beside its state",
     Tribofilm,
-    formed=lambda self, c: Tribofilm.formed(self, c) / (1 + c.distance / self.length),
+    FORMED,
+    f"{FORMED} / (1 + {DISTANCE})",
 )
 
 
-def since_the_last_call(self, contact):
+def faded_since(self, contact):
     step = max(contact.time - self._last, 0.0) or self.life
     self._last = contact.time
     return -contact.state["film"] * np.expm1(-step / self.life) / step
@@ -114,192 +109,188 @@ def since_the_last_call(self, contact):
 mistake(
     "A film fades over the time since the last call",
     Tribofilm,
+    FADED,
+    "self.faded_since(contact)",
     _last=0.0,
-    faded=since_the_last_call,
+    faded_since=faded_since,
 )
 
 
-def calls_of_the_effect(self, contact):
+def more_each_call(self):
     self._calls += 1
-    return -np.expm1(-contact.state["debris"] / self.cover) * (1 - 0.5**self._calls)
+    return 1 - 0.5**self._calls
 
 
-mistake("Debris carries more from call to call", Debris, _calls=0, share=calls_of_the_effect)
-
-
-def kept_share(self, contact):
-    now = Debris.share(self, contact)
+def damped(self, now):
     same = self._share is not None and self._share.shape == now.shape
     self._share = 0.7 * now + 0.3 * self._share if same else now
     return self._share
 
 
-mistake("The share is damped from call to call", Debris, _share=None, share=kept_share)
-
-
-def film_in_a_buffer(self, contact):
-    if self._out is None or self._out.shape != contact.pressure.shape:
-        self._out = np.empty_like(contact.pressure)
-    self._out[:] = Tribofilm.friction(self, contact)
-    return self._out
-
-
 mistake(
-    "Friction lies in a buffer that the next call overwrites",
-    Tribofilm,
-    _out=None,
-    friction=film_in_a_buffer,
+    "Debris carries more from call to call",
+    Debris,
+    SHARE,
+    f"{SHARE} * self.more()",
+    _calls=0,
+    more=more_each_call,
+)
+mistake(
+    "The share is damped from call to call",
+    Debris,
+    SHARE,
+    f"self.damped({SHARE})",
+    _share=None,
+    damped=damped,
 )
 
 # States that lie elsewhere.
 
-mistake("The state is read transposed in a square window", RunningIn, **by_state(square))
-mistake(
-    "The state is read from the other end of x", RunningIn, **by_state(lambda s: s[..., ::-1, :])
-)
-mistake("The state is read from the other side of y", RunningIn, **by_state(lambda s: s[..., ::-1]))
-mistake("The state is read a cell behind", RunningIn, **by_state(lambda s: np.roll(s, 1, axis=-2)))
-mistake(
-    "The state is sorted along y",
-    RunningIn,
-    **by_state(lambda s: np.sort(s, axis=-1)),
-)
-mistake(
-    "The state of the first position holds at all",
-    RunningIn,
-    **by_state(lambda s: s[:1] + 0 * s),
-)
-mistake(
-    "The state is that of the middle row",
-    RunningIn,
-    **by_state(lambda s: s[..., s.shape[-2] // 2, :][..., None, :] + 0 * s),
-)
-mistake(
-    "The slid distance is given transposed in a square window",
-    RunningIn,
-    slid=lambda self, local: square(RunningIn.slid(self, local)),
-)
-mistake(
-    "Debris carries where it lies transposed, in a square window",
-    Debris,
-    **carries(lambda self, c: -np.expm1(-square(c.state["debris"]) / self.cover)),
-)
-mistake(
-    "Debris carries on the other side of y",
-    Debris,
-    **carries(lambda self, c: -np.expm1(-c.state["debris"][:, ::-1] / self.cover)),
-)
-mistake(
-    "Debris leaves where it lies mirrored along x",
-    Debris,
-    leaving=lambda self, c: np.where(c.pressure > 0, c.state["debris"][::-1] / self.length, 0.0),
-)
-mistake(
-    "A film forms transposed in a square window",
-    Tribofilm,
-    formed=lambda self, c: square(Tribofilm.formed(self, c)),
-)
-mistake(
-    "A film fades by its mean along y",
-    Tribofilm,
-    faded=lambda self, c: (
-        np.mean(c.state["film"], axis=1, keepdims=True) / self.life + 0 * c.pressure
+STATE, SLID = 'slid = local.state["slid"]', "(local.pressure > 0).astype(float)"
+
+for words, honest, old, new in (
+    (
+        "The state is read transposed in a square window",
+        RunningIn,
+        STATE,
+        f"slid = square({STATE[7:]})",
     ),
-)
+    ("The state is read from the other end of x", RunningIn, STATE, f"{STATE}[..., ::-1, :]"),
+    ("The state is read from the other side of y", RunningIn, STATE, f"{STATE}[..., ::-1]"),
+    (
+        "The state is read a cell behind",
+        RunningIn,
+        STATE,
+        f"slid = np.roll({STATE[7:]}, 1, axis=-2)",
+    ),
+    ("The state is sorted along y", RunningIn, STATE, f"slid = np.sort({STATE[7:]}, axis=-1)"),
+    (
+        "The state of the first position holds at all",
+        RunningIn,
+        STATE,
+        f"{STATE}[:1] + 0 * local.pressure",
+    ),
+    (
+        "The state is that of the middle row",
+        RunningIn,
+        STATE,
+        f"{STATE}[..., local.pressure.shape[-2] // 2, :][..., None, :] + 0 * local.pressure",
+    ),
+    (
+        "The slid distance is given transposed in a square window",
+        RunningIn,
+        SLID,
+        f"square({SLID})",
+    ),
+    (
+        "Debris carries where it lies transposed, in a square window",
+        Debris,
+        SHARE,
+        f"-np.expm1(-square({THICK}) / self.cover)",
+    ),
+    (
+        "Debris carries on the other side of y",
+        Debris,
+        SHARE,
+        f"-np.expm1(-{THICK}[:, ::-1] / self.cover)",
+    ),
+    (
+        "Debris leaves where it lies mirrored along x",
+        Debris,
+        "thickness / self.length",
+        "thickness[::-1] / self.length",
+    ),
+    ("A film forms transposed in a square window", Tribofilm, FORMED, f"square({FORMED})"),
+    (
+        "A film fades by its mean along y",
+        Tribofilm,
+        FADED,
+        "np.mean(film, axis=1, keepdims=True) / self.life + 0 * contact.pressure",
+    ),
+):
+    mistake(words, honest, old, new)
 
 # Growth without an end, and states beyond their limits.
 
-mistake(
-    "k grows in proportion to the distance, without end",
-    RunningIn,
-    **law_of(lambda self, local: self.k_last * (1 + local.state["slid"] / (500 * self.length))),
-)
-mistake(
-    "k grows by e over a kilometre",
-    RunningIn,
-    **law_of(
-        lambda self, local: (
-            RunningIn.k(self, local) * np.exp(local.state["slid"] / 500 / self.length)
-        )
+K = "self.k_last + (self.k_first - self.k_last) * np.exp(-slid / self.length)"
+LIMIT = "worn < self.thickness"
+RATE = "contact.speed * (self.source(contact) - leaving)"
+
+for words, honest, old, new in (
+    (
+        "k grows in proportion to the distance, without end",
+        RunningIn,
+        K,
+        "self.k_last * (1 + slid / (500 * self.length))",
     ),
-)
-mistake(
-    "k falls in proportion, below 0 after a kilometre",
-    RunningIn,
-    **law_of(lambda self, local: self.k_first * (1 - local.state["slid"] / (500 * self.length))),
-)
-mistake(
-    "Worn depth wears the faster, without end",
-    Coating,
-    rate=lambda self, local: (
-        lambda k: WearRate(k * local.pressure, k, {"worn_depth": k * local.pressure})
-    )(
-        np.where(local.state["worn_depth"] < self.thickness, self.k, self.below)
-        * (1 + local.state["worn_depth"] / self.thickness)
+    ("k grows by e over a kilometre", RunningIn, K, f"({K}) * np.exp(slid / 500 / self.length)"),
+    (
+        "k falls in proportion, below 0 after a kilometre",
+        RunningIn,
+        K,
+        "self.k_first * (1 - slid / (500 * self.length))",
     ),
-)
-mistake(
-    "Debris makes debris, by a thousandth of its length",
-    Debris,
-    state_rates=lambda self, c: {
-        "debris": c.speed * (self.source(c) + 1e-3 * c.state["debris"] / self.length)
-    },
-)
-mistake(
-    "Debris goes on leaving when none is left",
-    Debris,
-    leaving=lambda self, c: np.where(c.pressure > 0, self.cover / self.length, 0.0),
-)
+    (
+        "Worn depth wears the faster, without end",
+        Coating,
+        "self.k, self.below)",
+        "self.k, self.below) * (1 + worn / self.thickness)",
+    ),
+    (
+        "Debris makes debris, by a thousandth of its length",
+        Debris,
+        RATE,
+        "contact.speed * (self.source(contact) + 1e-3 * thickness / self.length)",
+    ),
+    (
+        "Debris goes on leaving when none is left",
+        Debris,
+        "thickness / self.length",
+        "self.cover / self.length",
+    ),
+    (
+        "A film is rubbed off at one rate, though none is left",
+        Lubricated,
+        "-left / self.length",
+        "-1 / self.length",
+    ),
+    (
+        "Oxide grows out of contact",
+        Oxide,
+        'np.where(local.pressure > 0, (1 - local.state["cover"]) / self.length, 0.0)',
+        '(1 - local.state["cover"]) / self.length',
+    ),
+    (
+        "Spreading debris piles up by its square",
+        Spreading,
+        "self.leaves * height / contact.track",
+        "-1e-4 * height**2 / (self.cover * contact.track)",
+    ),
+    # Breaks.
+    (
+        "At the break itself the rate is that below it",
+        Incubation,
+        "< self.length",
+        "<= self.length",
+    ),
+    (
+        "Incubation ends at half the length, which no break tells",
+        Incubation,
+        "< self.length",
+        "< 0.5 * self.length",
+    ),
+    (
+        "A coating is worn through at its thickness of all points' mean",
+        Coating,
+        LIMIT,
+        "worn.mean() + 0 * worn < self.thickness",
+    ),
+    (
+        "The worn depth is said to grow by half of what wears",
+        Coating,
+        '{"worn_depth": k',
+        '{"worn_depth": 0.5 * k',
+    ),
+):
+    mistake(words, honest, old, new)
 mistake("Oxide begins at more than all", Oxide, initial_state=lambda self: {"cover": 1.5})
-mistake(
-    "A film is rubbed off at one rate, though none is left",
-    Lubricated,
-    rubbed=lambda self, local: np.where(local.pressure > 0, -1 / self.length, 0.0),
-)
-mistake(
-    "Oxide grows out of contact",
-    Oxide,
-    rate=lambda self, local: replace(
-        Oxide.rate(self, local), state_rates={"cover": self.grown(local)}
-    ),
-)
-mistake(
-    "Spreading debris piles up by its square",
-    Spreading,
-    leaving=lambda self, c: -1e-4 * c.speed * c.state["spread"] ** 2 / (self.cover * c.track),
-)
-
-# Breaks.
-
-mistake(
-    "At the break itself the rate is that below it",
-    Incubation,
-    factor=lambda self, local: np.where(
-        local.state["cracked"] <= self.length, self.k_early, self.k
-    ),
-)
-mistake(
-    "Incubation ends at half the length, which no break tells",
-    Incubation,
-    factor=lambda self, local: np.where(
-        local.state["cracked"] < 0.5 * self.length, self.k_early, self.k
-    ),
-)
-mistake(
-    "A coating is worn through at its thickness of all points' mean",
-    Coating,
-    rate=lambda self, local: (
-        lambda k: WearRate(
-            k * local.pressure, k + 0 * local.pressure, {"worn_depth": k * local.pressure}
-        )
-    )(self.k if local.state["worn_depth"].mean() < self.thickness else self.below),
-)
-mistake(
-    "The worn depth is said to grow by half of what wears",
-    Coating,
-    state_fields=property(lambda self: (replace(WORN_DEPTH, breaks=(self.thickness,)),)),
-    rate=lambda self, local: replace(
-        Coating.rate(self, local),
-        state_rates={"worn_depth": 0.5 * Coating.rate(self, local).depth_rate},
-    ),
-)

@@ -4,36 +4,33 @@ They were written without sight of the kit's source.
 """
 
 import numpy as np
-from testing.conformance.honest import Counts, Hill, Motion, Solver
+from testing.conformance.honest import Counts, Hill, Motion, Pad, Ramp, Solver, Wavy
 from testing.conformance.mistaken import mistake
-from testing.conformance.models import Pad, Ramp, Wavy
 
-from tribo import HalfSpace, Stationary, Track
+from tribo import Stationary, Track
 
 # Motions.
 
-mistake(
-    "The distance is where it is, not how far it has slid",
-    Motion,
-    distance_at=lambda self, t: 0.5 * self.stroke * abs(np.sin(2 * np.pi * self.frequency * t)),
-)
-mistake(
-    "The end is the cycles times the frequency",
-    Motion,
-    end_time=property(lambda self: 2000 * self.frequency),
-)
+SLID, STROKE = "2 * self.stroke * self.frequency * time", "self.stroke)}"
+
+for words, old, new in (
+    (
+        "The distance is where it is, not how far it has slid",
+        SLID,
+        "0.5 * self.stroke * abs(np.sin(2 * np.pi * self.frequency * time))",
+    ),
+    (
+        "The end is the cycles times the frequency",
+        "return self.duration",
+        "return 2000 * self.frequency",
+    ),
+    ("The track is as long as the window", STROKE, "grid.size[0])}"),
+):
+    mistake(words, Motion, old, new)
 mistake(
     "The speeds are those of another amplitude than the path's",
     Motion,
     speeds=lambda self: [(2 * np.pi * self.stroke * self.frequency * s, 0.5) for s in (0.5, 0.9)],
-)
-mistake(
-    "The track is as long as the window",
-    Motion,
-    exposures=lambda self, grid, bodies: {
-        bodies[0]: Stationary(grid),
-        bodies[1]: Track(grid, grid.size[0]),
-    },
 )
 mistake(
     "The body called disk is swept, whatever the case calls it",
@@ -75,7 +72,7 @@ mistake(
     _last=0.0,
     distance_at=one_after_another,
 )
-mistake("It speeds up for 5 s, in the code", Ramp, takes=lambda self: 5.0)
+mistake("It speeds up for 5 s, in the code", Ramp, "start = self.start", "start = 5.0")
 mistake(
     "Only one of the two ends is right: time_at is of full speed",
     Ramp,
@@ -84,17 +81,18 @@ mistake(
 
 # Surfaces.
 
-mistake(
-    "The diameter is taken for the radius",
-    Hill,
-    height=lambda self, grid: 0.5 * Hill.height(self, grid),
-)
-mistake(
-    "The curvature along y comes first",
-    Hill,
-    curvature=property(lambda s: (0.5 / s.radius, 1 / s.radius)),
-)
-mistake("Its height is that of the gap", Hill, height=lambda self, grid: -Hill.height(self, grid))
+FORM = "-0.5 * c * (x - self.beside) ** 2 - 0.25 * c * (y + 0.8 * self.beside) ** 2"
+
+for words, old, new in (
+    ("The diameter is taken for the radius", FORM, f"0.5 * ({FORM})"),
+    (
+        "The curvature along y comes first",
+        "1 / self.radius, 0.5 / self.radius",
+        "0.5 / self.radius, 1 / self.radius",
+    ),
+    ("Its height is that of the gap", FORM, f"-({FORM})"),
+):
+    mistake(words, Hill, old, new)
 
 
 def by_shape(self, grid):
@@ -106,34 +104,27 @@ def by_shape(self, grid):
 mistake("Heights are kept by the number of cells", Hill, _maps={}, height=by_shape)
 
 
-def waves(words, height):
-    mistake(words, Wavy, height=height)
+WAVE = "self.amplitude * np.sin(2 * np.pi * x / self.wavelength + 0.3) + 0 * y"
 
-
-waves(
-    "Waves are counted in cells",
-    lambda self, grid: (
-        self.amplitude * np.sin(2 * np.pi * np.arange(grid.cells[0]) / 8)[:, None]
-        + 0 * grid.mesh[1]
+for words, old, new in (
+    ("Waves are counted in cells", "x / self.wavelength + 0.3", "np.arange(x.size)[:, None] / 8"),
+    ("The amplitude is 1 µm, in the code", "self.amplitude * np", "1e-6 * np"),
+    (
+        "Roughness is drawn cell by cell",
+        WAVE,
+        "self.amplitude * np.random.default_rng(0).normal(size=grid.cells)",
     ),
-)
-waves(
-    "The amplitude is 1 µm, in the code",
-    lambda self, grid: 1e-6 * np.sin(2 * np.pi * grid.mesh[0] / self.wavelength) + 0 * grid.mesh[1],
-)
-waves(
-    "Roughness is drawn cell by cell",
-    lambda self, grid: self.amplitude * np.random.default_rng(0).normal(size=grid.cells),
-)
-waves(
-    "Heights are given as (y, x)",
-    lambda self, grid: np.ascontiguousarray(Wavy.height(self, grid).T),
-)
+    ("Heights are given as (y, x)", WAVE, f"np.ascontiguousarray(({WAVE}).T)"),
+):
+    mistake(words, Wavy, old, new)
 
 # Contact solvers.
 
 
 KERNELS = {}
+
+
+HALF_SPACE = "HalfSpace(grid.cells, grid.spacing, modulus)"
 
 
 def solver(words, **parts):
@@ -143,20 +134,20 @@ def solver(words, **parts):
 solver(
     "A kernel is kept by the number of cells alone",
     operator=lambda self, grid, modulus: KERNELS.setdefault(
-        grid.cells, HalfSpace(grid.cells, grid.spacing, modulus)
+        grid.cells, Solver.operator(self, grid, modulus)
     ),
 )
-solver(
+mistake(
     "The modulus is that of the body called ball",
-    operator=lambda self, grid, modulus: HalfSpace(grid.cells, grid.spacing, modulus),
-    solve=lambda self, problem, start=None: (
-        problem.system.materials["ball"],
-        Solver.solve(self, problem, start),
-    )[1],
+    Solver,
+    "problem.system.grid, problem.system",
+    'problem.system.materials["ball"] and problem.system.grid, problem.system',
 )
-solver(
+mistake(
     "Cells are taken as squares",
-    operator=lambda self, grid, modulus: HalfSpace(grid.cells, (grid.spacing[0],) * 2, modulus),
+    Solver,
+    HALF_SPACE,
+    "HalfSpace(grid.cells, (grid.spacing[0],) * 2, modulus)",
 )
 
 
@@ -177,11 +168,13 @@ def with_start_written(self, problem, start=None):
 
 
 solver("The start is scaled in place", solve=with_start_written)
-mistake("The foundation is 1e14 Pa/m, in the code", Pad, stiffness=lambda self, grid: 1e14)
+STIFFNESS = "(grid, self.modulus / self.thickness)"
+mistake("The foundation is 1e14 Pa/m, in the code", Pad, STIFFNESS, "(grid, 1e14)")
 mistake(
     "The pad is as thick as a cell is long",
     Pad,
-    stiffness=lambda self, grid: self.modulus / grid.spacing[0],
+    STIFFNESS,
+    "(grid, self.modulus / grid.spacing[0])",
 )
 
 # Observers.

@@ -9,10 +9,9 @@ import tempfile
 import warnings
 
 import numpy as np
-from testing.conformance.honest import Counts, Hill, Law, Motion, Solver
+from testing.conformance.honest import Counts, Hill, Law, Motion, Solver, Wavy
+from testing.conformance.honest_effects import Debris, Flash, Heating, Tribofilm
 from testing.conformance.mistaken import mistake
-from testing.conformance.models import Debris, Heating, Tribofilm, Wavy
-from testing.conformance.models_of_contact import Flash
 
 
 def after(honest, method, deed):

@@ -11,8 +11,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import field_validator, model_serializer
 from testing.conformance.honest import Counts, Law, Motion, Solver
-from testing.conformance.models import Heating
-from testing.conformance.models_of_contact import Slip
+from testing.conformance.honest_effects import Heating, Slip
 
 from tribo import (
     ContactSolver,

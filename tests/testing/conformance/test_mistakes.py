@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 from testing.conformance.honest import HONEST
+from testing.conformance.honest_effects import EFFECTS
+from testing.conformance.honest_laws import LAWS
 from testing.conformance.mistakes import MISTAKES, configuration
-from testing.conformance.models import MODELS
 
 from tribo.testing import check
 from tribo.testing.kit import _outcome, outcome_of, suites
@@ -15,7 +16,7 @@ FOUND = json.loads((Path(__file__).parents[3] / "docs/_data/mistakes.json").read
 ENDS = ("crashed the process", "did not end")
 
 
-@pytest.mark.parametrize("model", [*HONEST, *MODELS])
+@pytest.mark.parametrize("model", [*HONEST, *LAWS, *EFFECTS])
 def test_a_sound_model_conforms(model):
     report = check(model, [configuration(model)])
     assert report.ok, report

@@ -1,7 +1,7 @@
 """Every wrong implementation is caught, by the check that says what is wrong."""
 
 import pytest
-from testing.conformance.models_of_contact import Slip
+from testing.conformance.honest_effects import Slip
 from testing.conformance.mutants import MUTANTS, Spring, product
 from testing.conformance.test_mistakes import FOUND
 
