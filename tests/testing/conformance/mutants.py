@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import field_validator, model_serializer
 from testing.conformance.honest import Counts, Law, Motion, Solver
 from testing.conformance.honest_effects import Heating, Slip
+from testing.conformance.mistaken import rewritten
 
 from tribo import (
     ContactSolver,
@@ -32,17 +33,10 @@ MUTANTS = []
 NUMBERS = count()
 
 
-def wrong(honest, *mistakes):
-    """Return mutants of an honest class, given the check that each fails, its parts, its error."""
-    own = {"__module__": __name__}
-    return [
-        (
-            check,
-            type(f"{honest.__name__}{next(NUMBERS)}", (honest,), {**own, **parts}),
-            raising[0] if raising else CheckFailed,
-        )
-        for check, parts, *raising in mistakes
-    ]
+def wrong(check, honest, *texts, raising=CheckFailed, **parts):
+    """Keep a mutant of an honest class, of other texts in its source or of other parts."""
+    own = {"__module__": __name__, **rewritten(honest, texts), **parts}
+    MUTANTS.append((check, type(f"{honest.__name__}{next(NUMBERS)}", (honest,), own), raising))
 
 
 # The configuration, by the example of a wear law.
@@ -92,101 +86,71 @@ MUTANTS += [
     ("configuration_can_be_pickled", _local(), CheckFailed),
     ("configuration_can_be_pickled", here.OnlyHere, CheckFailed),
 ]
-MUTANTS += wrong(
-    Law,
+for check, parts in (
     ("objects_are_frozen_and_know_their_keys", {"model_config": {"frozen": False}}),
     ("objects_are_frozen_and_know_their_keys", {"model_config": {"extra": "ignore"}}),
     ("name_has_a_prefix", {"type": "law"}),
     ("facts_are_text_and_stay", {"facts": lambda self: {"size": 1.24e-3}}),
-)
-
-# Calls that are not pure.
-
-
-def rate(change):
-    """Return a `rate` that differs from the honest law's by `change` of it and its conditions."""
-    return lambda self, local: change(Law.rate(self, local), local)
-
+    ("declared_fields_have_units", {"state_fields": (Field("rubbed", "mm", "Distance slid."),)}),
+):
+    wrong(check, Law, **parts)
 
 # Wear laws.
 
 
-def parts(change):
-    """Return a `rate` of which `change` of it and its conditions gives other parts."""
-    return {"rate": rate(lambda r, local: replace(r, **change(r, local)))}
-
-
-def failing_later(rate, local):
+def failing_later(self, local):
     if local.pressure.shape[-2:] == (24, 20) and local.state["rubbed"].max() > 0:
         raise RuntimeError("too far")
-    return {}
+    return Law.rate(self, local)
 
 
-def asking(rate, local):
-    return {"depth_rate": rate.depth_rate * local.fields.get("temperature", 300.0)}
-
-
-MUTANTS += wrong(
+wrong(
+    "only_declared_fields_are_asked_for",
     Law,
-    ("only_declared_fields_are_asked_for", parts(asking)),
-    ("declared_fields_have_units", {"state_fields": (Field("rubbed", "mm", "Distance slid."),)}),
-    ("runs_under_implicit_stepping", parts(failing_later), RuntimeError),
+    "k = c.k *",
+    'k = local.fields.get("temperature", 300.0) * c.k *',
 )
+wrong("runs_under_implicit_stepping", Law, rate=failing_later, raising=RuntimeError)
 
 # Contact solvers.
 
 
-def answer(change):
+def answering(change):
     """Return a `solve` of which some parts of the answer are changed."""
-
-    def solve(self, problem, start=None):
-        solution = Solver.solve(self, problem, start)
-        return replace(solution, **change(solution, start))
-
-    return {"solve": solve}
+    return lambda self, problem, start=None: change(Solver.solve(self, problem, start))
 
 
-def asked(change):
-    """Return a `solve` of another problem than it is asked."""
-    return {"solve": lambda self, problem, start=None: Solver.solve(self, change(problem), start)}
-
-
-def bent(problem):
-    x, y = problem.system.grid.mesh
-    return replace(problem, gap=problem.gap + 2e-6 * (x / 0.36e-3) ** 2 * np.ones_like(y))
-
-
-def without_swept(problem):
-    wear = problem.wear
-    wear = wear if wear is None else replace(wear, swept=np.zeros_like(wear.swept))
-    return replace(problem, wear=wear)
-
-
-MUTANTS += wrong(
+wrong(
+    "answers_fit_a_run",
     Solver,
-    ("answers_fit_a_run", answer(lambda s, start: {"residuals": Residuals(0, 0.01, 0)})),
-    (
-        "pressure_goes_with_the_gap",
-        answer(lambda s, start: {"pressure": np.roll(s.pressure, 1, axis=0)}),
-    ),
-    ("pressure_goes_with_the_gap", asked(bent)),
-    ("wear_compliance_adds_its_depth", asked(without_swept)),
-    (
-        "positions_share_their_wear",
-        {
-            "couples": True,
-            "solve_cycle": lambda self, *given: ContactSolver.solve_cycle(self, *given),
-        },
-    ),
-    ("cap_of_each_point_is_kept", {"takes_cap_map": True}),
+    solve=answering(lambda answer: replace(answer, residuals=Residuals(0, 0.01, 0))),
 )
+wrong(
+    "pressure_goes_with_the_gap",
+    Solver,
+    solve=answering(lambda answer: replace(answer, pressure=np.roll(answer.pressure, 1, axis=0))),
+)
+wrong(
+    "pressure_goes_with_the_gap",
+    Solver,
+    "problem.gap",
+    "problem.gap + 2e-6 * (grid.mesh[0] / 0.36e-3) ** 2",
+)
+wrong(
+    "wear_compliance_adds_its_depth",
+    Solver,
+    "problem.wear",
+    "problem.wear and type(problem.wear)(problem.wear.local, 0 * problem.wear.swept)",
+)
+wrong(
+    "positions_share_their_wear",
+    Solver,
+    couples=True,
+    solve_cycle=lambda self, *given: ContactSolver.solve_cycle(self, *given),
+)
+wrong("cap_of_each_point_is_kept", Solver, takes_cap_map=True)
 
 # Motions.
-
-
-def exposed(**parts):
-    """Return the parts of a motion whose track differs from the honest one's."""
-    return {"track": type("WrongTrack", (Track,), parts)}
 
 
 def resolved(starts, rows=32):
@@ -211,30 +175,26 @@ def as_if_it_stayed(self, derivative, pressure):
     return stays.compliance(derivative, pressure)
 
 
-MUTANTS += wrong(
+wrong("answers_fit_a_run", Motion, track=type("WrongTrack", (Track,), {"swept": False}))
+for starts, rows in ((8, 32), (9, 30), (9, 32)):
+    wrong("answers_fit_a_run", Motion, **resolved(starts, rows))
+wrong("answers_fit_a_run", Motion, check_contact=refusing, raising=ValueError)
+wrong("runs_a_case", Motion, time_at=at_once)
+wrong(
+    "compliance_is_the_average_of_a_linear_law",
     Motion,
-    ("answers_fit_a_run", exposed(swept=False)),
-    ("compliance_is_the_average_of_a_linear_law", exposed(compliance=as_if_it_stayed)),
-    ("answers_fit_a_run", resolved(8)),
-    ("answers_fit_a_run", resolved(9, rows=30)),
-    ("answers_fit_a_run", resolved(9)),
-    ("answers_fit_a_run", {"check_contact": refusing}, ValueError),
-    ("runs_a_case", {"time_at": at_once}),
+    track=type("WrongTrack", (Track,), {"compliance": as_if_it_stayed}),
 )
 
 # Effects.
 
-
-def failing_at_first(self, contact):
-    if contact.distance < 0.99:
-        raise RuntimeError("too early")
-    return Heating.fields(self, contact)
-
-
-MUTANTS += wrong(
+wrong("declared_fields_have_units", Heating, provides=(Field("temperature", "", "Heat."),))
+wrong(
+    "runs_in_a_case",
     Heating,
-    ("declared_fields_have_units", {"provides": (Field("temperature", "", "Heat."),)}),
-    ("runs_in_a_case", {"fields": failing_at_first}, RuntimeError),
+    "-contact.time / self.delay",
+    "-contact.time / self.delay + 0 * {True: 1}[contact.distance >= 0.99]",
+    raising=KeyError,
 )
 
 
@@ -252,13 +212,8 @@ def without(path):
     return lambda *given: {key: by for key, by in product(*given).items() if path not in key}
 
 
-MUTANTS += wrong(
-    Slip,
-    *(
-        ("product_is_that_of_differences", {"pull_back": without(path)})
-        for path in ("pressure", "friction", "strength")
-    ),
-)
+for path in ("pressure", "friction", "strength"):
+    wrong("product_is_that_of_differences", Slip, pull_back=without(path))
 
 # Effects that change the load.
 
@@ -274,13 +229,13 @@ class Spring(Effect):
         return 1 - self.relaxes * sum(b.max_wear_depth for b in snapshot.measures.bodies.values())
 
 
-def pulling(self, snapshot):
-    return 1.0 if snapshot.state.steps == 0 else -Spring.load_factor(self, snapshot)
-
-
 def after(deed):
     """Return a `load_factor` that does a deed first."""
     return lambda self, snapshot: (deed(snapshot), Spring.load_factor(self, snapshot))[1]
+
+
+def pulling(self, snapshot):
+    return 1.0 if snapshot.state.steps == 0 else -Spring.load_factor(self, snapshot)
 
 
 def counted(self, snapshot):
@@ -291,14 +246,14 @@ def digging(snapshot):
     snapshot.state.bodies["ball"].wear[:] = 0
 
 
-MUTANTS += wrong(
-    Spring,
-    ("runs_in_a_case", {"load_factor": pulling}),
-    ("runs_in_a_case", {"load_factor": after(lambda snapshot: random.random())}),
-    ("runs_in_a_case", {"load_factor": after(lambda snapshot: np.seterr(all="ignore"))}),
-    ("runs_in_a_case", {"load_factor": counted}),
-    ("runs_in_a_case", {"load_factor": after(digging)}, ValueError),
-)
+for factor in (
+    pulling,
+    counted,
+    after(lambda snapshot: random.random()),
+    after(lambda snapshot: np.seterr(all="ignore")),
+):
+    wrong("runs_in_a_case", Spring, load_factor=factor)
+wrong("runs_in_a_case", Spring, load_factor=after(digging), raising=ValueError)
 
 # Observers.
 
@@ -317,9 +272,6 @@ def needing_a_snapshot(self, snapshot, reason):
     return snapshot.state
 
 
-MUTANTS += wrong(
-    Counts,
-    ("any_run_is_survived", {"on_finish": needing_a_snapshot}, AttributeError),
-    ("any_run_is_survived", {"on_step": counting}, AssertionError),
-    ("any_run_is_survived", {"on_start": starting_once}, AssertionError),
-)
+wrong("any_run_is_survived", Counts, on_finish=needing_a_snapshot, raising=AttributeError)
+wrong("any_run_is_survived", Counts, on_step=counting, raising=AssertionError)
+wrong("any_run_is_survived", Counts, on_start=starting_once, raising=AssertionError)
