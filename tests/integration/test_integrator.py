@@ -188,17 +188,6 @@ def test_state_and_sum_follow_the_closed_form(first, rates, state, total, length
     assert summed[0, 0] == pytest.approx(total(length), rel=3e-5, abs=0)
 
 
-@pytest.mark.parametrize("length", LENGTHS[:-1])
-def test_debris_that_stays_bears_part_of_the_load_that_wears(length):
-    def rates(values, *_):
-        return [np.exp(-values[0]), np.exp(-values[0])]
-
-    found = integrated(rates, [0 * ONE], length, [FREE], ONE_SUM)
-    (last,), (summed,) = found.values, found.sums
-    assert last[0, 0] == pytest.approx(np.log1p(length), rel=3e-5, abs=0)
-    assert summed[0, 0] == pytest.approx(np.log1p(length), rel=3e-5, abs=0)
-
-
 SEEDS = [np.array([each]) for each in ([1.0, -2.0, 0.5], [0.3, 1.0, -1.0], [2.0, 1.0, 1.0])]
 """Derivatives of an objective in two states, and in a sum."""
 

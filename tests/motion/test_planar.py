@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribo import Case, CaseError, Grid, Planar, Simulation
+from tribo import Case, CaseError, Grid, Simulation
 
 GRID = Grid((0.9e-3, 1.6e-3), (36, 64))
 STEEL = {"young": "210 GPa", "poisson": 0.3, "hardness": "40 GPa"}
@@ -30,25 +30,6 @@ def case(surface=BALL, positions=49, **motion):
 
 
 TWO_TO_ONE = [(0, 0), (4e-4, 0), (4e-4, 2e-4), (0, 2e-4)]
-
-
-@pytest.mark.parametrize(
-    ("path", "extent", "across"),
-    [
-        ("circle", (4e-4, 4e-4), 0.5),
-        ("square", (4e-4, 4e-4), 0.5),
-        ("square", (4e-4, 2e-4), 1 / 3),
-        (TWO_TO_ONE, None, 1 / 3),
-        ([(0, 0), (4e-4, 0)], None, 0.0),
-    ],
-)
-def test_the_part_of_the_path_across_its_main_direction_is_exact(path, extent, across):
-    motion = Planar(path=path, extent=extent, speed=1.0, revolutions=1)
-    cycle = motion.cycle(GRID)
-    ways = np.array([position.heading for position in cycle])
-    shares = np.array([position.share for position in cycle])
-    tensor = np.einsum("p,pi,pj", shares, ways, ways)
-    assert np.linalg.eigvalsh(tensor)[0] == pytest.approx(across, abs=1e-12)
 
 
 @pytest.mark.parametrize("path", ["circle", "square", "eight", TWO_TO_ONE])

@@ -153,17 +153,6 @@ def test_more_than_the_load_is_refused():
         run(effects=[Film(share=1.5)])
 
 
-def test_the_work_of_friction_is_that_of_the_load():
-    load = [{"at": 0, "normal": 50}, {"at": 20, "normal": 150}]
-    with run(friction_coefficient=0.3, load={"normal": load}) as result:
-        history = result.table("history")
-    work, force = history["friction_energy_J"], history["friction_force_N"]
-    np.testing.assert_allclose(work, 0.3 * history["load_distance_N_m"], rtol=1e-10)
-    np.testing.assert_allclose(force, 0.3 * history["load_N"], rtol=1e-10)
-    # ∫ μ F ds by hand.
-    assert work[-1] == pytest.approx(0.3 * 100 * result.distances[-1], rel=1e-10)
-
-
 def test_friction_may_follow_the_speed():
     stages = [{"until": 10, "speed": "0.1 m/s"}, {"until": 20, "speed": "0.2 m/s"}]
     motion = Unidirectional(speed=stages, track_length="2 mm", duration=20)

@@ -37,20 +37,6 @@ def case(speed, **effect):
     }
 
 
-def test_the_bulk_warms_and_cools_as_the_balance_says():
-    stages = [{"until": 25, "speed": 0.1}, {"until": 40, "speed": 0}]
-    given = case(stages, heat_fraction={"ball": 1, "disk": 0})
-    given["output"] = {"save_times": [25]}
-    with Simulation(given).run() as result:
-        bulk = result.bulk_rise_ball.to_numpy()
-        ball = result.body("ball").effects["temperature_rise"]
-    warm = POWER * RESISTANCE * (1 - math.exp(-25 / TIME))
-    assert bulk[0] == 0
-    assert bulk[1:] == pytest.approx([warm, warm * math.exp(-15 / TIME)], rel=1e-4)
-    # The contact is hotter by the flash.
-    assert ball[1].max() - bulk[1] > 5
-
-
 @pytest.mark.parametrize("stepping", [{"type": "implicit"}, {"type": "explicit", "time_step": 2}])
 def test_the_bulk_follows_a_load_that_rises_within_a_step(stepping):
     ramp = [{"at": 0, "normal": 100}, {"at": 40, "normal": 200}]

@@ -40,13 +40,6 @@ def run(motion, plate=None):
     return Simulation(case).run()
 
 
-def share(result, save, body):
-    """The cross-shear share in the middle of a body's contact."""
-    fields = ("slid_path", "slid_cosine", "slid_sine")
-    path, *moments = (result.field(field, save, body)[10, 10] for field in fields)
-    return 0.5 * (1 - np.hypot(*moments) / path)
-
-
 def test_a_fresh_point_wears_as_along_a_straight_path():
     fresh = np.zeros((1, 2, 1))
     fields = {"heading_x": fresh + 0.6, "heading_y": fresh + 0.8}
@@ -67,13 +60,6 @@ def test_that_the_share_jumps_as_sliding_begins_takes_no_more_calls(monkeypatch)
     motion = {"type": "planar", "path": "circle", "extent": (4e-4, 4e-4), "positions": 8}
     run({**motion, "speed": 12e-3}).close()
     assert len(calls) < 100
-
-
-@pytest.mark.parametrize(("stroke", "positions"), [(4e-3, "average"), (2e-4, 9)])
-def test_there_is_no_cross_shear_to_and_fro(stroke, positions):
-    motion = {"type": "reciprocating", "stroke": stroke, "frequency": 10, "positions": positions}
-    with run(motion, plate=LAW) as result:
-        assert [share(result, -1, name) for name in result.body_names] == [0, 0]
 
 
 @pytest.mark.slow
