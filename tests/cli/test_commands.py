@@ -69,13 +69,6 @@ def test_show_json_has_the_documented_shape(ran):
     assert first <= {*data["lab"]["first_contact"]}
 
 
-def test_show_prints_the_table_again(ran):
-    folder, done = ran
-    table, provenance = tribo("show", "my.h5", cwd=folder).stdout.split("\nMade with ")
-    assert table in done.stdout
-    assert "bodies.ball.wear: archard, tribo.wear.archard.Archard of tribo" in provenance
-
-
 @pytest.mark.parametrize("name", list(TEMPLATES))
 def test_a_template_is_the_example_of_its_name_and_names_the_next_command(tmp_path, name):
     done = tribo("new", name, "my.toml", cwd=tmp_path)
@@ -102,30 +95,6 @@ def test_a_template_is_printed_for_a_dash_and_an_unknown_one_is_told_before_the_
     assert "'thirdbody'" in unknown.stderr
     assert "duty_cycle (" in unknown.stderr
     assert tribo("new", "duty_cycle", cwd=tmp_path).returncode == 2
-
-
-def test_check_foretells_the_depth_of_rough_bodies_but_for_their_roughness(tmp_path):
-    assert tribo("new", "rough_flats", "case.toml", cwd=tmp_path).returncode == 0
-    done = tribo("check", "case.toml", *setting("grid.cells=32"), cwd=tmp_path)
-    assert done.stdout.count("µm, but for roughness, ") == 2
-
-
-@pytest.mark.parametrize(
-    ("changes", "foretold"),
-    [
-        ([], r"bodies.ball.wear.k depth of ball \+0\.\d\d ± 0\.\d\d %"),
-        (["stop.depth=0.5 um"], r"0.5 µm, about reached after [\d.]+ s"),
-        (["stop={depth='1 mm', body='disk'}"], r"1000 µm, about not reached, [\d.]+ µm at"),
-    ],
-)
-def test_check_begins_with_its_verdict_and_foretells_the_end(case, changes, foretold):
-    done = tribo("check", "my.toml", *LARGE_STROKE, *setting(*changes))
-    assert done.stdout.startswith("my.toml is valid.\n")
-    assert max(map(len, done.stdout.splitlines())) <= 80
-    words = " ".join(done.stdout.split())
-    assert re.search(foretold, words)
-    # As the report of the run words it.
-    assert "94 % of the pressure at which the softer body first" in words
 
 
 def test_check_names_what_would_stop_a_run(case):

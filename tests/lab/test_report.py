@@ -70,12 +70,6 @@ def test_the_load_is_set_against_that_of_first_yield(line):
     assert contact.load_ratio == pytest.approx(3)
 
 
-def test_yield_is_said_in_three_stages():
-    assert said(0.5).startswith("88 % of the pressure at which")
-    assert said(0.8).startswith("the softer body yields beneath the surface at first")
-    assert "yields from the start" in said(1)
-
-
 @pytest.mark.parametrize("across", [20, 40])
 def test_the_ends_of_a_line_contact_do_not_count_towards_its_yield(across):
     roller = case(

@@ -66,22 +66,6 @@ def test_sections_hold_every_save_and_hertz_beside_the_first(result):
     assert names(figure.legends[0]) == set(curves(first[0])) | set(curves(later[0]))
 
 
-def test_a_first_pressure_that_dwarfs_the_later_ones_has_a_row_of_its_own(result):
-    later = 1e-6 * profile(result.field("pressure", 1), 0).max()
-    for axes in pressure_sections(result).figure().axes[2:]:
-        assert later < axes.get_ylim()[1] < 1.2 * later
-    assert len(pressure_sections(made((0.0, 1.0))).figure().axes) == 2
-
-
-@pytest.mark.parametrize("times", [(0.0, 1.0), TIMES])
-def test_sections_that_reach_the_hardness_mark_it(times):
-    figure = pressure_sections(made(times, cap=2e9)).figure()
-    first = figure.axes[0]
-    assert "hardness" in names(figure.legends[0])
-    np.testing.assert_allclose(curves(first)["hardness"][1], 2e3)
-    assert first.get_ylim()[1] > 2e3
-
-
 def test_the_map_is_the_pressure_from_zero_to_a_percentile_that_it_states(result):
     (axes,) = pressure_map(result, [1]).figure().axes
     (image,) = axes.images
@@ -94,14 +78,6 @@ def test_the_map_is_the_pressure_from_zero_to_a_percentile_that_it_states(result
     label, largest = axes.child_axes[0].get_ylabel().split("; largest ")
     assert label == "Pressure (MPa)\nto 99 % of cells"
     assert float(largest) == pytest.approx(result.saves()[1]["max_pressure_Pa"] / 1e6, rel=1e-3)
-
-
-def test_the_map_marks_the_ellipse_of_hertz(result):
-    figure = pressure_map(result).figure()
-    ((x, y),) = curves(figure.axes[0]).values()
-    assert names(figure.legends[0]) == {"Hertz, 0 s"}
-    hertz = hertz_contact(result.system)
-    np.testing.assert_allclose(np.hypot(x / hertz.half_width_x, y / hertz.half_width_y), 1e3)
 
 
 def test_worn_bodies_touch_but_do_not_overlap(result):

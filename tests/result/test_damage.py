@@ -47,24 +47,6 @@ def test_what_fails_to_be_written_leaves_the_file_as_it_was(tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.parametrize(
-    "damage",
-    [
-        lambda data: b"",
-        lambda data: b"not a result",
-        lambda data: data[:-1],
-        lambda data: bytes([data[0] ^ 1]) + data[1:],
-        lambda data: data[:5000] + bytes([data[5000] ^ 1]) + data[5001:],
-    ],
-    ids=["empty", "text", "cut", "first bit", "a bit"],
-)
-def test_a_damaged_result_is_refused(sound, tmp_path, damage):
-    path = tmp_path / "damaged.h5"
-    path.write_bytes(damage(sound.read_bytes()))
-    with pytest.raises(CaseError, match=r"damaged\.h5 is damaged"):
-        Result.open(path)
-
-
 @pytest.mark.parametrize("number", [1, [2, 2]])
 def test_another_format_is_refused_with_both_numbers(sound, tmp_path, number):
     path = tmp_path / "old.h5"

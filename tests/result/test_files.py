@@ -57,15 +57,6 @@ def test_its_variables_are_attributes():
         assert {"pressure", "wear_volume", "history_time"} <= set(dir(result))
 
 
-def test_the_result_says_what_made_it(path):
-    with Result.open(path) as result:
-        made = result.provenance
-    assert {"tribo", "numpy", "scipy"} <= made["packages"].keys()
-    assert made["components"]["contact"]["class"] == "tribo.contact.dcfft.DcFft"
-    assert made["components"]["bodies.ball.wear"]["type"] == "archard"
-    assert made["components"]["contact"]["distribution"] == "tribo"
-
-
 def test_surfaces_and_volumes_belong_together(path):
     with Result.open(path) as result:
         ball = result.body("ball")
@@ -83,12 +74,6 @@ def test_the_history_has_a_row_a_step(path):
     assert len(history["time_s"]) == totals["steps"] + 1
     assert np.all(np.diff(history["time_s"]) > 0)
     assert np.all(np.diff(history["bodies.ball.wear_volume_m3"]) > 0)
-
-
-def test_a_result_says_what_it_is(path):
-    with Result.open(path) as result:
-        assert repr(result) == f"<Result {path}: done, 3 saves up to 200 s>"
-    assert repr(result) == f"<Result {path}: closed>"
 
 
 @pytest.mark.parametrize("save", [3, 17, -4])

@@ -6,7 +6,6 @@ import json
 import re
 import tomllib
 from itertools import pairwise
-from typing import Annotated
 
 import numpy as np
 import pytest
@@ -14,12 +13,9 @@ import tribo
 from command_line import tribo as command
 from made_results import GRID, SHAPES, made, written
 from pages import Checked
-from pydantic import BaseModel
-from tribo import Effect, Load, Quantity, Rotating
 from tribo.config.load import case_tables
 from tribo.templates import template
 
-from tribo_report.amounts import component_words, value_words
 from tribo_report.drawing import drawing
 from tribo_report.fields import charts
 from tribo_report.reduced import Blocks, block_means, each_plain
@@ -185,45 +181,6 @@ def test_a_coating_is_drawn_and_told():
     # The second ends far below the scar.
     assert list(charted["Wear depth"]) == ["ball", "disk", "ball: end of layer 1"]
     assert set(charted["Wear depth"]["ball: end of layer 1"]["values"][0]) == {10.0}
-
-
-class Bath(BaseModel):
-    depth: Annotated[float, Quantity("m")]
-    area: Annotated[float, Quantity("m^2")]
-
-
-class Bathed(Effect):
-    type = "test.bathed"
-    softness: Annotated[float, Quantity("1/Pa")]
-    ambient: Annotated[float, Quantity("K")]
-    baths: dict[str, Bath]
-    shares: dict[str, Annotated[float, Quantity("N")]]
-
-
-def test_every_number_of_the_case_has_its_unit_and_only_wear_coefficients_two():
-    config = {
-        "softness": 2e-8,
-        "ambient": 296.15,
-        "baths": {"pin": {"depth": 5e-3, "area": 2.8e-5}},
-        "shares": {"pin": 2.0},
-    }
-    assert value_words(config, Bathed) == (
-        "softness 2e-08 1/Pa, ambient 296.15 K, baths pin (depth 5 mm, area 28 mm²), shares pin 2 N"
-    )
-    assert component_words({"type": "archard", "k": 1e-15}) == (
-        "archard, k 1e-15 1/Pa = 1e-06 mm³/(N·m)"
-    )
-
-
-def test_a_value_in_stages_is_told_with_their_times():
-    held = [{"until": 600.0, "normal": 50.0}, {"until": 1800.0, "normal": 100.0}]
-    assert value_words({"normal": held}, Load) == "normal 50 N to 10 min, 100 N to 30 min"
-    ramp = [{"at": 0.0, "normal": 50.0}, {"at": 3601.0, "normal": 100.0}]
-    assert value_words({"normal": ramp}, Load) == "normal 50 N at 0 s, 100 N at 3601 s"
-    many = [{"until": i + 1.0, "speed": i % 3} for i in range(20)]
-    assert value_words({"speed": many}, Rotating) == (
-        "speed pause to 1 s, …, 1 m/s to 20 s (20 stages)"
-    )
 
 
 @pytest.mark.slow

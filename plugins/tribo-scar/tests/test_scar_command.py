@@ -1,7 +1,6 @@
 """`tribo scar` as a user meets it, its pictures and its files."""
 
 import json
-import re
 
 import numpy as np
 import pytest
@@ -11,7 +10,7 @@ from tribo import CaseError, Grid, Heights, Registry, TriboWarning, read_heights
 from tribo.registry import all_plugins
 from tribo.registry.plugins import builtin
 
-from tribo_scar import measured_scar, measured_scar_map
+from tribo_scar import measured_scar_map
 from tribo_scar.command import scar as command
 
 
@@ -108,26 +107,6 @@ def test_heights_in_micrometres_and_fill_values_are_told_by_their_file(standard,
 def test_a_picture_leaves_what_is_missing_white(standard):
     (image,) = measured_scar_map(standard[3]).axes[0].images
     assert np.ma.getmaskarray(image.get_array()).any()
-
-
-def test_the_picture_outlines_what_is_piled_up():
-    ridge = lambda x, y: np.exp(-((np.hypot(x, y) - 26) ** 2) / 8)  # noqa: E731
-    before, after, *_ = pair(missing=0.0)
-    x, y = after.grid.mesh
-    raised = Heights(after.heights + 3e-7 * ridge(x / PITCH, y / PITCH), after.pitch)
-    found = measured_scar(before, raised)
-    figure = measured_scar_map(found)
-    (legend,) = figure.legends
-    words = {text.get_text() for text in legend.get_texts()} - {"taken for the volume", "piled up"}
-    (widths,) = words
-    # The ring is as wide as the widths that are printed.
-    (ring,) = figure.axes[0].patches
-    size = {"mm": 1e-3, "µm": 1e-6}[widths[-2:]]
-    sizes = size * ring.width, size * ring.height
-    assert sizes == pytest.approx((found.along, found.across))
-    title = figure.axes[0].get_title("left")
-    value, power = re.match(r"Volume \(([\d.]+) ± .*10\^\{(-\d+)\}\$ mm³", title).groups()
-    assert 1e-9 * float(value) * 10.0 ** int(power) == pytest.approx(6.28e-16, rel=0.03, abs=0)
 
 
 def test_a_file_of_a_format_that_nothing_reads_is_refused(tmp_path, monkeypatch):
