@@ -25,21 +25,6 @@ def test_the_residuals_of_a_groove_are_seen_however_bad_its_fit(off, reach):
     np.testing.assert_allclose(residual.get_ylim(), [-reach, reach])
 
 
-def test_the_residuals_of_a_scar_are_coloured_about_white():
-    measured = np.array([[0.0, np.nan], [1e-7, 2e-7]])
-    figure = depth_fit(fitted(measured, np.full((2, 2), 1e-6)))
-    (image,) = figure.axes[1].images
-    np.testing.assert_allclose(image.get_clim(), [-100, 100])
-
-
-def test_the_sign_of_large_residuals_of_a_scar_is_seen_in_grey():
-    off = np.outer(np.ones(9), np.linspace(-8, 8, 9))
-    figure = depth_fit(fitted(np.zeros((9, 9)), 1e-8 * off))
-    (lines,) = figure.axes[1].collections
-    np.testing.assert_allclose(lines.levels, [-3, 3])
-    assert [dashes is not None for _, dashes in lines.get_linestyle()] == [True, False]
-
-
 def test_a_fit_stands_over_what_was_measured():
     data = pd.DataFrame(
         {
