@@ -1,22 +1,18 @@
 """The periodic half-space: its modes, waves pressed flat, and contact between the limits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from contact_problems import MODULUS, ball, problem
 
 from tribo.contact.periodic import Periodic, PeriodicHalfSpace
-from tribo.core.arrays import Array
-from tribo.core.contact import ContactSolution
 
 
-def solve(gap: Array, size: tuple[float, float], load: float) -> ContactSolution:
+def solve(gap, size, load):
     return Periodic().solve(problem(gap, size, load))
 
 
 @pytest.mark.parametrize("amplitude", [1e-10, 1e-14, 1e-18])
-def test_what_is_worn_to_almost_flat_is_solved_down_to_rounding(amplitude: float) -> None:
+def test_what_is_worn_to_almost_flat_is_solved_down_to_rounding(amplitude):
     shape, width = (32, 24), 1e-3
     gap = amplitude * np.random.default_rng(0).standard_normal(shape)
     along, across = (2 * np.pi * np.fft.fftfreq(n, width / n) for n in shape)
@@ -26,7 +22,7 @@ def test_what_is_worn_to_almost_flat_is_solved_down_to_rounding(amplitude: float
     assert found.pressure == pytest.approx(expected, rel=1e-14)
 
 
-def test_the_smallest_compliance_is_that_of_the_chequerboard() -> None:
+def test_the_smallest_compliance_is_that_of_the_chequerboard():
     case = ball(16)
     stated = Periodic().smallest_compliance(case.system)
     operator = PeriodicHalfSpace((16, 16), case.system.grid.spacing, MODULUS)

@@ -1,7 +1,5 @@
 """The `winkler` solver against closed forms and the conditions of contact."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -19,16 +17,16 @@ FOUNDATION = 1.2973e15
 SYSTEM = ContactSystem(Grid((1e-3, 2e-3), (8, 8)), MODULUS, 100.0, None, (200.0, 200.0))
 
 
-def _fixed() -> Winkler:
+def _fixed():
     return Winkler(modulus=FOUNDATION)
 
 
-def _modulus(match: str, system: ContactSystem = SYSTEM) -> float:
+def _modulus(match, system=SYSTEM):
     return Winkler.model_validate({"match": match}).foundation_modulus(system)
 
 
 @pytest.mark.parametrize("match", ["contact_radius", "peak_pressure", "approach"])
-def test_matched_foundation_reproduces_that_feature_of_an_ellipse(match: str) -> None:
+def test_matched_foundation_reproduces_that_feature_of_an_ellipse(match):
     case = ball(256, radii=(10e-3, 5e-3), width=1.2e-3)
     case = replace(case, system=replace(case.system, curvature=(100.0, 200.0)))
     solution = Winkler.model_validate({"match": match}).solve(case)
@@ -46,25 +44,25 @@ def test_matched_foundation_reproduces_that_feature_of_an_ellipse(match: str) ->
 
 @pytest.mark.parametrize("curvature", [None, (0.0, 0.0), (-1.0, 200.0)])
 def test_without_curvature_there_is_nothing_to_match(
-    curvature: tuple[float, float] | None,
-) -> None:
+    curvature,
+):
     with pytest.raises(CaseError, match=r"Give modulus .* or layer"):
         Winkler().check(replace(SYSTEM, curvature=curvature))
     _fixed().check(replace(SYSTEM, curvature=curvature))
 
 
-def test_approach_of_a_line_contact_cannot_be_matched() -> None:
+def test_approach_of_a_line_contact_cannot_be_matched():
     with pytest.raises(CaseError, match="no finite value"):
         _modulus("approach", replace(SYSTEM, curvature=(0.0, 200.0)))
 
 
-def test_two_sources_of_the_modulus_are_refused_by_name() -> None:
+def test_two_sources_of_the_modulus_are_refused_by_name():
     with pytest.raises(CaseError, match="modulus and match are given"):
         Winkler(modulus=1e15, match="approach")
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_conditions_hold_to_round_off(seed: int) -> None:
+def test_conditions_hold_to_round_off(seed):
     rng = np.random.default_rng(seed)
     shape, size = (13, 9), (1e-3, 8e-4)
     load = 10 ** rng.uniform(-2, 3)
@@ -90,6 +88,6 @@ def test_conditions_hold_to_round_off(seed: int) -> None:
 
 
 @pytest.mark.parametrize("load", [1e-320, 1e-300, 1e6])
-def test_a_load_lost_in_rounding_or_too_large_for_the_window_is_an_error(load: float) -> None:
+def test_a_load_lost_in_rounding_or_too_large_for_the_window_is_an_error(load):
     with pytest.raises(CaseError, match=r"is lost in rounding|Enlarge the window"):
         _fixed().solve(replace(ball(16, cap=HARDNESS), load=load))
