@@ -5,7 +5,6 @@ import runpy
 import tomllib
 from pathlib import Path
 
-import numpy as np
 import pytest
 from tribo import CaseError, Simulation
 from tribo.lab.report import lab_report
@@ -24,32 +23,6 @@ def case(duration=100, cells=24, **wear):
     for body in data["bodies"].values():
         body["wear"].update(wear)
     return data
-
-
-@pytest.fixture(scope="module")
-def energy():
-    with Simulation(case()).run() as result:
-        yield result
-
-
-def test_with_alpha_k_over_mu_it_is_archard(energy):
-    data = case()
-    del data["effects"]
-    for body in data["bodies"].values():
-        body["wear"] = {"type": "archard", "k": ALPHA * MU}
-    with Simulation(data).run() as archard:
-        # k p and α (μ p) round differently; nothing else differs, and the same steps are taken.
-        for total in ("steps", "contact_solves"):
-            assert energy.totals()[total] == archard.totals()[total]
-        for name in archard.body_names:
-            ours, theirs = (r.body(name).wear_depth[-1] for r in (energy, archard))
-            np.testing.assert_allclose(ours, theirs, rtol=1e-11, atol=1e-13 * theirs.max())
-
-
-def test_each_body_sees_all_the_energy_of_friction(energy):
-    for name, exposure in Simulation(case()).model.cycle.maps.items():
-        total = exposure.volume(energy.body(name).state["dissipated_energy"][-1])
-        assert total == pytest.approx(MU * LOAD * energy.distances[-1], rel=1e-10)
 
 
 @pytest.mark.parametrize(

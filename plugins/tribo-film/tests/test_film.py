@@ -41,21 +41,6 @@ def lost(given):
         return last["bodies"]["ball"]["wear_volume_m3"], last["friction_force_N"]
 
 
-def summit_integral(apart):
-    """∫ (s − apart)^5/2 exp(−s²/2) ds from there on, by Gauss's rule in √(s − apart)."""
-    root, weight = np.polynomial.legendre.leggauss(80)
-    root, weight = 2 * (root + 1), 2 * weight
-    return float(np.sum(weight * 2 * root**6 * np.exp(-((apart + root**2) ** 2) / 2)))
-
-
-@pytest.mark.parametrize("ratio", [0.0, 1.0, 4.0])
-def test_asperities_carry_their_pressure_at_the_thickness_of_the_film(ratio):
-    film = Mixed(**OIL, roughness=1e-7)
-    assert 1 - film.share(ratio) == pytest.approx(
-        summit_integral(ratio) / summit_integral(0.0), rel=1e-8, abs=0
-    )
-
-
 def test_without_viscosity_it_is_the_dry_case_to_the_bit():
     dry = case()
     dry["effects"], dry["friction"] = [], {"coefficient": 0.12}

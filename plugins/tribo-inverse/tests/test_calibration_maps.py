@@ -203,17 +203,6 @@ def test_depths_that_no_smooth_map_explains_are_noticed(depth):
     assert [each.value for each in of_kind(found, "misfit")] == [found.chi_square]
 
 
-def test_pixels_are_averaged_over_cells_and_missing_ones_left_out():
-    pixels = 1e-9 * np.arange(32.0 * 32).reshape(32, 32)
-    pixels[:2, :2] = np.nan
-    found, _ = on_cells(Heights(pixels, (1e-6, 1e-6)), (16, 16), (2e-6, 2e-6))
-    assert np.isnan(found[0, 0])
-    assert found[3, 5] == pytest.approx(pixels[6:8, 10:12].mean(), rel=1e-12, abs=0)
-    wider, _ = on_cells(Heights(pixels, (1e-6, 1e-6)), (18, 18), (2e-6, 2e-6))
-    assert np.all(np.isnan(wider[0]))
-    assert wider[4, 6] == pytest.approx(found[3, 5], rel=1e-12, abs=0)
-
-
 @pytest.mark.parametrize("count", [17, 81])
 def test_cells_have_their_part_of_the_pixels_that_they_cut(count):
     """Of a scar on 16 cells, 0.6 of the window wide: all of its volume, each depth to 1 %."""

@@ -78,13 +78,7 @@ def test_a_case_is_planned_without_values():
     # The short test's loss is of the size of its uncertainty; the long one's scatter decides.
     assert list(found.tests["count"]) == [0, 10]
     assert found.runs == 4
-    assert list(json.loads(json.dumps(found.as_json()))) == [
-        "level",
-        "within",
-        "runs",
-        "tests",
-        "parameters",
-    ]
+    assert json.loads(json.dumps(found.as_json()))["runs"] == 4
 
 
 @pytest.mark.parametrize(

@@ -59,17 +59,6 @@ def test_it_is_one_small_file_that_loads_nothing(page):
     assert all(below - above <= 1 for above, below in pairwise(checked.headings))
 
 
-def test_its_sentence_has_the_numbers_of_the_lab(ran, page):
-    with tribo.open(ran[0] / "my.h5") as result:
-        ball = result.saves()[-1]["bodies"]["ball"]
-        volume, depth = ball["wear_volume_m3"], ball["max_wear_depth_m"]
-        mass = result.report().bodies["ball"].mass_kg
-    (answer,) = re.findall('<p class="answer">(.*?)</p>', page, re.S)
-    assert f"the ball lost {1e9 * volume:.3g} mm³ ({1e6 * mass:.3g} mg)" in answer
-    assert f"worn {1e6 * depth:.3g} µm deep" in answer
-    assert "Over 20 m of sliding under 100 N the ball" in answer
-
-
 def test_it_quotes_the_uncertainty_that_a_study_found(tmp_path):
     study = tmp_path / "study.json"
     with made(times=(0.0, 3600.0)) as result:

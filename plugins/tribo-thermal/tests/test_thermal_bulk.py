@@ -58,16 +58,6 @@ def test_shared_heat_makes_both_surfaces_equally_hot_while_one_bulk_warms():
     assert 0 < bulk[-1] < POWER * RESISTANCE
 
 
-def test_a_long_run_is_as_hot_as_without_a_capacity():
-    at_once = {"ball": {**PATH, "capacity": None}}
-    slow = {"ball": {**PATH, "capacity": "0.05 J/K"}}
-    rises = []
-    for paths in (at_once, slow):
-        with Simulation(case(0.1, heat_paths=paths)).run() as result:
-            rises.append(result.body("disk").effects["temperature_rise"][-1].max())
-    assert rises[1] == pytest.approx(rises[0], rel=1e-4)
-
-
 def test_what_warms_in_time_needs_a_path():
     with pytest.raises(CaseError, match="a capacity needs a length"):
         Flash(ambient=300, heat_paths={"ball": {**PATH, "length": 0}})

@@ -43,17 +43,6 @@ def rises(where, **config):
     return effect.rises(where)
 
 
-@pytest.mark.parametrize(
-    ("radius", "moving", "resting", "shared"), [(FRESH, 45, 55, 25), (WORN, 9, 15, 6)]
-)
-def test_the_papers_case_warms_as_computed_by_hand(radius, moving, resting, shared):
-    # Rounded to whole kelvins.
-    where = contact(radius)
-    assert rises(where, heat_fraction=MOVING)["disk"] == pytest.approx(moving, abs=0.5)
-    assert rises(where, heat_fraction=RESTING)["ball"] == pytest.approx(resting, abs=0.5)
-    assert rises(where)["ball"] == pytest.approx(shared, abs=0.5)
-
-
 def test_to_and_fro_the_swept_body_alone_is_hotter_as_by_greens_function():
     once = contact(WORN)
     again = replace(once, track=2e-3, turns_back=True)
