@@ -1,7 +1,5 @@
 """What the stroke average costs, as a motion states it, against runs of a moving contact."""
 
-import re
-
 import numpy as np
 import pytest
 from paper_models import K, archard, case, flat, last, motion, named, steel
@@ -78,21 +76,6 @@ def test_a_shallow_groove_is_average_down_to_strokes_of_two_half_widths_only():
     assert groove_excess(3.0, 1.0, 1e-9, 1.0) < 0.01
     assert groove_excess(1.0, 1.0, 1e-9, 1.0) == pytest.approx(0.6, abs=0.1)
     assert groove_excess(0.3, 1.0, 1e-9, 1.0) > 3
-
-
-@pytest.mark.parametrize(
-    ("length", "groove", "said"),
-    [
-        ("2 mm", (0.5e-3, 8.05e-6, 4.4e-6), r"of disk is about 18 % too deep .*\(2 mm, 4 half-w"),
-        ("0.15 mm", (0.15e-3, 1e-12, 1e-6), r"about 64 % .*\(0.15 mm, 1 half-width of the 0.3 mm"),
-        ("1 nm", (0.15e-3, 1e-12, 1e-6), "more than twice too deep"),
-        ("0.15 mm", (0.15e-3, 0.0, 1e-6), None),
-        ("2 mm", (0.5e-3, 0.3e-6, 4.4e-6), None),
-    ],
-)
-def test_a_groove_that_the_average_makes_too_deep_is_said_with_a_number(length, groove, said):
-    found = stroke(length, swept="disk").limitation(*groove, 1.0, False)
-    assert found is None if said is None else re.search(said, found)
 
 
 def test_a_stroke_under_one_half_width_is_refused_with_a_remedy():

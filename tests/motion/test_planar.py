@@ -67,19 +67,6 @@ def test_the_middle_position_may_lie_at_an_end_of_the_path(path):
         assert plate.see(field, position)[0, 0] == field[row, column % 64]
 
 
-def test_a_path_to_and_fro_wears_as_a_stroke_does():
-    """Its positions lie in the middle of stretches, those of a stroke at the ends too."""
-    there = case(path=[(0, 0), (2e-4, 0), (-2e-4, 0)], extent=None, positions=64)
-    motion = {"type": "reciprocating", "stroke": 4e-4, "frequency": 25, "cycles": TURNS}
-    stroke = Case(**{**dict(there), "kinematics": {**motion, "positions": "cells"}})
-    there, stroke = (Simulation(each).run() for each in (there, stroke))
-    for name in ("pin", "plate"):
-        found, needed = (
-            each.field("wear_depth", len(each.times) - 1, name) for each in (there, stroke)
-        )
-        np.testing.assert_allclose(found, needed, rtol=0, atol=0.01 * needed.max())
-
-
 def test_what_cannot_be_is_refused():
     with pytest.raises(ValueError, match="give extent with a path from a formula"):
         case(extent=None)

@@ -91,15 +91,6 @@ def test_worn_bodies_touch_but_do_not_overlap(result):
     assert across.min() < sag
 
 
-def test_the_swept_body_lies_below_and_depths_of_scars_are_stated():
-    result = made(swept=(True, False))
-    along, _ = worn_section(result).figure().axes
-    for name, text in zip(("disk", "ball"), along.texts, strict=True):
-        value, unit = text.get_text().removeprefix(f"{name}: ").removesuffix(" deep").split()
-        expected = result.body(name).wear_depth[-1].max() * {"µm": 1e6, "nm": 1e9}[unit]
-        assert float(value) == pytest.approx(expected, rel=1e-2)
-
-
 def test_volume_and_mass_are_the_histories_over_time_and_distance(result):
     volume, mass = history(result, "wear").figure().axes
     table = result.table("history")

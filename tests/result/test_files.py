@@ -88,16 +88,6 @@ def test_a_save_out_of_range_is_refused_with_how_many_there_are(path, save):
         ball.surface(save)
 
 
-def test_the_wear_depth_of_a_save_is_that_of_the_body(path):
-    with Result.open(path) as result:
-        for name in ("ball", "disk"):
-            for save in (0, 2, -1):
-                expected = result.body(name).wear_depth[save]
-                np.testing.assert_array_equal(result.field("wear_depth", save, name), expected)
-        with pytest.raises(CaseError, match="has no body 'bal'; its bodies are ball, disk"):
-            result.field("wear_depth", 0, "bal")
-
-
 def test_a_save_is_found_by_its_time_within_rounding_and_as_it_is_printed():
     result = made(times=(0.0, 0.1 + 0.2, 3600.0))
     assert [result.save_at(time) for time in (0, 0.3, 3600 * (1 + 1e-15))] == [0, 1, 2]
