@@ -65,15 +65,6 @@ def test_the_material_ratio_of_a_ramp_is_straight():
     assert np.all(np.diff(height) < 0)
 
 
-@pytest.mark.parametrize("form", [Sphere(radius="5 mm"), Cylinder(radius="5 mm")])
-def test_roughness_on_a_form_is_that_without_it(form):
-    bare = roughness(random_waves())
-    on_form = roughness(form.height(GRID) + random_waves())
-    # What the second order leaves of a ball here is 10 nm rms, independent of 50.
-    assert on_form.Sq_m == pytest.approx(bare.Sq_m, rel=0.05, abs=0)
-    assert on_form.Ra_across_m == pytest.approx(bare.Ra_across_m, rel=0.05, abs=0)
-
-
 @pytest.mark.parametrize("form", [Sphere(radius="5 mm"), Cylinder(radius="5 mm"), None])
 def test_a_body_is_rough_where_it_is_more_than_its_form(form):
     height = np.zeros(GRID.cells) if form is None else form.height(GRID)

@@ -3,7 +3,6 @@
 from strangers.oxidation import OxideFilm
 from strangers.protected import Protected
 from strangers.running_in import RunningIn
-from strangers.transition import Transition
 
 from tribo import hookimpl
 
@@ -12,4 +11,4 @@ __version__ = "1.0"
 
 @hookimpl
 def tribo_components() -> tuple[type, ...]:
-    return Protected, RunningIn, Transition, OxideFilm
+    return Protected, RunningIn, OxideFilm

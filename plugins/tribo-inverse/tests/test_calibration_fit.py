@@ -7,7 +7,7 @@ from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.core.errors import CaseError, NumericalError, OutOfWindow
 
 from tribo_inverse.calibration.fit import differenced, fit, interval, limit, steps
-from tribo_inverse.calibration.linearised import Problem, Weights, root_covariance
+from tribo_inverse.calibration.linearised import Problem, root_covariance
 
 TRUE = np.array([7.08e-15, 7.08e-16])
 NAMES = ("ball", "disk")
@@ -199,27 +199,6 @@ def test_values_of_one_test_scatter_together():
     low, high = interval(fit(lambda k: np.repeat(k, 20), made, np.ones(1)), np.ones(1), 0.95)
     half = norm.ppf(0.975) * 0.2 / 2**0.5
     assert (np.exp(low), np.exp(high)) == pytest.approx((1 - half, 1 + half), rel=1e-2)
-
-
-def test_the_weights_are_the_root_of_the_inverse_covariance():
-    """Of three tests, in one of which a limit of detection is a test of its own."""
-    random, n = np.random.default_rng(2), 9
-    below = np.arange(n) == 4
-    made = problem(np.ones(n), random.uniform(0.1, 1, n), below=below, specimen=np.arange(n) % 3)
-    effects = random.standard_normal((n, 2))
-    together = made.by_test(effects)
-    weights = Weights.of(made.sigma, 0.3 * together)
-    alike = (np.arange(n)[:, None] % 3 == np.arange(n) % 3) & ~(below | below[:, None])
-    alike |= np.eye(n, dtype=bool)
-    covariance = np.diag(made.sigma**2) + 0.09 * np.where(alike, effects @ effects.T, 0)
-    root = weights.weigh(np.eye(n))
-    assert root.T @ root @ covariance == pytest.approx(np.eye(n), abs=1e-12)
-    assert weights.weigh_transposed(np.eye(n)) == pytest.approx(root.T, abs=1e-12)
-    assert weights.weigh(effects[:, 0]) == pytest.approx(root @ effects[:, 0], abs=1e-12)
-    assert weights.diagonal(below) == pytest.approx(np.diag(root)[below], abs=1e-12)
-    for rows in (~below, np.arange(n) % 3 == 2):
-        own = np.linalg.slogdet(covariance[np.ix_(rows, rows)])[1]
-        assert weights.log_determinant(rows) == pytest.approx(-0.5 * own, abs=1e-12)
 
 
 def test_a_change_that_many_data_tell_together_is_no_rest():
