@@ -2,17 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import (
-    Faster,
-    archard,
-    flat,
-    foundation,
-    last,
-    named,
-    small,
-    sphere,
-    steel,
-)
+from paper_models import Faster, archard, flat, foundation, last, named, small, sphere, steel
 
 from tribo import CaseError, Effect, Field, Grid, Rotating, Unidirectional
 

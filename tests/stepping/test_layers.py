@@ -8,15 +8,7 @@ from coated_pins import COATING, FAST, PRESSURE, SLOW, STEEL, THROUGH, K, coated
 from paper_models import goes_on
 from scipy.optimize import brentq
 
-from tribo import (
-    WORN_DEPTH,
-    Archard,
-    Case,
-    CaseError,
-    Simulation,
-    WearLaw,
-    WearRate,
-)
+from tribo import WORN_DEPTH, Archard, Case, CaseError, Simulation, WearLaw, WearRate
 from tribo.simulation.predict import predict
 
 SHARE = 0.1

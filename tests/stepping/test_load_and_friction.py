@@ -3,18 +3,7 @@
 import numpy as np
 import pytest
 from edited import bits
-from paper_models import (
-    K,
-    archard,
-    flat,
-    foundation,
-    half_space,
-    motion,
-    named,
-    pair,
-    small,
-    steel,
-)
+from paper_models import K, archard, flat, foundation, half_space, motion, named, pair, small, steel
 
 from tribo import (
     FRICTION_COEFFICIENT,

@@ -3,16 +3,7 @@
 import pytest
 from paper_models import pin
 
-from tribo import (
-    Archard,
-    CaseError,
-    Field,
-    ModifiedLaw,
-    Registry,
-    Simulation,
-    WearRate,
-    hookimpl,
-)
+from tribo import Archard, CaseError, Field, ModifiedLaw, Registry, Simulation, WearRate, hookimpl
 from tribo.config.load import case_tables
 from tribo.core.material import Material
 from tribo.wear.modified import Scaled

@@ -17,18 +17,7 @@ from gradient_effects import (
     Slips,
     Softens,
 )
-from gradients import (
-    BASE,
-    CLOSE,
-    FRESH,
-    LONG,
-    SHAPE,
-    few,
-    kind,
-    layered,
-    resolved,
-    run,
-)
+from gradients import BASE, CLOSE, FRESH, LONG, SHAPE, few, kind, layered, resolved, run
 from paper_models import K, archard, motion, pair
 from tribo.core.errors import CaseError
 from tribo.stepping.explicit import Explicit

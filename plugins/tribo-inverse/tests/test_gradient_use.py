@@ -29,13 +29,7 @@ from tribo.wear.archard import Archard
 from tribo_inverse.adjoint.gradient import gradient, value_and_gradient
 from tribo_inverse.adjoint.linear import StepSystem
 from tribo_inverse.adjoint.numbers import find
-from tribo_inverse.adjoint.objective import (
-    Deepest,
-    Depth,
-    EndTime,
-    Misfit,
-    Volume,
-)
+from tribo_inverse.adjoint.objective import Deepest, Depth, EndTime, Misfit, Volume
 from tribo_inverse.adjoint.sensitivity import sensitivity
 from tribo_inverse.increment.carriers import Carrier
 from tribo_inverse.recording import tape

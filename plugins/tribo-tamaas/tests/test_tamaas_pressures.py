@@ -4,14 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tribo import (
-    CaseError,
-    ContactProblem,
-    ContactSystem,
-    Grid,
-    NumericalError,
-    WearCompliance,
-)
+from tribo import CaseError, ContactProblem, ContactSystem, Grid, NumericalError, WearCompliance
 
 from tribo_tamaas import Tamaas
 
