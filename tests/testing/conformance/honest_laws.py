@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
+from testing.conformance.honest_effects import TEMPERATURE
 
 from tribo import WORN_DEPTH, Archard, Field, ModifiedLaw, Quantity, WearLaw, WearRate
 
@@ -63,7 +64,7 @@ class Oxide(WearLaw):
     reference: Annotated[float, Quantity("K", above=0)] = 363.0
     """Reference temperature."""
 
-    requires = ("temperature",)
+    requires = (TEMPERATURE.name,)
     state_fields = (Field("cover", "1", "Part under oxide.", at_least=0.0, at_most=1.0),)
 
     def rate(self, local):
