@@ -11,3 +11,7 @@ def test_what_is_small_is_told_to_a_twentieth(form):
     for value in np.geomspace(1e-12, 1e6, 400):
         assert float(readable(value, form)) == pytest.approx(value, rel=0.051, abs=0)
         assert float(readable(-value, form)) == pytest.approx(-value, rel=0.051, abs=0)
+
+
+def test_below_a_million_a_number_is_written_out():
+    assert [readable(value, ".3g") for value in (1263.0, 12.5e3, 2e6)] == ["1260", "12500", "2e+06"]

@@ -21,7 +21,7 @@ def test_it_is_a_complete_distribution(kind, name, tmp_path):
     folder, names = tmp_path / name, plugin_names(name)
     written = write_plugin(name, kind, folder)
     assert written == sorted(p for p in folder.rglob("*") if p.is_file())
-    assert {"LICENSE", ".gitignore"} < {p.name for p in written}
+    assert {"LICENSE", ".gitignore", "py.typed"} < {p.name for p in written}
     project = tomllib.loads((folder / "pyproject.toml").read_text())["project"]
     assert project["name"] == name
     assert not re.match("A [aeiou]", project["description"])

@@ -51,7 +51,12 @@ def test_it_prints_estimates_with_intervals_and_what_to_run(done):
 
 def test_json_is_finite_and_in_si_units(asked):
     data = json.loads(asked("--json").stdout, parse_constant=pytest.fail)
+    keys = "level runs parameters data predictions chi_square degrees_of_freedom p_value notes bic "
+    keys += "findings repeatability repeatability_estimated correlation singular_values left_out "
+    assert {*data} == {*keys.split(), "fitted"}
     ball, _ = data["parameters"]
+    estimate = "path unit value lower upper resolution_share resolution_limit held limited"
+    assert list(ball) == estimate.split()
     assert tomllib.loads(data["fitted"][""])["bodies"]["ball"]["wear"]["k"] == pytest.approx(
         ball["value"], rel=1e-6, abs=0
     )
