@@ -1,12 +1,9 @@
 """Contact problems with a known answer."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tribo.contact.dcfft import DcFft
-from tribo.core.arrays import Array
-from tribo.core.contact import ContactProblem, ContactSystem, WearCompliance
+from tribo.core.contact import ContactProblem, ContactSystem
 from tribo.core.grid import Grid
 
 MODULUS = 207e9 / (2 * (1 - 0.3**2))
@@ -17,34 +14,34 @@ ONSET = np.pi**3 * RADIUS**2 * HARDNESS**3 / (6 * MODULUS**2)
 
 
 def problem(
-    gap: Array,
-    size: tuple[float, float],
-    load: float,
-    cap: float | None = None,
-    wear: WearCompliance | None = None,
-) -> ContactProblem:
+    gap,
+    size,
+    load,
+    cap=None,
+    wear=None,
+):
     cells = (gap.shape[0], gap.shape[1])
     system = ContactSystem(Grid(size, cells), MODULUS, load, cap)
     return ContactProblem(system, gap, load, wear)
 
 
 def ball(
-    cells: int,
-    load: float = 100.0,
-    cap: float | None = None,
-    radii: tuple[float, float] = (RADIUS, RADIUS),
-    width: float = 0.8e-3,
-) -> ContactProblem:
+    cells,
+    load=100.0,
+    cap=None,
+    radii=(RADIUS, RADIUS),
+    width=0.8e-3,
+):
     x, y = Grid((width, width), (cells, cells)).mesh
     gap = x**2 / (2 * radii[0]) + y**2 / (2 * radii[1])
     return problem(gap, (width, width), load, cap)
 
 
-def solver(tolerance: float = 1e-8) -> DcFft:
+def solver(tolerance=1e-8):
     return DcFft(tolerance=tolerance)
 
 
-def dense(shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
+def dense(shape, spacing):
     """Love's influence of every cell on every cell, shape (n, n)."""
     i, j = (v.ravel() for v in np.indices(shape))
     x, y = i * spacing[0], j * spacing[1]

@@ -1,9 +1,6 @@
 """How many calls a solve, a step and a resolved step make: their cost, on any machine."""
 
-from __future__ import annotations
-
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -19,7 +16,7 @@ INLINED = {"<listcomp>", "<dictcomp>", "<setcomp>"}
 """What is a call up to Python 3.11."""
 
 
-def calls(function: Callable[[], object]) -> int:
+def calls(function):
     """Return how many calls of Python functions of tribo a call makes."""
     count = 0
 

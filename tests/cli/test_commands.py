@@ -68,13 +68,6 @@ def test_show_json_has_the_documented_shape(ran):
     assert first <= {*data["lab"]["first_contact"]}
 
 
-def test_show_prints_the_table_again(ran):
-    folder, done = ran
-    table, provenance = tribo("show", "my.h5", cwd=folder).stdout.split("\nMade with ")
-    assert table in done.stdout
-    assert "bodies.ball.wear: archard, tribo.wear.archard.Archard of tribo" in provenance
-
-
 @pytest.mark.parametrize("name", list(TEMPLATES))
 def test_a_template_names_the_next_command(tmp_path, name):
     done = tribo("new", name, "my.toml", cwd=tmp_path)

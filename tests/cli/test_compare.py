@@ -132,19 +132,3 @@ def test_the_time_of_a_run_that_was_killed_is_not_known(made):
     assert results[1]["totals"]["wall_time_s"] is None
     shown = CliRunner().invoke(tribo, ["show", str(files[1])])
     assert "contact solves.\n" in shown.stdout
-
-
-@pytest.mark.slow
-def test_names_of_files_are_shown_as_they_are_and_go_below_each_other(made):
-    names = list(made)
-    text = invoke(*made.values(), "--no-plots").stdout
-    lines = text.splitlines()
-    assert max(map(len, lines)) <= 80
-    words = [line.split() for line in lines]
-    assert [head for line in words for head in line if line[0] in names and head in names] == names
-    assert text.count("contact solves") == 2
-    assert "relative to [m]." in text
-    # Only one has other cells.
-    assert f"Note: {names[1]}: not on the grid of [m];" in text.replace("\n", " ")
-    assert row(text, "pressure sections")[0] == "–"
-    assert "pressure map" in text

@@ -82,17 +82,6 @@ def test_the_json_schema_accepts_what_validates_and_refuses_what_does_not(schema
     refuses(ball(wear), schema)
 
 
-def test_the_json_schema_discriminates_by_a_required_type(schema):
-    choice, names = schema["$defs"]["wear_law"]["anyOf"]
-    mapping = {name: f"#/$defs/{name}" for name in ("blend", "linear", "none")}
-    assert choice["discriminator"] == {"propertyName": "type", "mapping": mapping}
-    assert names == {"type": "string", "enum": ["none"]}
-    linear = schema["$defs"]["linear"]
-    assert linear["required"] == ["type", "k"]
-    k = linear["properties"]["k"]
-    assert (k["description"], k["x-unit"]) == ("Coefficient.", "1/Pa")
-
-
 def test_the_json_schema_follows_the_registry():
     one = json_schema(dummies.Rig, dummies.registry(dummies.NoWear))
     jsonschema.validate(ball("none"), one)

@@ -76,13 +76,6 @@ def path(tmp_path):
     return path
 
 
-def test_a_case_is_read_from_a_file_with_changes(path):
-    case = load_case(path, overrides=["load.normal=50 N", "bodies.ball.wear.k=1e-15"])
-    assert case.load.normal == 50
-    assert case.bodies["ball"].wear.k == 1e-15
-    assert case.bodies["disk"].surface.type == "flat"
-
-
 def test_a_case_survives_being_written_and_read(path):
     case = load_case(path)
     for options in ({}, {"exclude_defaults": True}, {"exclude_unset": True}, {"mode": "json"}):

@@ -1,7 +1,5 @@
 """Conjugate gradients with bounds: conditions of contact, iterations, failure."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -11,20 +9,19 @@ from contact_problems import HARDNESS, MODULUS, ONSET, ball, dense
 from tribo.contact.bounded_cg import solve_bounded
 from tribo.contact.padded_half_space import HalfSpace
 from tribo.contact.residuals import residuals
-from tribo.core.arrays import Array
-from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
+from tribo.core.contact import WearCompliance
 from tribo.core.errors import CaseError, NumericalError
 
 SHAPE, SPACING = (14, 11), (2e-6, 3e-6)
 
 
-def _on_window(case: ContactProblem, start: Array | None = None) -> ContactSolution:
+def _on_window(case, start=None):
     grid = case.system.grid
     operator = HalfSpace(grid.cells, grid.spacing, MODULUS)
     return solve_bounded(operator, case.gap, case.load, case.system.cap, start=start)
 
 
-def _rough(seed: int, shape: tuple[int, int]) -> Array:
+def _rough(seed, shape):
     return 1e-7 * np.random.default_rng(seed).standard_normal(shape)
 
 
@@ -33,7 +30,7 @@ VARIED = 0.8 + 2 * np.random.default_rng(4).random(SHAPE)
 
 @pytest.mark.parametrize("cap", [None, 2.0, 1.05, VARIED], ids=["none", "high", "low", "varied"])
 @pytest.mark.parametrize("worn", [False, True])
-def test_conditions_hold_with_the_dense_matrix(cap: Array | float | None, worn: bool) -> None:
+def test_conditions_hold_with_the_dense_matrix(cap, worn):
     gap, load = _rough(3, SHAPE), 0.3
     area = SPACING[0] * SPACING[1]
     limit = None if cap is None else cap * load / (area * gap.size)
@@ -62,7 +59,7 @@ def test_conditions_hold_with_the_dense_matrix(cap: Array | float | None, worn: 
 
 
 @pytest.mark.parametrize(("load", "cap"), [(100.0, None), (2 * ONSET, HARDNESS)])
-def test_iterations_hardly_grow_with_the_grid(load: float, cap: float | None) -> None:
+def test_iterations_hardly_grow_with_the_grid(load, cap):
     iterations = {}
     for cells in (64, 128, 256):
         case = ball(cells, load, cap, width=2e-3)
@@ -72,7 +69,7 @@ def test_iterations_hardly_grow_with_the_grid(load: float, cap: float | None) ->
     assert iterations[256] <= 1.5 * iterations[64]
 
 
-def test_a_similar_problem_starts_warm() -> None:
+def test_a_similar_problem_starts_warm():
     case = ball(128)
     first = _on_window(case)
     worn = case.gap + 1e-9 * first.pressure / first.pressure.max()
@@ -86,7 +83,7 @@ def test_a_similar_problem_starts_warm() -> None:
 
 @pytest.mark.parametrize("cap", [1.02, 1.3, 3.0])
 @pytest.mark.parametrize("load", [1e-6, 1e-2, 10.0])
-def test_rough_surfaces_near_full_plasticity_converge(load: float, cap: float) -> None:
+def test_rough_surfaces_near_full_plasticity_converge(load, cap):
     shape = (96, 96)
     operator = HalfSpace(shape, (1e-6, 1e-6), MODULUS)
     solution = solve_bounded(operator, _rough(0, shape), load, cap * load / 96**2 / 1e-12)
@@ -99,13 +96,13 @@ def test_rough_surfaces_near_full_plasticity_converge(load: float, cap: float) -
 class _Counted(HalfSpace):
     calls = 0
 
-    def apply(self, pressure: Array) -> Array:
+    def apply(self, pressure):
         self.calls += 1
         return super().apply(pressure)
 
 
 @pytest.mark.parametrize(("seed", "cap"), [(18, 1.5), (0, None), (0, 1.05)])
-def test_an_iteration_costs_one_call_of_the_operator(seed: int, cap: float | None) -> None:
+def test_an_iteration_costs_one_call_of_the_operator(seed, cap):
     gap, load = _rough(seed, (8, 8)), 2 / 15
     limit = None if cap is None else cap * load / 64e-12
     operator = _Counted((8, 8), (1e-6, 1e-6), MODULUS)
@@ -117,7 +114,7 @@ def test_an_iteration_costs_one_call_of_the_operator(seed: int, cap: float | Non
     assert operator.calls == first.iterations + again.iterations + 2
 
 
-def test_an_open_gap_at_the_cap_is_a_residual() -> None:
+def test_an_open_gap_at_the_cap_is_a_residual():
     p, gap = np.array([[2.0, 1.0]]), np.array([[1e-6, 0.0]])
     at_cap = residuals(p, gap, np.full((1, 2), 1e-5), 1e-5, 3.0, 2.0)
     assert at_cap.complementarity == pytest.approx(2.0 * 1e-6 / (3.0 * 1e-5))
@@ -125,7 +122,7 @@ def test_an_open_gap_at_the_cap_is_a_residual() -> None:
     assert overlapping.complementarity == 0.0
 
 
-def test_one_spike_carries_a_small_load_alone() -> None:
+def test_one_spike_carries_a_small_load_alone():
     gap = np.full((9, 9), 1e-3)
     gap[4, 6] = 0.0
     operator = HalfSpace((9, 9), (1e-6, 1e-6), MODULUS)
@@ -136,7 +133,7 @@ def test_one_spike_carries_a_small_load_alone() -> None:
     assert solution.approach == pytest.approx(1e9 * own, rel=1e-12, abs=0)
 
 
-def test_not_converging_says_how_far_it_came_and_what_to_do() -> None:
+def test_not_converging_says_how_far_it_came_and_what_to_do():
     case = ball(64)
     operator = HalfSpace((64, 64), case.system.grid.spacing, MODULUS)
     with pytest.raises(NumericalError, match=r"3 iterations.*residual is .*Raise max_iterations"):
@@ -151,15 +148,13 @@ def test_not_converging_says_how_far_it_came_and_what_to_do() -> None:
         (np.nan, 1.0, NumericalError, "not finite"),
     ],
 )
-def test_gap_and_load_are_checked(
-    gap: float, load: float, error: type[Exception], match: str
-) -> None:
+def test_gap_and_load_are_checked(gap, load, error, match):
     operator = HalfSpace((4, 4), (1e-6, 1e-6), MODULUS)
     with pytest.raises(error, match=match):
         solve_bounded(operator, np.full((4, 4), gap), load)
 
 
-def test_a_load_that_no_cell_bears_in_rounding_is_said_to_be_too_small() -> None:
+def test_a_load_that_no_cell_bears_in_rounding_is_said_to_be_too_small():
     case = ball(32)
     with pytest.raises(NumericalError, match="no cell is in contact: the load is so small"):
         _on_window(replace(case, load=1e-50))

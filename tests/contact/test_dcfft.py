@@ -1,7 +1,5 @@
 """The `dcfft` solver: active window, first guess, symmetry."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -11,12 +9,12 @@ from contact_problems import HARDNESS, MODULUS, ONSET, RADIUS, ball, problem, so
 from tribo.contact.bounded_cg import solve_bounded
 from tribo.contact.padded_half_space import HalfSpace
 from tribo.core.box import around
-from tribo.core.contact import ContactProblem, ContactSolution, WearCompliance
+from tribo.core.contact import WearCompliance
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 
 
-def _on_window(case: ContactProblem, tolerance: float) -> ContactSolution:
+def _on_window(case, tolerance):
     grid = case.system.grid
     operator = HalfSpace(grid.cells, grid.spacing, case.system.modulus)
     return solve_bounded(
@@ -24,7 +22,7 @@ def _on_window(case: ContactProblem, tolerance: float) -> ContactSolution:
     )
 
 
-def _worn(case: ContactProblem) -> ContactProblem:
+def _worn(case):
     unit = case.system.grid.spacing[0] / MODULUS
     nx, ny = case.system.grid.cells
     wear = WearCompliance(np.full((nx, ny), 5 * unit), np.full(ny, unit / 1e-4))
@@ -41,14 +39,14 @@ def _worn(case: ContactProblem) -> ContactProblem:
     ],
     ids=["elastic", "odd", "capped", "worn"],
 )
-def test_active_window_gives_the_pressure_of_the_whole_window(case: ContactProblem) -> None:
+def test_active_window_gives_the_pressure_of_the_whole_window(case):
     boxed, whole = solver(1e-11).solve(case), _on_window(case, 1e-11)
     assert boxed.pressure == pytest.approx(whole.pressure, abs=1e-7 * whole.pressure.max())
     assert boxed.overlap == pytest.approx(whole.overlap, abs=1e-7 * whole.approach)
     assert boxed.approach == pytest.approx(whole.approach, rel=1e-10, abs=0)
 
 
-def test_contact_far_from_the_start_is_found() -> None:
+def test_contact_far_from_the_start_is_found():
     size, cells = (2e-3, 1e-3), (128, 64)
     x, y = Grid(size, cells).mesh
     left = ((x + 0.6e-3) ** 2 + y**2) / (2 * RADIUS)
@@ -63,7 +61,7 @@ def test_contact_far_from_the_start_is_found() -> None:
     assert found.pressure == pytest.approx(whole.pressure, abs=1e-7 * whole.pressure.max())
 
 
-def test_same_problem_and_start_give_the_same_bits_whatever_came_between() -> None:
+def test_same_problem_and_start_give_the_same_bits_whatever_came_between():
     case = ball(96, width=1.2e-3)
     one = solver()
     first = one.solve(case)
@@ -74,7 +72,7 @@ def test_same_problem_and_start_give_the_same_bits_whatever_came_between() -> No
     assert np.array_equal(one.solve(case, first).pressure, again.pressure)
 
 
-def test_box_encloses_its_cells_with_the_margin_and_few_sizes() -> None:
+def test_box_encloses_its_cells_with_the_margin_and_few_sizes():
     rng = np.random.default_rng(0)
     sizes = set()
     for _ in range(300):
@@ -91,7 +89,7 @@ def test_box_encloses_its_cells_with_the_margin_and_few_sizes() -> None:
     assert len(sizes) < 25
 
 
-def test_window_too_small_for_the_load_is_an_error_that_says_so() -> None:
+def test_window_too_small_for_the_load_is_an_error_that_says_so():
     case = ball(48, ONSET, HARDNESS, width=0.9 * float(np.sqrt(ONSET / HARDNESS)))
     for refused in (solver().solve, lambda case: solver().check(case.system)):
         with pytest.raises(CaseError, match=r"bears no more than .* enlarge grid\.size"):

@@ -1,7 +1,5 @@
 """Love's kernel and the operator made from it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from contact_problems import MODULUS, dense
@@ -12,7 +10,7 @@ from tribo.contact.padded_half_space import HalfSpace
 SHAPE, SPACING = (7, 10), (2e-6, 3e-6)
 
 
-def test_square_cell_under_itself_sinks_by_4_ln_1_plus_root_2_over_pi() -> None:
+def test_square_cell_under_itself_sinks_by_4_ln_1_plus_root_2_over_pi():
     kernel = wrapped_kernel((8, 8), (1.0, 1.0))
     assert kernel[0, 0] == pytest.approx(4 * np.log(1 + np.sqrt(2)) / np.pi, rel=1e-14, abs=0)
     assert kernel[0, 1] == pytest.approx(0.330421, abs=1e-6)
@@ -20,19 +18,19 @@ def test_square_cell_under_itself_sinks_by_4_ln_1_plus_root_2_over_pi() -> None:
 
 
 @pytest.mark.parametrize(("spacing", "expected"), [((1.0, 1.0), 0.58069), ((2.0, 2.0), 1.16139)])
-def test_smallest_compliance_of_square_cells(spacing: tuple[float, float], expected: float) -> None:
+def test_smallest_compliance_of_square_cells(spacing, expected):
     assert nyquist_compliance(spacing) == pytest.approx(expected, abs=1e-5)
 
 
 @pytest.mark.parametrize("spacing", [(1.0, 1.0), (1.0, 2.5), (3.0, 1.0)])
-def test_no_pressure_is_stiffer_than_the_chequerboard(spacing: tuple[float, float]) -> None:
+def test_no_pressure_is_stiffer_than_the_chequerboard(spacing):
     smallest = np.linalg.eigvalsh(dense((16, 16), spacing)).min() * MODULUS
     # A finite grid approaches its limit from above.
     assert 1.0 < smallest / nyquist_compliance(spacing) < 1.05
 
 
 @pytest.mark.parametrize("shape", [SHAPE, (1, 1), (1, 6), (8, 8)])
-def test_half_space_is_the_direct_sum_over_cells(shape: tuple[int, int]) -> None:
+def test_half_space_is_the_direct_sum_over_cells(shape):
     p = np.random.default_rng(0).random(shape)
     direct = (dense(shape, SPACING) @ p.ravel()).reshape(shape)
     operator = HalfSpace(shape, SPACING, MODULUS)
@@ -40,7 +38,7 @@ def test_half_space_is_the_direct_sum_over_cells(shape: tuple[int, int]) -> None
 
 
 @pytest.mark.parametrize("shape", [(8, 8), (1, 40), (3, 200), (96, 20), (64, 64)])
-def test_symbol_is_positive_on_any_box(shape: tuple[int, int]) -> None:
+def test_symbol_is_positive_on_any_box(shape):
     symbol = HalfSpace(shape, (1e-6, 4e-6), MODULUS).symbol()
     assert symbol.shape == (shape[0], shape[1] // 2 + 1)
     assert symbol.min() > 0

@@ -5,16 +5,13 @@ import re
 import tomllib
 
 import pytest
-from click.testing import CliRunner
 
 import tribo
 from tribo import CaseError
-from tribo.cli.materials import materials as command
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.material import Material, materials
 from tribo.core.units import quantities
-from tribo.study.check import check_case
 from tribo.templates import template
 
 BALL = tomllib.loads(template("ball_on_disk"))
@@ -118,18 +115,3 @@ def test_a_package_offers_materials_in_a_file_and_is_left_out_if_that_is_wrong(
     monkeypatch.setattr("tribo.registry.registry.material_files", lambda: [wrong])
     with pytest.warns(tribo.TriboWarning, match="materials.toml is left out"):
         assert tribo.materials["WC"].poisson == 0.24
-
-
-def test_check_shows_the_ranges_of_numbers_that_the_name_gave():
-    changes = {"bodies.ball.material": {"name": "100Cr6", "hardness": "5 GPa"}, "grid.cells": 32}
-    words = dict(check_case(validate_case(apply_settings(BALL, changes))).rows)["material of ball"]
-    assert "190 GPa to 210 GPa" in words
-    assert "hardness" not in words
-
-
-def test_the_command_prints_ranges_and_sources():
-    shown = CliRunner().invoke(command, ["ptfe"]).output
-    assert "  young: 400 MPa to 800 MPa\n    Properties of fluoroplastics" in shown
-    assert "  wear: 4.03e-6 mm^3/(N m) to 5.04e-5 mm^3/(N m)\n" in shown
-    steels = json.loads(CliRunner().invoke(command, ["Steel", "--json"]).output)
-    assert {"100Cr6", "C45", "304"} <= steels.keys() < KNOWN.keys()

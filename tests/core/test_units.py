@@ -4,10 +4,9 @@ import math
 from itertools import product
 from typing import Annotated
 
-import jsonschema
 import pint
 import pytest
-from pydantic import BaseModel, TypeAdapter, ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from tribo.core.errors import CaseError
 from tribo.core.units import Quantity, parse
@@ -138,28 +137,3 @@ def test_an_example_is_a_usual_value(quantity):
 
 def test_a_bound_that_is_included_is_allowed():
     assert Quantity("m", at_least=0).read(0) == 0
-
-
-class Ball(BaseModel):
-    radius: Annotated[float, Quantity("m", above=0)]
-    hardness: Annotated[float, Quantity("Pa", above=0)] | None = None
-
-
-def test_a_model_keeps_si_floats_round_trips_and_names_the_field_that_is_wrong():
-    ball = Ball.model_validate({"radius": "5 mm", "hardness": "4 GPa"})
-    assert (ball.radius, ball.hardness) == (5e-3, 4e9)
-    assert Ball.model_validate_json(ball.model_dump_json()) == ball
-    with pytest.raises(ValidationError) as caught:
-        Ball.model_validate({"radius": 1, "hardness": "4 mm"})
-    assert [error["loc"] for error in caught.value.errors()] == [("hardness",)]
-
-
-def test_json_schema_takes_a_number_or_text_and_states_the_unit():
-    schema = TypeAdapter(Annotated[float, Quantity("Pa", above=0)]).json_schema()
-    assert schema["x-unit"] == "Pa"
-    jsonschema.Draft202012Validator.check_schema(schema)
-    jsonschema.validate(4e9, schema)
-    jsonschema.validate("4 GPa", schema)
-    for wrong in (0, None):
-        with pytest.raises(jsonschema.ValidationError):
-            jsonschema.validate(wrong, schema)

@@ -13,18 +13,5 @@ def test_what_is_small_is_told_to_a_twentieth(form):
         assert float(readable(-value, form)) == pytest.approx(-value, rel=0.051, abs=0)
 
 
-@pytest.mark.parametrize(
-    ("value", "form", "said"),
-    [
-        (187.0, ".2g", "190"),
-        (1263.0, ".3g", "1260"),
-        (12.5e3, ".3g", "12500"),
-        (2e6, ".2g", "2e+06"),
-    ],
-)
-def test_below_a_million_a_number_is_written_out(value, form, said):
-    assert readable(value, form) == said
-
-
-def test_what_is_large_keeps_its_format_and_nothing_is_0():
-    assert [readable(value, ".2f") for value in (0.0, 24.331)] == ["0.00", "24.33"]
+def test_below_a_million_a_number_is_written_out():
+    assert [readable(value, ".3g") for value in (1263.0, 12.5e3, 2e6)] == ["1260", "12500", "2e+06"]

@@ -5,7 +5,6 @@ import pytest
 
 from tribo.core.errors import BadValues, PluginError
 from tribo.integration.division import integrated
-from tribo.integration.integrator import retraced, transposed
 from tribo.integration.kept import Kept, Sum
 
 ANY = Kept("a", "a test")
@@ -186,87 +185,3 @@ def test_state_and_sum_follow_the_closed_form(first, rates, state, total, length
     (last,), (summed,) = found.values, found.sums
     assert last[0, 0] == pytest.approx(state(length), rel=3e-5, abs=0)
     assert summed[0, 0] == pytest.approx(total(length), rel=3e-5, abs=0)
-
-
-@pytest.mark.parametrize("length", LENGTHS[:-1])
-def test_debris_that_stays_bears_part_of_the_load_that_wears(length):
-    def rates(values, *_):
-        return [np.exp(-values[0]), np.exp(-values[0])]
-
-    found = integrated(rates, [0 * ONE], length, [FREE], ONE_SUM)
-    (last,), (summed,) = found.values, found.sums
-    assert last[0, 0] == pytest.approx(np.log1p(length), rel=3e-5, abs=0)
-    assert summed[0, 0] == pytest.approx(np.log1p(length), rel=3e-5, abs=0)
-
-
-SEEDS = [np.array([each]) for each in ([1.0, -2.0, 0.5], [0.3, 1.0, -1.0], [2.0, 1.0, 1.0])]
-"""Derivatives of an objective in two states, and in a sum."""
-
-
-def weighed(parts):
-    """Return what an objective with these derivatives is at the end of some parts."""
-    ends = [*parts[-1].end[:2], sum(part.end[2] for part in parts)]
-    return sum(float(np.sum(seed * end)) for seed, end in zip(SEEDS, ends, strict=True))
-
-
-def by_state(objective, begin, state, point, nudge):
-    """Return its derivative in one of two states at a point, by a difference."""
-    by = np.zeros((1, 3))
-    by[0, point] = nudge
-    ends = [[*begin], [*begin]]
-    ends[0][state], ends[1][state] = begin[state] + by, begin[state] - by
-    higher, lower = map(objective, ends)
-    return (higher - lower) / (2 * nudge)
-
-
-def test_the_transpose_is_the_derivative_where_states_relax_and_pass_breaks():
-    begin = [np.array([[0.1, 0.45, 0.9]]), np.array([[0.0, 0.5, 2.0]])]
-    k, states = np.array([1.0, 4.0, 0.5]), {}
-
-    def along(breaks, factor=1.0):
-        def rates(values, passed):
-            depth, worked = values
-            here = np.searchsorted(breaks, depth, side="right")
-            rate = factor * k[here] * (1 + np.exp(-worked))
-            found = [rate, 1 + 0.1 * depth - worked**2, rate]
-            states[id(found)] = found, here, worked, factor
-            return found
-
-        return rates
-
-    def parts(start, breaks, factor=1.0):
-        kept = [Kept("a", "a test", breaks=breaks), ANY]
-        rates, length = along(breaks, factor), 0.7
-        plan = ((0.25, False), (0.75, True))
-        first = rates(start, 0.0)
-        return retraced(rates, start, first, length, kept, [Sum("")], plan)
-
-    def objective(start, breaks=(0.5, 1.3), factor=1.0):
-        return weighed(parts(start, breaks, factor))
-
-    asked = []
-
-    def behind(found, given):
-        _, here, worked, factor = states[id(found)]
-        of_depth, of_worked, of_sum = given
-        of_rate = of_depth + of_sum
-        asked.append(float(np.sum(of_rate * found[0])))
-        by_worked = -factor * k[here] * np.exp(-worked) * of_rate - 2 * worked * of_worked
-        return [0.1 * of_worked, by_worked]
-
-    breaks = (0.5, 1.3)
-    found = transposed(parts(begin, breaks), SEEDS[:2], [(Sum(""), SEEDS[2])], behind)
-    for state in (0, 1):
-        for point in range(3):
-            needed = by_state(objective, begin, state, point, 1e-6)
-            assert found.states[state][0, point] == pytest.approx(needed, rel=1e-6, abs=1e-7)
-    for each in (0, 1):
-        ends = [[*breaks], [*breaks]]
-        ends[0][each] += 1e-6
-        ends[1][each] -= 1e-6
-        higher, lower = (objective(begin, tuple(end)) for end in ends)
-        needed = (higher - lower) / 2e-6
-        assert needed != 0
-        assert np.sum(found.breaks[0][each]) == pytest.approx(needed, rel=1e-6)
-    needed = (objective(begin, breaks, 1 + 1e-6) - objective(begin, breaks, 1 - 1e-6)) / 2e-6
-    assert sum(asked) == pytest.approx(needed, rel=1e-6)

@@ -6,7 +6,7 @@ from importlib.resources import files
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from made_results import made, written
+from made_results import made
 
 import tribo
 from tribo import Simulation, load_case
@@ -129,13 +129,3 @@ def test_json_has_the_roughness_and_the_track_of_each_body_at_each_save(path):
     assert x[-1] - x[0] == pytest.approx(2e-3 - 1e-3 / 32, rel=1e-9, abs=0)
     assert max(depth) == pytest.approx(disk["max_wear_depth_m"], rel=0.5, abs=0)
     assert depth[0] == depth[-1] == 0
-
-
-def test_the_table_has_roughness_of_rough_bodies_only(path, tmp_path):
-    assert "ball: scar" in shown(path)
-    assert "Roughness" not in shown(written(tmp_path / "smooth.h5"))
-
-
-def test_the_part_of_the_contact_at_the_hardness_is_told(tmp_path):
-    assert "At the hardness" not in shown(written(tmp_path / "elastic.h5"))
-    assert "At the hardness" in shown(written(tmp_path / "soft.h5", cap=4e8, relief=2e-7))

@@ -18,15 +18,6 @@ def worn_ball(cells=(240, 260), case=EQUAL):
     return np.maximum(half**2 - grid.x[:, None] ** 2, 0.0) / (2 * R), grid
 
 
-def test_scar_of_a_worn_ball():
-    depth, grid = worn_ball()
-    worn = ball_on_track([360.0], **EQUAL)
-    # A tenth of a cell.
-    widths = 2 * worn.half_width_along[0], 2 * worn.half_width_across[0]
-    assert scar(depth, grid) == pytest.approx(widths, abs=5e-7)
-    assert scar(np.zeros((5, 4)), Grid((1e-3, 1e-3), (5, 4))) == (0.0, 0.0)
-
-
 def test_a_ball_that_also_touches_the_ends_of_its_track_has_the_scar_that_is_seen():
     grid = Grid((2e-3, 1e-3), (200, 100))
     x, y = grid.mesh
@@ -55,18 +46,6 @@ def test_an_even_wear_ends_between_worn_and_unworn_cells():
     depth[3:9, 0:5] = 1e-6
     assert diameter(depth, 0, 1.0) == pytest.approx(6.0)
     assert diameter(depth, 1, 1.0) == pytest.approx(5.0)
-
-
-def test_crown_is_the_depth_of_the_groove_across_and_nothing_along():
-    depth, grid = worn_ball()
-    x, y = grid.mesh
-    height = -(x**2 + y**2) / (2 * R) - depth
-    row, column = grid.cells[0] // 2, grid.cells[1] // 2
-    worn = ball_on_track([360.0], **EQUAL)
-    across = crown(height[row], depth[row])
-    assert across == pytest.approx(worn.flat_depth[0], rel=1e-3, abs=0)
-    assert crown(height[:, column], depth[:, column]) == pytest.approx(0.0, abs=1e-12)
-    assert crown(height[row], np.zeros_like(depth[row])) == 0.0
 
 
 @pytest.mark.parametrize("cells", [(24, 24), (25, 25), (31, 30)])

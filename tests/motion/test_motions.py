@@ -1,6 +1,5 @@
 import math
 
-import numpy as np
 import pytest
 from paper_models import motion, small
 
@@ -30,15 +29,6 @@ def test_the_end_is_given_once(given):
         Reciprocating(stroke=1, frequency=1, **given)
 
 
-def test_sinusoidal_path_is_the_integral_of_the_speed():
-    motion = reciprocating(waveform="sinusoidal")
-    omega, amplitude = 2 * math.pi * 25, 1e-3
-    for end in (0.004, 0.0137, 0.033):
-        t = np.linspace(0, end, 200_001)
-        speed = np.abs(amplitude * omega * np.sin(omega * t))
-        assert motion.distance_at(end) == pytest.approx(np.trapezoid(speed, t), rel=1e-7)
-
-
 def test_the_last_body_is_swept_unless_named():
     exposures = reciprocating().exposures(GRID, ["ball", "disk"])
     assert isinstance(exposures["ball"], Stationary)
@@ -46,12 +36,6 @@ def test_the_last_body_is_swept_unless_named():
     assert exposures["disk"].length == 2e-3
     named = reciprocating(swept="ball").exposures(GRID, ["ball", "disk"])
     assert isinstance(named["ball"], Track)
-
-
-def test_a_disk_track_is_a_circumference():
-    motion = Unidirectional(speed="0.1 m/s", track_radius="16 mm", revolutions=10)
-    assert motion.track_extent == pytest.approx(2 * math.pi * 16e-3)
-    assert motion.distance_at(motion.end_time) == pytest.approx(10 * motion.track_extent)
 
 
 DISK = Unidirectional(speed="60 rpm", track_radius="16 mm", distance="500 laps")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribo import Case, CaseError, Grid, Planar, Simulation
+from tribo import Case, CaseError, Grid, Simulation
 
 GRID = Grid((0.9e-3, 1.6e-3), (36, 64))
 STEEL = {"young": "210 GPa", "poisson": 0.3, "hardness": "40 GPa"}
@@ -30,25 +30,6 @@ def case(surface=BALL, positions=49, **motion):
 
 
 TWO_TO_ONE = [(0, 0), (4e-4, 0), (4e-4, 2e-4), (0, 2e-4)]
-
-
-@pytest.mark.parametrize(
-    ("path", "extent", "across"),
-    [
-        ("circle", (4e-4, 4e-4), 0.5),
-        ("square", (4e-4, 4e-4), 0.5),
-        ("square", (4e-4, 2e-4), 1 / 3),
-        (TWO_TO_ONE, None, 1 / 3),
-        ([(0, 0), (4e-4, 0)], None, 0.0),
-    ],
-)
-def test_the_part_of_the_path_across_its_main_direction_is_exact(path, extent, across):
-    motion = Planar(path=path, extent=extent, speed=1.0, revolutions=1)
-    cycle = motion.cycle(GRID)
-    ways = np.array([position.heading for position in cycle])
-    shares = np.array([position.share for position in cycle])
-    tensor = np.einsum("p,pi,pj", shares, ways, ways)
-    assert np.linalg.eigvalsh(tensor)[0] == pytest.approx(across, abs=1e-12)
 
 
 @pytest.mark.parametrize("path", ["circle", "square", "eight", TWO_TO_ONE])
@@ -84,19 +65,6 @@ def test_the_middle_position_may_lie_at_an_end_of_the_path(path):
         assert plate.see(field, position).shape == GRID.cells
         row, column = plate.first_cell(position)
         assert plate.see(field, position)[0, 0] == field[row, column % 64]
-
-
-def test_a_path_to_and_fro_wears_as_a_stroke_does():
-    """Its positions lie in the middle of stretches, those of a stroke at the ends too."""
-    there = case(path=[(0, 0), (2e-4, 0), (-2e-4, 0)], extent=None, positions=64)
-    motion = {"type": "reciprocating", "stroke": 4e-4, "frequency": 25, "cycles": TURNS}
-    stroke = Case(**{**dict(there), "kinematics": {**motion, "positions": "cells"}})
-    there, stroke = (Simulation(each).run() for each in (there, stroke))
-    for name in ("pin", "plate"):
-        found, needed = (
-            each.field("wear_depth", len(each.times) - 1, name) for each in (there, stroke)
-        )
-        np.testing.assert_allclose(found, needed, rtol=0, atol=0.01 * needed.max())
 
 
 def test_what_cannot_be_is_refused():

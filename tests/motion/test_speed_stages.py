@@ -4,13 +4,7 @@ import numpy as np
 import pytest
 from paper_models import foundation, small
 
-from tribo import (
-    CaseError,
-    FrequencyStage,
-    Reciprocating,
-    SpeedStage,
-    Unidirectional,
-)
+from tribo import CaseError, FrequencyStage, Reciprocating, SpeedStage, Unidirectional
 
 STAGES = [
     SpeedStage(until=4, speed=0.1),

@@ -7,10 +7,7 @@ from made_results import made
 
 from tribo.core.errors import CaseError
 from tribo.lab.kept import KeptField, kept_fields
-from tribo.plotting.curves import (
-    history_curves,
-    sweep_curves,
-)
+from tribo.plotting.curves import history_curves, sweep_curves
 from tribo.plotting.history import history
 from tribo.plotting.profiles import field_map
 from tribo.study.sweeping.summary import curves_by, sweep_pictures

@@ -6,7 +6,6 @@ from made_results import GRID, made
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.plotting import overlays
 from tribo.plotting.overlays import comparison_picture, difference_map
 from tribo.result.export import profile
 
@@ -36,21 +35,6 @@ def test_a_map_is_the_result_less_the_first(results):
     assert figure.axes[0].get_title(loc="left") == "three less one, t = 3600 s"
     labels = [axes.child_axes[0].get_ylabel().split("\n")[0] for axes in figure.axes]
     assert labels == ["Pressure (MPa)", "Depth of ball (µm)"]
-
-
-def test_all_that_makes_sense_is_drawn(results, tmp_path, monkeypatch):
-    monkeypatch.setattr(overlays, "write_figures", lambda pictures, *_: [*pictures])
-    assert overlays.save_overlays(results, [0.0, 3600.0], tmp_path) == [
-        "comparison_0s",
-        "difference_2_0s",
-        "difference_3_0s",
-        "comparison_3600s",
-        "difference_2_3600s",
-        "difference_3_3600s",
-    ]
-    # Results that agree have no map of differences.
-    agreed = overlays.save_overlays({"one": made(), "same": made()}, [3600.0], tmp_path)
-    assert agreed == ["comparison_3600s"]
 
 
 def test_a_comparison_is_one_figure_of_all_that_is_worn(results):

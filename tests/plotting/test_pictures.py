@@ -66,22 +66,6 @@ def test_sections_hold_every_save_and_hertz_beside_the_first(result):
     assert names(figure.legends[0]) == set(curves(first[0])) | set(curves(later[0]))
 
 
-def test_a_first_pressure_that_dwarfs_the_later_ones_has_a_row_of_its_own(result):
-    later = 1e-6 * profile(result.field("pressure", 1), 0).max()
-    for axes in pressure_sections(result).figure().axes[2:]:
-        assert later < axes.get_ylim()[1] < 1.2 * later
-    assert len(pressure_sections(made((0.0, 1.0))).figure().axes) == 2
-
-
-@pytest.mark.parametrize("times", [(0.0, 1.0), TIMES])
-def test_sections_that_reach_the_hardness_mark_it(times):
-    figure = pressure_sections(made(times, cap=2e9)).figure()
-    first = figure.axes[0]
-    assert "hardness" in names(figure.legends[0])
-    np.testing.assert_allclose(curves(first)["hardness"][1], 2e3)
-    assert first.get_ylim()[1] > 2e3
-
-
 def test_the_map_is_the_pressure_from_zero_to_a_percentile_that_it_states(result):
     (axes,) = pressure_map(result, [1]).figure().axes
     (image,) = axes.images
@@ -96,14 +80,6 @@ def test_the_map_is_the_pressure_from_zero_to_a_percentile_that_it_states(result
     assert float(largest) == pytest.approx(result.saves()[1]["max_pressure_Pa"] / 1e6, rel=1e-3)
 
 
-def test_the_map_marks_the_ellipse_of_hertz(result):
-    figure = pressure_map(result).figure()
-    ((x, y),) = curves(figure.axes[0]).values()
-    assert names(figure.legends[0]) == {"Hertz, 0 s"}
-    hertz = hertz_contact(result.system)
-    np.testing.assert_allclose(np.hypot(x / hertz.half_width_x, y / hertz.half_width_y), 1e3)
-
-
 def test_worn_bodies_touch_but_do_not_overlap(result):
     along, across = (
         axes.lines[0].get_ydata() - axes.lines[1].get_ydata()
@@ -113,15 +89,6 @@ def test_worn_bodies_touch_but_do_not_overlap(result):
     # They come together within the scar, to less than the ball's sag over a cell.
     sag = 1e6 * half_width(3600.0) * GRID.spacing[1] / 5e-3
     assert across.min() < sag
-
-
-def test_the_swept_body_lies_below_and_depths_of_scars_are_stated():
-    result = made(swept=(True, False))
-    along, _ = worn_section(result).figure().axes
-    for name, text in zip(("disk", "ball"), along.texts, strict=True):
-        value, unit = text.get_text().removeprefix(f"{name}: ").removesuffix(" deep").split()
-        expected = result.body(name).wear_depth[-1].max() * {"µm": 1e6, "nm": 1e9}[unit]
-        assert float(value) == pytest.approx(expected, rel=1e-2)
 
 
 def test_volume_and_mass_are_the_histories_over_time_and_distance(result):

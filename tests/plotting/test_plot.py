@@ -65,15 +65,6 @@ def test_what_is_not_there_is_answered_with_what_is(draw, there, result):
         result.plot.scars  # noqa: B018
 
 
-def test_the_table_of_pandas_has_the_units_of_the_lab(result):
-    table, saves = result.to_dataframe(), result.saves()
-    np.testing.assert_allclose(table["time (s)"], TIMES)
-    np.testing.assert_allclose(table["p max (MPa)"], [1e-6 * s["max_pressure_Pa"] for s in saves])
-    depths = [1e6 * save["bodies"]["ball"]["max_wear_depth_m"] for save in saves]
-    np.testing.assert_allclose(table["ball depth (µm)"], depths)
-    assert [*table][-2:] == ["ball depth (µm)", "disk depth (µm)"]
-
-
 @pytest.mark.slow
 def test_an_animation_has_a_frame_for_each_saved_time(result, tmp_path):
     with Image.open(save_animation(result, tmp_path / "new" / "run.gif")) as image:

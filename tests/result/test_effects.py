@@ -1,16 +1,13 @@
 """What effects compute is kept in the result, for the pressure saved with it."""
 
 import csv
-import json
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from paper_models import StopAfter, small
 from strangers.oxidation import OXIDE, OxideFilm
 
 from tribo import CaseError, Field, Interrupted, Result, Simulation, TriboError
-from tribo.cli.show import show
 from tribo.result.export import si_tables, write_tables
 from tribo.result.summary import summary
 
@@ -58,15 +55,6 @@ def test_its_largest_value_and_its_mean_are_exported_with_the_saves(path, tmp_pa
         of = "bodies.ball.effects"
         assert float(row[f"{of}.max_{OXIDE}"]) == pytest.approx(film.max(), rel=1e-9)
         assert float(row[f"{of}.mean_{OXIDE}"]) == pytest.approx(film[film > 0].mean(), rel=1e-9)
-
-
-def test_json_has_its_range_at_each_save(path):
-    shown = CliRunner().invoke(show, [str(path), "--json"])
-    saves = json.loads(shown.stdout)["saves"]
-    for save in saves:
-        low, high = (save["bodies"]["ball"]["effects"][OXIDE][key] for key in ("min", "max"))
-        assert low == 0
-        assert high == pytest.approx(expected(save["max_pressure_Pa"]), rel=1e-9, abs=0)
 
 
 def test_the_last_state_of_a_stopped_run_has_it_too(tmp_path):

@@ -57,15 +57,6 @@ def test_its_variables_are_attributes():
         assert {"pressure", "wear_volume", "history_time"} <= set(dir(result))
 
 
-def test_the_result_says_what_made_it(path):
-    with Result.open(path) as result:
-        made = result.provenance
-    assert {"tribo", "numpy", "scipy"} <= made["packages"].keys()
-    assert made["components"]["contact"]["class"] == "tribo.contact.dcfft.DcFft"
-    assert made["components"]["bodies.ball.wear"]["type"] == "archard"
-    assert made["components"]["contact"]["distribution"] == "tribo"
-
-
 def test_surfaces_and_volumes_belong_together(path):
     with Result.open(path) as result:
         ball = result.body("ball")
@@ -85,12 +76,6 @@ def test_the_history_has_a_row_a_step(path):
     assert np.all(np.diff(history["bodies.ball.wear_volume_m3"]) > 0)
 
 
-def test_a_result_says_what_it_is(path):
-    with Result.open(path) as result:
-        assert repr(result) == f"<Result {path}: done, 3 saves up to 200 s>"
-    assert repr(result) == f"<Result {path}: closed>"
-
-
 @pytest.mark.parametrize("save", [3, 17, -4])
 def test_a_save_out_of_range_is_refused_with_how_many_there_are(path, save):
     with Result.open(path) as result:
@@ -101,16 +86,6 @@ def test_a_save_out_of_range_is_refused_with_how_many_there_are(path, save):
         ball = result.body("ball")
     with pytest.raises(CaseError, match=f"'ball' has no save {save}; it has 3, counted from 0"):
         ball.surface(save)
-
-
-def test_the_wear_depth_of_a_save_is_that_of_the_body(path):
-    with Result.open(path) as result:
-        for name in ("ball", "disk"):
-            for save in (0, 2, -1):
-                expected = result.body(name).wear_depth[save]
-                np.testing.assert_array_equal(result.field("wear_depth", save, name), expected)
-        with pytest.raises(CaseError, match="has no body 'bal'; its bodies are ball, disk"):
-            result.field("wear_depth", 0, "bal")
 
 
 def test_a_save_is_found_by_its_time_within_rounding_and_as_it_is_printed():

@@ -1,15 +1,12 @@
 """Where each model of a result came from, and when it counts as another."""
 
-import io
 from typing import ClassVar
 
 import pytest
 from edited import edited
 from paper_models import archard, flat, named, small, steel
-from rich.console import Console
 
 from tribo import CaseError, Simulation
-from tribo.cli.lab_report import print_provenance
 from tribo.core.errors import PluginError
 from tribo.result.provenance import changed_components, origin, provenance, stated_facts
 from tribo.surfaces.forms import Sphere
@@ -37,18 +34,6 @@ def made(**changes):
     before = provenance({"contact": origin(archard())})
     before["components"]["contact"].update(changes)
     return before
-
-
-def test_show_prints_configuration_and_facts_of_each():
-    with Simulation(model().case).run() as result:
-        console = Console(file=io.StringIO(), width=60, highlight=False)
-        print_provenance(result, console)
-    text = console.file.getvalue()
-    lines = text.splitlines()
-    assert f", source code {origin(stated())['code'][:10]}\n" in text
-    at = next(i for i, line in enumerate(lines) if line.startswith("  bodies.ball.surface: sphere"))
-    assert lines[at + 1 : at + 3] == ["      radius = 0.005", "      serial number: 7"]
-    assert "      type" not in text
 
 
 def test_being_editable_is_no_change():

@@ -1,7 +1,5 @@
 """From nothing to a result: new, wheel, fresh environment, its own tests, a case."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil
@@ -26,7 +24,7 @@ COMPONENTS = {name: plugin_names(name)["component"] for name in NAMES.values()}
 ONLY = {**os.environ, "TRIBO_PLUGINS": ",".join(NAMES.values())}
 
 
-def run(*command: str | Path, folder: Path, code: int = 0) -> str:
+def run(*command, folder, code=0):
     sources = os.pathsep.join(map(str, folder.glob("*/src")))
     done = subprocess.run(
         command,
@@ -50,7 +48,7 @@ class Fresh:
 
 
 @pytest.fixture(scope="module")
-def fresh(tmp_path_factory: pytest.TempPathFactory) -> Fresh:
+def fresh(tmp_path_factory):
     scratch = tmp_path_factory.mktemp("plugins")
     folders = {kind: scratch / name for kind, name in NAMES.items()}
     for kind, folder in folders.items():
@@ -70,7 +68,7 @@ def fresh(tmp_path_factory: pytest.TempPathFactory) -> Fresh:
     return Fresh(python, folders, scratch)
 
 
-def test_their_own_tests_pass_untouched(fresh: Fresh) -> None:
+def test_their_own_tests_pass_untouched(fresh):
     quiet = ("-q", "-p", "no:cacheprovider", "--import-mode=importlib", "-W", "error")
     tests = [folder / "tests" for folder in fresh.folders.values()]
     said = run(fresh.python, "-m", "pytest", *quiet, *tests, folder=fresh.scratch)
@@ -93,7 +91,7 @@ LAW = '''
 '''
 
 
-def test_the_tests_pass_of_a_law_with_other_keys(fresh: Fresh, tmp_path: Path) -> None:
+def test_the_tests_pass_of_a_law_with_other_keys(fresh, tmp_path):
     copied = Path(shutil.copytree(fresh.folders["wear-law"], tmp_path / "other"))
     model = copied / "src" / "acme_fretting" / "fretting.py"
     before, _ = model.read_text().split("\n    examples")
@@ -106,7 +104,7 @@ def test_the_tests_pass_of_a_law_with_other_keys(fresh: Fresh, tmp_path: Path) -
     assert " passed" in said
 
 
-def test_their_types_are_right(fresh: Fresh) -> None:
+def test_their_types_are_right(fresh):
     code = [*fresh.scratch.glob("*/src"), *fresh.scratch.glob("*/tests/test_*.py")]
     # What mypy has found of tribo itself, if it was run here, it need not find again.
     kept = ("--cache-dir", ROOT / ".mypy_cache")
@@ -150,7 +148,7 @@ depth = "1 um"
 """
 
 
-def test_one_case_runs_with_all_of_them(fresh: Fresh) -> None:
+def test_one_case_runs_with_all_of_them(fresh):
     (fresh.scratch / "all.toml").write_text(CASE)
     run(fresh.python, "-m", "tribo", "run", "all.toml", "-o", "all.h5", folder=fresh.scratch)
     with Result.open(fresh.scratch / "all.h5") as result:
@@ -162,7 +160,7 @@ def test_one_case_runs_with_all_of_them(fresh: Fresh) -> None:
         assert used[component] == (name, "0.1.0")
 
 
-def test_an_installed_plugin_is_known_by_name_in_schema_and_messages(fresh: Fresh) -> None:
+def test_an_installed_plugin_is_known_by_name_in_schema_and_messages(fresh):
     schema = json.loads(run(fresh.python, "-m", "tribo", "schema", folder=fresh.scratch))
     types = {
         part["properties"]["type"]["const"]

@@ -20,28 +20,16 @@ EACH = pytest.mark.parametrize(("kind", "name"), [*zip(KINDS, NAMES.values(), st
 @EACH
 def test_it_is_a_complete_distribution(kind, name, tmp_path):
     folder, names = tmp_path / name, plugin_names(name)
-    package, module = names["package"], names["module"]
     written = write_plugin(name, kind, folder)
     assert written == sorted(p for p in folder.rglob("*") if p.is_file())
-    assert {p.relative_to(folder).as_posix() for p in written} == {
-        ".github/workflows/ci.yml",
-        ".gitignore",
-        "LICENSE",
-        "README.md",
-        "example.toml",
-        "pyproject.toml",
-        f"src/{package}/__init__.py",
-        f"src/{package}/py.typed",
-        f"src/{package}/{module}.py",
-        "tests/conftest.py",
-        f"tests/test_{module}.py",
-    }
+    assert {"LICENSE", ".gitignore", "py.typed"} < {p.name for p in written}
     project = tomllib.loads((folder / "pyproject.toml").read_text())["project"]
     assert project["name"] == name
     assert not re.match("A [aeiou]", project["description"])
     assert project["dependencies"][0] == "tribo>=0.2.dev0"
     assert not lacking("tribo>=0.2.dev0")
-    assert project["entry-points"] == {"tribo.2": {names["component"]: package}}
+    entry = {names["component"]: names["package"]}
+    assert project["entry-points"] == {"tribo.2": entry}
     assert (folder / "example.toml").read_text().strip() in (folder / "README.md").read_text()
     assert "${{ matrix.python }}" in (folder / ".github/workflows/ci.yml").read_text()
 

@@ -31,7 +31,6 @@ from tribo import (
     Interrupted,
     Scaled,
     Simulation,
-    Stage,
     Stop,
     WearLaw,
     WearRate,
@@ -61,30 +60,6 @@ def run_in(tmp_path_factory):
     path = tmp_path_factory.mktemp("run_in") / "run_in.h5"
     Simulation(worn_case(load=20.0, save_times=(4,))).run(path).close()
     return path
-
-
-def depths(result):
-    return {name: result.field("wear_depth", -1, name) for name in result.body_names}
-
-
-@pytest.mark.slow
-def test_it_goes_on_as_one_run_of_two_loads_would(run_in):
-    blocks = (Stage(until=10, normal=20), Stage(until=30, normal=100))
-    with (
-        Simulation(worn_case(begin=run_in)).run() as second,
-        Simulation(worn_case(duration=20, load=blocks)).run() as whole,
-    ):
-        for name, expected in depths(whole).items():
-            # Both are 0.8 % off the exact depth, and differ in the length of their steps only.
-            off = np.abs(depths(second)[name] - expected)
-            assert off.max() < 5e-4 * expected.max(), name
-        first, last = second.saves()
-        rate = second.report().bodies["disk"].specific_wear_rate_mm3_per_Nm
-    assert (first["time_s"], first["distance_m"]) == (0, 0)
-    assert first["load_distance_N_m"] == pytest.approx(20 * 10 * SPEED, rel=1e-12, abs=0)
-    volume = K * (20 + 100) * 10 * SPEED
-    assert last["bodies"]["ball"]["wear_volume_m3"] == pytest.approx(volume, rel=1e-10, abs=0)
-    assert rate == pytest.approx(1e9 * K, rel=1e-9, abs=0)
 
 
 @pytest.mark.slow

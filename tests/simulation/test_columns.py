@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from command_line import tribo
 from edited import bits
-from paper_models import K
+from paper_models import K, StopAfter
 
 from tribo import (
     CaseError,
@@ -59,14 +59,6 @@ class Mileage(Observer):
     def findings(self, snapshot):
         strokes = snapshot.columns["strokes"]
         return [Finding("stop", "enough", strokes, limit=self.most)] * (strokes >= self.most)
-
-
-class Stopper(Observer):
-    """Stops a run from outside after its fourth step."""
-
-    def on_step(self, snapshot):
-        if snapshot.state.steps == 4:
-            raise KeyboardInterrupt
 
 
 class Acme:
@@ -131,7 +123,7 @@ def test_a_finding_may_follow_from_a_column():
 def test_a_run_with_columns_resumes_to_the_same_bits_and_with_the_same_columns(tmp_path):
     path = tmp_path / "run.h5"
     with pytest.raises(Interrupted):
-        simulation(case(most=100.0)).run(path, observers=[Stopper()])
+        simulation(case(most=100.0)).run(path, observers=[StopAfter(steps=4)])
     with pytest.raises(CaseError, match="strokes"):
         simulation({**case(most=100.0), "observers": []}).resume(path, allow_changed=True)
     with simulation(case(most=100.0)).resume(path) as result:

@@ -35,18 +35,44 @@ def left_open(stroke="2 mm", grid=GRID, distance="360 m", stepping=None, **chang
     )
 
 
-@pytest.fixture(scope="module")
-def resolved():
-    return composed(left_open())
+def with_bodies(stroke, *bodies):
+    """Return a case left open of which some bodies are others."""
+    given = left_open(stroke)
+    return given.model_copy(update={"bodies": given.bodies | dict(bodies)})
+
+
+LINEAR = [{"at": -1e-3, "share": 0.5}, {"at": 1e-3, "share": 1.5}]
+ALONG = left_open(distance="0.1 m").model_copy(update={"load": Load(normal=100, along=LINEAR)})
+PIN = named("ball", Pin(radius="0.4 mm", edge="0.12 mm"), steel(), archard())
+WAVY = named("disk", Waves(amplitude="10 nm", wavelength="0.2 mm", along="x"), steel(), archard())
+WHOLE = "as what passes is not the same all along"
 
 
 @pytest.mark.parametrize(
-    ("stroke", "taken"), [("0.4 mm", 9), ("4 mm", 65), ("5.8 mm", 93), ("6 mm", "average")]
+    ("given", "taken", "words"),
+    [
+        # Long strokes are averaged and others resolved.
+        (left_open("0.4 mm"), 9, ""),
+        (left_open("4 mm"), 65, ""),
+        (left_open("5.8 mm"), 93, ""),
+        (left_open("6 mm"), "average", ""),
+        # A pin takes the positions that its first contact needs for one percent.
+        (with_bodies("2 mm", PIN), 37, ""),
+        (with_bodies("1.2 m", PIN), "average", ""),
+        (with_bodies("2 mm", *pair(archard())), "average", ""),
+        (left_open(stepping=Explicit(time_step=0.25)), "average", ""),
+        # What passes as a whole is resolved at each cell.
+        (left_open("0.58 mm", swept="ball"), 21, WHOLE),
+        (with_bodies("0.58 mm", WAVY), 21, WHOLE),
+        (ALONG, 33, "as the load changes along the stroke"),
+    ],
 )
-def test_long_strokes_are_averaged_and_others_resolved(stroke, taken):
-    model = composed(left_open(stroke))
+def test_the_positions_that_are_taken(given, taken, words):
+    model = composed(given)
     assert model.case.kinematics.positions == taken
     assert len(model.cycle) == (1 if taken == "average" else taken)
+    if words:
+        assert model.chosen.words.endswith(words)
 
 
 def test_the_choice_does_not_follow_the_grid():
@@ -69,14 +95,6 @@ def test_the_positions_taken_are_enough_for_one_percent():
     assert groove("average") > 1.1 * groove(99)
 
 
-def test_a_pin_takes_the_positions_that_its_first_contact_needs_for_one_percent():
-    pin = named("ball", Pin(radius="0.4 mm", edge="0.12 mm"), steel(), archard())
-    disk = named("disk", flat(), steel(), archard())
-    for stroke, count in (("2 mm", 37), ("1.2 m", 1)):
-        given = left_open(stroke).model_copy(update={"bodies": dict([pin, disk])})
-        assert len(composed(given).cycle) == count
-
-
 @pytest.mark.parametrize(("stroke", "count"), [("0.05 mm", 5), ("0.4 mm", 1), ("2 mm", 32)])
 def test_a_contact_without_ends_is_averaged_over_its_own_period_only(stroke, count):
     # Whatever the stroke, each of two bodies that repeat loses the same all over.
@@ -97,12 +115,6 @@ def test_a_contact_without_ends_is_averaged_over_its_own_period_only(stroke, cou
     assert len(model.cycle) == count
     mean = np.mean(last(model).bodies["disk"].wear)
     assert mean == pytest.approx(K * load * distance / edge**2, rel=1e-9, abs=0)
-
-
-def test_a_track_that_does_not_wear_is_averaged():
-    bodies = pair(archard())
-    still = left_open().model_copy(update={"bodies": dict(bodies)})
-    assert composed(still).case.kinematics.positions == "average"
 
 
 def test_the_choice_is_told_once_and_kept():
@@ -133,11 +145,6 @@ def test_what_leaves_nothing_open_costs_nothing(monkeypatch, kinematics):
     assert composed(case(kinematics=kinematics)).case.kinematics == kinematics
 
 
-def test_explicit_steps_average():
-    model = composed(left_open(stepping=Explicit(time_step=0.25)))
-    assert model.case.kinematics.positions == "average"
-
-
 def test_what_cannot_be_resolved_is_averaged_and_says_so(monkeypatch):
     monkeypatch.setattr(positions, "MOST", 21)
     model = composed(left_open())
@@ -149,18 +156,6 @@ def test_what_cannot_be_resolved_is_averaged_and_says_so(monkeypatch):
 def test_a_stroke_too_short_for_either_is_refused_for_its_cells():
     with pytest.raises(CaseError, match=r"kinematics\.stroke: 0\.05 mm is under two cells"):
         composed(left_open("0.05 mm"))
-
-
-def test_a_body_that_passes_as_a_whole_is_resolved_at_each_cell():
-    model = composed(left_open("0.58 mm", swept="ball"))
-    assert len(model.cycle) == 21
-    assert model.chosen.words.endswith("as what passes is not the same all along")
-    wavy = named(
-        "disk", Waves(amplitude="10 nm", wavelength="0.2 mm", along="x"), steel(), archard()
-    )
-    rough = left_open("0.58 mm")
-    rough = rough.model_copy(update={"bodies": {**rough.bodies, "disk": wavy[1]}})
-    assert len(composed(rough).cycle) == 21
 
 
 def test_cases_beside_each_other_take_the_positions_of_the_one_that_needs_most():
@@ -191,14 +186,6 @@ def test_cases_that_must_be_resolved_stay_so_beside_each_other():
     for others in ({}, {"averaged": averaged}):
         for each in alike({"must": must, **others}).values():
             assert each.kinematics.positions == count
-
-
-def test_a_load_that_changes_along_the_stroke_is_resolved_always():
-    along = ((-1e-3, 0.5), (1e-3, 1.5))
-    load = Load(normal=100, along=[{"at": at, "share": share} for at, share in along])
-    model = composed(left_open(distance="0.1 m").model_copy(update={"load": load}))
-    assert len(model.cycle) == 33
-    assert model.chosen.words.endswith("as the load changes along the stroke")
 
 
 @pytest.mark.parametrize("positions", ["average", 21])

@@ -8,15 +8,7 @@ from coated_pins import COATING, FAST, PRESSURE, SLOW, STEEL, THROUGH, K, coated
 from paper_models import goes_on
 from scipy.optimize import brentq
 
-from tribo import (
-    WORN_DEPTH,
-    Archard,
-    Case,
-    CaseError,
-    Simulation,
-    WearLaw,
-    WearRate,
-)
+from tribo import WORN_DEPTH, Archard, Case, CaseError, Simulation, WearLaw, WearRate
 from tribo.simulation.predict import predict
 
 SHARE = 0.1
@@ -49,25 +41,6 @@ def test_an_even_pressure_wears_through_at_the_exact_distance(stepping, name, sh
     (told,) = notices
     assert told.startswith(f"layer: at {10 * THROUGH / share:g} s ({THROUGH / share:g} m) layer 1 ")
     assert told.endswith(f"layer 1 of {name}, down to 2 µm, is worn through at its deepest point")
-
-
-def test_layers_in_one_step_each_wear_at_their_own_rate():
-    three = coated()
-    three["layers"] = [
-        {"thickness": "1 um", "wear": SLOW},
-        {"thickness": "2 um", "wear": FAST},
-        {"thickness": "0.5 um", "wear": {"type": "archard", "k": 0.5 * K}},
-    ]
-    at = np.cumsum([1e-6 / K, 2e-6 / (10 * K), 0.5e-6 / (0.5 * K)]) / PRESSURE
-    distance = 1.2 * at[-1]
-    long = {"depth_tolerance": 0.1, "pressure_tolerance": 1.0, "settle": 1.0}
-    last, notices, totals = ended(flat(pin=three, distance=distance, stepping=long))
-    exact = 3.5e-6 + 10 * K * PRESSURE * (distance - at[-1])
-    assert last["bodies"]["pin"]["max_wear_depth_m"] == pytest.approx(exact, rel=1e-9, abs=0)
-    assert [notice.split(") ")[0] for notice in notices] == [
-        f"layer: at {10 * each:.4g} s ({each:.4g} m" for each in at
-    ]
-    assert totals["steps"] < 20
 
 
 def test_the_hardness_of_a_layer_is_that_of_its_law():

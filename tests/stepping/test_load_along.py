@@ -1,11 +1,10 @@
 """A load that changes along the stroke, against a plain loop over its cells."""
 
-import numpy as np
 import pytest
-from paper_models import K, foundation, last, motion, small
+from paper_models import foundation, motion, small
 from stroke import GRID, STROKE
 
-from tribo import CaseError, Load, Periodic, Place, Stage
+from tribo import CaseError, Load, Periodic, Place
 
 HALVED = [(-6, 0.5), (-3, 1.0), (3, 1.0), (6, 0.5)]
 """Cells from the middle of the stroke, and the load there."""
@@ -19,21 +18,6 @@ def along(pairs=HALVED):
 def loaded(load, positions="cells", duration=200, **changes):
     kinematics = motion(stroke=STROKE, duration=duration, positions=positions)
     return small(grid=GRID, contact=foundation(), kinematics=kinematics, load=load, **changes)
-
-
-def test_the_volumes_are_those_of_the_mean_load_over_the_path_and_time():
-    stages = (Stage(until=5, normal=20), Stage(until=20, normal=100))
-    state = last(loaded(Load(normal=stages, along=along()), duration=20))
-    # Three cells of twelve at a mean of 0.75 on either side.
-    mean = 0.5 * 1 + 0.5 * 0.75
-    carried = mean * (20 * 5 + 100 * 15) * 2 * STROKE * 25
-    assert state.load_distance == pytest.approx(carried, rel=1e-12, abs=0)
-    for body in state.bodies.values():
-        volume = np.sum(body.wear) * GRID.cell_area
-        assert volume == pytest.approx(K * carried, rel=1e-10, abs=0)
-    loads = [np.sum(c.pressure) * GRID.cell_area for c in state.contacts]
-    shares = np.interp(np.arange(-6, 7), *zip(*HALVED, strict=True))
-    np.testing.assert_allclose(loads, 100 * shares, rtol=1e-8)
 
 
 @pytest.mark.parametrize(

@@ -3,18 +3,7 @@
 import numpy as np
 import pytest
 from edited import bits
-from paper_models import (
-    K,
-    archard,
-    flat,
-    foundation,
-    half_space,
-    motion,
-    named,
-    pair,
-    small,
-    steel,
-)
+from paper_models import K, archard, flat, foundation, half_space, motion, named, pair, small, steel
 
 from tribo import (
     FRICTION_COEFFICIENT,
@@ -151,17 +140,6 @@ def test_each_of_several_takes_its_part_of_what_the_others_leave():
 def test_more_than_the_load_is_refused():
     with pytest.raises(PluginError, match=r"'load_share' for body 'ball' that is 1\.5 somewhere"):
         run(effects=[Film(share=1.5)])
-
-
-def test_the_work_of_friction_is_that_of_the_load():
-    load = [{"at": 0, "normal": 50}, {"at": 20, "normal": 150}]
-    with run(friction_coefficient=0.3, load={"normal": load}) as result:
-        history = result.table("history")
-    work, force = history["friction_energy_J"], history["friction_force_N"]
-    np.testing.assert_allclose(work, 0.3 * history["load_distance_N_m"], rtol=1e-10)
-    np.testing.assert_allclose(force, 0.3 * history["load_N"], rtol=1e-10)
-    # ∫ μ F ds by hand.
-    assert work[-1] == pytest.approx(0.3 * 100 * result.distances[-1], rel=1e-10)
 
 
 def test_friction_may_follow_the_speed():

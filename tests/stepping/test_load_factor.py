@@ -106,18 +106,6 @@ def test_a_ball_under_a_load_that_falls_with_its_wear_is_that_of_a_closed_form_t
     assert 0 < off[1] < 0.01
 
 
-def test_the_volume_is_that_of_the_load_that_is_carried():
-    found = states(ball(Spring(relaxes=5e5)))
-    loads = [np.sum(each.contact.pressure) * GRID.cell_area for each in found]
-    slid = np.diff([each.distance for each in found])
-    # The load of a step is that at its start.
-    carried = float(np.sum(loads[:-1] * slid))
-    volume = float(np.sum(found[-1].bodies["ball"].wear)) * GRID.cell_area
-    assert loads[-1] < 60
-    assert found[-1].load_distance == pytest.approx(carried, rel=1e-8, abs=0)
-    assert volume == pytest.approx(K * found[-1].load_distance, rel=1e-10, abs=0)
-
-
 def test_steps_chosen_by_error_follow_the_load_of_a_rigid_pin():
     # dh/ds = k (F₀ − S h)/A, so that h = F₀/S (1 − exp(−k S s/A)).
     model = pin(archard(1e-12), effects=[Spring(relaxes=1e5)])

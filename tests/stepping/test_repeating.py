@@ -5,18 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 from contact_problems import pressed
-from paper_models import (
-    FOUNDATION,
-    K,
-    archard,
-    flat,
-    last,
-    motion,
-    named,
-    small,
-    sphere,
-    steel,
-)
+from paper_models import FOUNDATION, K, archard, flat, last, motion, named, small, sphere, steel
 
 from tribo import (
     CaseError,

@@ -20,16 +20,7 @@ from paper_models import (
 )
 from stroke import GRID, STROKE, resolved
 
-from tribo import (
-    CaseError,
-    Explicit,
-    Grid,
-    Implicit,
-    NumericalError,
-    Passing,
-    Pin,
-    Waves,
-)
+from tribo import CaseError, Explicit, Grid, Implicit, NumericalError, Passing, Pin, Waves
 from tribo.core.contact import ContactProblem
 from tribo.core.errors import PluginError
 from tribo.motion.exposure import Stationary

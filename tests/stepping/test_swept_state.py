@@ -33,12 +33,6 @@ def run(size, effect, **motions):
     return case(grid=Grid((size, size), (cells, cells)), effects=[effect], **changes)
 
 
-@pytest.mark.parametrize("size", [0.72e-3, 1.44e-3])
-def test_what_air_does_does_not_depend_on_the_window(size):
-    oxide = last(assemble(run(size, Oxide()))).remembered("disk", "oxide")
-    np.testing.assert_allclose(oxide, 100e-9, rtol=1e-9)
-
-
 def test_what_air_does_beside_what_pressure_does_is_the_mean_over_the_track():
     found = [
         last(assemble(run(size, Oxide(scraped=1.0)))).remembered("disk", "oxide")

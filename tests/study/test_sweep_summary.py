@@ -1,11 +1,7 @@
 """What a sweep ends with: a table of its runs, and curves where they say something."""
 
-import io
-
 import pandas as pd
-import pytest
 
-from tribo.cli.console import Console
 from tribo.study.sweeping.summary import ROWS, draw_runs, runs_table
 
 
@@ -23,27 +19,6 @@ def table(loads, contacts):
             "bodies.disk.max_wear_depth_m": 0.0,
         }
     )
-
-
-@pytest.mark.parametrize("width", [60, 80])
-def test_the_table_has_what_varied_and_what_came_out(width):
-    console = Console(file=io.StringIO(), width=width, highlight=False)
-    console.table(runs_table(table([20.0, 40.0], ["dcfft", "winkler"])))
-    lines = console.file.getvalue().strip().splitlines()
-    assert max(map(len, lines)) <= width
-    assert lines[-1].split() == ["4", "40", "winkler", "400", "4", "0"]
-
-
-def test_headings_are_words_with_units_and_texts_are_whole():
-    runs = table([20.0, 40.0], ["dcfft"])
-    runs.insert(2, "bodies.ball.wear.k_1_Pa", [1.5e-16, 2e-16])
-    runs.insert(3, "label", ["as ground", "as polished"])
-    runs.insert(4, "grid.cells", [12800, 25600])
-    console = Console(file=io.StringIO(), width=120, highlight=False)
-    console.table(runs_table(runs))
-    printed = console.file.getvalue()
-    for text in ("specific wear rate", "(10⁻⁷", "normal load (N)", "1.5", "as polished"):
-        assert text in printed
 
 
 def test_a_long_table_ends_with_how_many_more_there_are():

@@ -33,15 +33,3 @@ def test_a_sphere_is_the_exact_cap():
 def test_a_body_smaller_than_the_window_is_refused(surface):
     with pytest.raises(CaseError, match=r"does not reach over .*window.* make grid\.size smaller"):
         surface.height(GRID)
-
-
-def test_a_turned_cylinder_is_a_cylinder():
-    z = Cylinder(radius="5 mm", axis="x", degrees=30).height(GRID)
-    x, y = GRID.mesh
-    across = y * np.cos(np.pi / 6) - x * np.sin(np.pi / 6)
-    np.testing.assert_allclose((z + 5e-3) ** 2 + across**2, 25e-6, rtol=1e-13)
-    # 45° from either axis are one.
-    one = Cylinder(radius="5 mm", axis="y", degrees=-45)
-    other = Cylinder(radius="5 mm", axis="x", degrees=45)
-    np.testing.assert_allclose(one.height(GRID), other.height(GRID), rtol=1e-12, atol=1e-20)
-    assert one.curvature is None

@@ -31,13 +31,6 @@ def implicit():
     return refine(worn())
 
 
-def test_levels_are_the_cases_own_and_two_coarser_of_the_same_parity(implicit):
-    assert [level.cells for level in implicit.grids] == [(21, 21), (33, 33), (49, 49)]
-    steps = [level.steps for level in implicit.steps]
-    assert steps[0] < steps[1] < steps[2]
-    assert implicit.grids[2] is implicit.steps[2]
-
-
 @pytest.mark.slow
 def test_stated_uncertainties_cover_a_much_finer_run(implicit):
     stepping = Implicit(pressure_tolerance=0.005, depth_tolerance=1e-5, settle=1e-3)

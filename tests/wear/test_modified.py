@@ -1,17 +1,10 @@
 """Laws made of another: a factor, running-in by work and by roughness."""
 
 import pytest
+from paper_models import pin
 
-from tribo import (
-    Archard,
-    CaseError,
-    Field,
-    ModifiedLaw,
-    Registry,
-    Simulation,
-    WearRate,
-    hookimpl,
-)
+from tribo import Archard, CaseError, Field, ModifiedLaw, Registry, Simulation, WearRate, hookimpl
+from tribo.config.load import case_tables
 from tribo.core.material import Material
 from tribo.wear.modified import Scaled
 from tribo.wear.running_in import RunningIn, Smoothing
@@ -79,20 +72,9 @@ class Offered:
 
 
 def case(law):
-    steel = {"young": "207 GPa", "poisson": 0.3}
-    pin = {"surface": "flat", "material": steel, "wear": law}
-    return {
-        "grid": {"size": "2 mm", "cells": 8, "ends_at_window": True},
-        "load": "40 N",
-        "bodies": {"pin": pin, "disk": {"surface": "flat", "material": steel}},
-        "contact": {"type": "winkler", "modulus": 1e15},
-        "kinematics": {
-            "type": "unidirectional",
-            "speed": "0.1 m/s",
-            "track_length": "20 mm",
-            "distance": "1 m",
-        },
-    }
+    tables = case_tables(pin().case)
+    tables["bodies"]["pin"]["wear"] = law
+    return tables
 
 
 def test_what_is_wrong_inside_is_told_with_its_place():
