@@ -114,8 +114,8 @@ def _of_two(coarse: Model, fine: Model) -> Sensitivity:
         return EndTime()(view) if of == "end_time" else Deepest(body)(view)
 
     before, after = gradient(coarse, answer), gradient(fine, answer)
-    if not after.value > 0:
-        raise CaseError("no body wears", "bodies")
+    if not (before.value > 0 and after.value > 0):
+        raise CaseError("no body wears on a coarse grid", "bodies")
     # A number may have a derivative on one of the grids alone.
     both = {p: value for p, value in after.relative.items() if p in before.relative}
     off = {p: abs(value - before.relative[p]) for p, value in both.items()}
