@@ -16,7 +16,7 @@ from trust.trial import contents, same
 
 import tribo.simulation.run as tribo_run
 from tribo import CaseError, Grid, Implicit, Result, Simulation, sweep
-from tribo.config.write import to_toml
+from tribo.core.toml import to_toml
 from tribo.observers.observer import Observer
 from tribo.observers.recorder import Recorder
 from tribo.stepping.explicit import Explicit

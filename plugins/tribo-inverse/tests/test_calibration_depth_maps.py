@@ -10,8 +10,8 @@ from calibrations import cheap, kept_runs, of_kind
 from tribo.cli.console import Console
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
-from tribo.config.write import to_toml
 from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.toml import to_toml
 from tribo.simulation.run import Simulation
 
 from tribo_inverse import fit_picture
