@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribo.core.words import readable
+from tribo.core.words import did_you_mean, readable
 
 
 @pytest.mark.parametrize("form", [".0f", ".1f", ".2f", ".3f", ".3g"])
@@ -28,3 +28,17 @@ def test_below_a_million_a_number_is_written_out(value, form, said):
 
 def test_what_is_large_keeps_its_format_and_nothing_is_0():
     assert [readable(value, ".2f") for value in (0.0, 24.331)] == ["0.00", "24.33"]
+
+
+@pytest.mark.parametrize(
+    ("name", "known", "meant"),
+    [
+        ("hz", ["h", "Hz"], "Hz"),
+        ("flash", ["flat", "thermal.flash"], "thermal.flash"),
+        ("frequncy", ["stroke", "frequency"], "frequency"),
+        ("stroke", ["load", "cells"], None),
+        (3, ["3"], None),
+    ],
+)
+def test_the_same_but_for_capitals_or_a_prefix_is_meant_before_the_nearly_same(name, known, meant):
+    assert did_you_mean(name, known) == meant
