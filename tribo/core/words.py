@@ -77,6 +77,6 @@ def said(error: BaseException) -> str:
         text = " ".join(str(error).split())
     except Exception:
         text = "(its message cannot be shown)"
-    if isinstance(error, SyntaxError) and error.filename:
-        text = f"{error.msg} ({error.filename}, line {error.lineno})"
+    if isinstance(error, SyntaxError):
+        text = error.msg
     return f"{type(error).__name__}: {text}" if text else f"{type(error).__name__} and says no more"
