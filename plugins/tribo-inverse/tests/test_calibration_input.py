@@ -115,7 +115,7 @@ def test_a_bound_beyond_that_of_the_number_itself_is_told():
     [
         ([GOOD, GOOD], ["load.normal", 'load."normal"'], "fit.2.path: "),
         ([GOOD], [K, "bodies.disk.wear.k"], "2 parameters cannot be fitted to 1 measured value:"),
-        ([], [K], "nothing is measured; give each value as [[measured]]"),
+        ([], [K], "nothing is measured; give each value, as {'measured': [{"),
     ],
 )
 def test_parameters_that_data_do_not_fit_are_told(measured, fit, start):

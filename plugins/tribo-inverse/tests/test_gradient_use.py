@@ -102,7 +102,8 @@ def test_layers_that_yield_at_another_hardness_are_refused():
 @pytest.mark.parametrize(
     ("path", "message"),
     [
-        ("bodies.ball.wear.K", "bodies.ball.wear.K: is no number with decimals in this case"),
+        ("bodies.ball.wear.K", "bodies.ball.wear.K: is no number with decimals"),
+        ("bodies.ball.wear.kk", r"bodies.ball.wear.kk: the case has no .*'bodies\.ball\.wear\.k'"),
         ("kinematics.stroke", "moves the positions of the cycle by whole cells"),
         ("bodies.*.wear.k", "stands for different numbers"),
     ],
