@@ -14,7 +14,6 @@ from tribo.config.overrides import apply_settings as apply_settings
 from tribo.config.overrides import leaves as leaves
 from tribo.config.overrides import parse_value as parse_value
 from tribo.config.overrides import path_keys as path_keys
-from tribo.config.write import to_toml as to_toml
 from tribo.contact.projection import CELLS as CELLS
 from tribo.contact.projection import over as over
 from tribo.contact.residuals import check_bearable as check_bearable
@@ -43,6 +42,7 @@ from tribo.core.loads import STAGES as STAGES
 from tribo.core.measures import between_cells as between_cells
 from tribo.core.number_tables import check_file as check_file
 from tribo.core.number_tables import check_pixels as check_pixels
+from tribo.core.toml import to_toml as to_toml
 from tribo.core.units import number as number
 from tribo.core.units import parts as parts
 from tribo.core.units import scale as scale

@@ -62,6 +62,7 @@ BLEND = {"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}
             "0: must be at least 1",
         ),
         (3, "", "a table is needed, 3 was given"),
+        ({"bodies": {}, "observers": {"type": "counter"}}, "observers", '[{ type = "counter" }]'),
         # Rules of a model.
         (ball(wear={"type": "blend", "parts": []}), "bodies.ball.wear", "give at least one part"),
         # The marks of a union's members are not part of the path.

@@ -5,7 +5,7 @@ import tomllib
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tribo.config.write import to_toml
+from tribo.core.toml import to_toml
 from tribo.templates import TEMPLATES, template
 
 KEYS = st.text(st.characters(codec="utf-8"), max_size=6)

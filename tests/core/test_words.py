@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribo.core.words import readable
+from tribo.core.words import did_you_mean, readable
 
 
 @pytest.mark.parametrize("form", [".0f", ".1f", ".2f", ".3f", ".3g"])
@@ -15,3 +15,17 @@ def test_what_is_small_is_told_to_a_twentieth(form):
 
 def test_below_a_million_a_number_is_written_out():
     assert [readable(value, ".3g") for value in (1263.0, 12.5e3, 2e6)] == ["1260", "12500", "2e+06"]
+
+
+@pytest.mark.parametrize(
+    ("name", "known", "meant"),
+    [
+        ("hz", ["h", "Hz"], "Hz"),
+        ("flash", ["flat", "thermal.flash"], "thermal.flash"),
+        ("frequncy", ["stroke", "frequency"], "frequency"),
+        ("stroke", ["load", "cells"], None),
+        (3, ["3"], None),
+    ],
+)
+def test_the_same_but_for_capitals_or_a_prefix_is_meant_before_the_nearly_same(name, known, meant):
+    assert did_you_mean(name, known) == meant

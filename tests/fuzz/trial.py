@@ -19,7 +19,7 @@ from fuzz.generate import PARTS, ROOT, damaged, mutated, plausible, small, valid
 from trust.trial import contents, same
 
 from tribo import Result
-from tribo.config.write import to_toml as toml
+from tribo.core.toml import to_toml as toml
 from tribo.stepping.invariants import CHATTERING, CONDITIONS, LOAD, VOLUME
 
 DOCUMENTED = {0, 2, 3, 130}

@@ -107,3 +107,17 @@ def test_a_file_that_cannot_take_part_is_one_clear_error(folder, text, words):
         add_files([folder / "law.py"])
     assert words in str(failure.value)
     assert [each for each in default_registry().plugins if each.origin == "file"] == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("def rate", "def wear_rate", r"--plugin .*law\.py: .*no method rate .*'wear_rate'"),
+        ("(self, local):", "(self, local:", r"--plugin: SyntaxError: .*law\.py, line 8\)"),
+    ],
+)
+def test_what_is_wrong_in_a_file_is_named_with_the_file_once(asked, folder, old, new, words):
+    (folder / "law.py").write_text(LAW.replace("STOP", "").replace(old, new))
+    with pytest.raises(CaseError, match=words) as error:
+        add_files([folder / "law.py"])
+    assert str(error.value).count("law.py") == 1

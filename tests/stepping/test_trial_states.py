@@ -57,9 +57,24 @@ class Worn(WearLaw):
 
 def test_a_law_that_is_bad_from_a_state_on_ends_the_run_there_by_name(tmp_path):
     with pytest.raises(
-        PluginError, match=r"wear law 'test\.worn' .*'depth_rate' that is -.* at 1 m"
+        PluginError, match=r"wear law 'test\.worn' .*'depth_rate' that is -\S+ somewhere at 1 m"
     ):
         Simulation(model(Worn())).run(tmp_path / "run.h5")
+
+
+class Short(Worn):
+    """A law that answers with three numbers."""
+
+    type = "test.short"
+
+    def rate(self, local):
+        return WearRate(np.zeros(3))
+
+
+def test_a_rate_of_another_shape_is_refused_with_both_shapes_each_once(tmp_path):
+    with pytest.raises(PluginError, match=r"'depth_rate' .*\(3,\) at 0 m .*= \(1, ") as error:
+        Simulation(model(Short())).run(tmp_path / "run.h5")
+    assert str(error.value).count(" of shape ") == 2
 
 
 class Ageing(WearLaw):

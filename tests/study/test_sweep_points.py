@@ -93,7 +93,7 @@ GRID, SAMPLE = "[grid]\n", '[sample]\nmethod = "sobol"\ncount = 2\n[sample.range
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "nothing varies; give [grid], [zip], [[list]] or [sample]"),
+        ("", 'grid = { "load.normal" = ['),
         (GRID + "load.normal = []", 'grid."load.normal": at least 1 needed'),
         ("[gird]\nload.normal = [1]", "did you mean 'grid'?"),
         (GRID + "loda.normal = [1]", "did you mean 'load'?"),

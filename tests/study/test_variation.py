@@ -70,7 +70,7 @@ def test_values_alone_are_the_labels_where_the_paths_are_the_same():
         (["load..normal=1"], "'load..normal' is not a path"),
         (["load.normal=[]"], "load.normal: a value is missing"),
         (["load.normal=1,,2"], "load.normal: a value is missing"),
-        (["load.normal=[1,"], "load.normal: '[1,' is not a list in TOML"),
+        (["load.normal=[1,"], "load.normal: '[1' is not TOML"),
         (["load.normal=1,2", 'load."normal"=3'], 'load."normal": varies twice'),
         (["load.normal=50,50 N"], "load.normal=50 and load.normal=50 N are the same case"),
         (["loda.normal=1,2"], "did you mean 'load'?"),

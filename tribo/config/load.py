@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -137,7 +138,8 @@ def read_toml(
     except ValueError as error:
         # What is given twice is written well.
         remedy = _ONCE if str(error).startswith("Cannot") else _WRITING
-        raise CaseError(f"{path} is not TOML: {error}; {remedy}") from None
+        reason = re.sub(r"\('(.*)',?\)", r"[\1]", str(error)).replace("', '", ".")
+        raise CaseError(f"{path} is not TOML: {reason}; {remedy}") from None
     except RecursionError:
         raise CaseError(f"{path}: tables or lists are nested too deeply") from None
     return data

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 from pydantic import BaseModel
 
 from tribo.component import Component
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, located
+from tribo.core.toml import inline
 from tribo.core.units import Quantity, quantities
 from tribo.core.words import shown
 
@@ -57,12 +59,14 @@ def path_keys(path: str) -> list[str]:
 
 
 def parse_value(text: str) -> Any:
-    """Return the value of a text as TOML, or else the text."""
-    try:
+    """Return the value of a text as TOML, or else the text; `CaseError` if a bracket is first."""
+    with suppress(ValueError, RecursionError):
         read = tomllib.loads(f"value = {text}")
-    except (ValueError, RecursionError):
-        return text
-    return read["value"] if len(read) == 1 else text
+        if len(read) == 1:
+            return read["value"]
+    if text.startswith(("[", "{")):
+        raise CaseError(f'{shown(text)} is not TOML; quote texts in it, as "5 mm"')
+    return text
 
 
 def leaves(
@@ -97,8 +101,9 @@ def leaves_at(case: BaseModel, path: str) -> list[tuple[str, Any, str]]:
 def _pair(text: str) -> tuple[str, Any]:
     path, equals, value = text.partition("=")
     if not equals:
-        raise CaseError(f"{shown(text)} is not of the form path=value, as in load.normal=50")
-    return path.strip(), parse_value(value.strip())
+        raise CaseError(f"{shown(text)} is not of the form path=value, as in --set load.normal=50")
+    with located(path.strip()):
+        return path.strip(), parse_value(value.strip())
 
 
 def _decides(keys: Sequence[str]) -> bool:
@@ -127,6 +132,10 @@ def _changed(inside: Any, keys: list[str], value: Any, above: tuple[str, ...] = 
     at = int(key) - 1 if key.isascii() and key.isdigit() else -1
     if not 0 <= at < len(inside):
         place = ".".join(above)
-        allowed = f"1 to {len(inside)}" if inside else f"none; set all of it, as {place}=[…]"
-        raise CaseError(f"{key!r} is no entry of this list; allowed: {allowed}", place)
+        if not inside:
+            whole = inline([_changed({}, rest, value, (*above, key))])
+            raise CaseError(
+                f"the case has none; give the whole list, as --set '{place}={whole}'", place
+            )
+        raise CaseError(f"{key!r} is no entry of this list; allowed: 1 to {len(inside)}", place)
     return [*inside[:at], _changed(inside[at], rest, value, (*above, key)), *inside[at + 1 :]]

@@ -11,6 +11,7 @@ from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
 from tribo.core.errors import WrongValues
 from tribo.core.shorthand import call
+from tribo.core.toml import inline
 from tribo.core.units import parts
 from tribo.core.words import did_you_mean, shown, suggestion
 
@@ -31,7 +32,7 @@ _WORDS = {
             "a table is needed, {given} was given"
         ),
         "list_type tuple_type set_type frozen_set_type iterable_type": (
-            "a list in brackets is needed, {given} was given"
+            "a list is needed, {given} was given{listed}"
         ),
         "greater_than": "{given}: must be greater than {gt}",
         "greater_than_equal": "{given}: must be at least {ge}",
@@ -83,7 +84,8 @@ def explained(
         else:
             loc = (*loc, "type") if kind == "union_tag_invalid" else loc
             # Errors of tables inside have their message already.
-            lines.append(_line(loc, message(details), given, UNKNOWN if kind == UNKNOWN else TOLD))
+            text = message(details, *loc)
+            lines.append(_line(loc, text, given, UNKNOWN if kind == UNKNOWN else TOLD))
     # A key that is misspelt is one mistake, not an unknown key and a missing one.
     for key in [key for key in missing if key not in meant]:
         # A pair has the same hint twice.
@@ -137,12 +139,15 @@ def path(keys: tuple[str | int, ...]) -> str:
     )
 
 
-def message(details: ErrorDetails) -> str:
-    """Return the message of pydantic's error in the words of a case."""
+def message(details: ErrorDetails, *keys: str | int) -> str:
+    """Return the message of pydantic's error, at some keys, in the words of a case."""
     kind, given, context = details["type"], details["input"], details.get("ctx", {})
     text = details["msg"].removeprefix("Assertion failed, ")
     if kind in _WORDS:
-        text = _WORDS[kind].format(given=shown(given), **context)
+        listed = ""
+        if keys and isinstance(keys[-1], str) and isinstance(given, str | float | int | Mapping):
+            listed = f"; put it in square brackets, as {keys[-1]} = [{inline(given)}]"
+        text = _WORDS[kind].format(given=shown(given), listed=listed, **context)
     elif kind == "literal_error":
         text = _choice(given, context["expected"])
     elif kind == "union_tag_invalid":

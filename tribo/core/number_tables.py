@@ -49,9 +49,10 @@ def read_pairs(file: Path, what: str) -> Array:
 def check_file(file: Path) -> None:
     """Raise ValueError if there is no such file to read."""
     if not file.is_file():
+        if file.is_dir():
+            raise ValueError(f"{file} is a folder; give a file in it")
         where = "" if file.is_absolute() else f" in {Path.cwd()}, where tribo was started"
-        what = f"{file} is a folder" if file.is_dir() else f"there is no file {file}{where}"
-        raise ValueError(f"{what}; correct path")
+        raise ValueError(f"there is no file {file}{where}; put it there, or give its full path")
 
 
 def table_of_numbers(file: Path) -> Array:

@@ -165,9 +165,7 @@ def _power(factor: str) -> tuple[Fraction, Dimension, int]:
         raise ValueError("degC has an offset; use K in a compound unit")
     if _ROCKWELL.fullmatch(name):
         raise ValueError("Rockwell hardness has no fixed conversion; give GPa or HV (Vickers)")
-    prefixed = [prefix + symbol for prefix in PREFIXES for symbol in _SYMBOLS]
-    like = did_you_mean(name, [*_SYMBOLS, *_UNPREFIXED, *prefixed])
-    raise ValueError(f"unknown unit {name!r}" + (f" (did you mean {like!r}?)" if like else ""))
+    raise ValueError(f"unknown unit {name!r}")
 
 
 def number(text: str) -> float:
@@ -201,7 +199,9 @@ def parse(text: str, unit: str, hint: str = "") -> float:
     try:
         factor, dimension = scale("K" if zero else symbols or "1")
     except ValueError as error:
-        raise CaseError(f"{text!r}: {error}; {hint}") from None
+        like = did_you_mean(symbols, _units(unit))
+        meant = f" (did you mean {like!r}?)" if like else ""
+        raise CaseError(f"{text!r}: {error}{meant}; {hint}") from None
     if dimension != scale(unit)[1]:
         given = f"is {_called(dimension)}" if symbols else "has no unit"
         raise CaseError(f"{text!r} {given}; {hint}")
@@ -380,6 +380,13 @@ def _called(dimension: Dimension) -> str:
             return name if unit == "1" else f"{name} [{unit}]"
     powers = zip(("m", "kg", "s", "K", "mol", "lap"), dimension, strict=True)
     return "a quantity in " + " ".join(f"{u}^{n}" if n != 1 else u for u, n in powers if n)
+
+
+def _units(unit: str) -> Iterator[str]:
+    """Yield the symbols with the dimension of a unit, that unit and the unit of its example."""
+    every = [*_SYMBOLS, *_UNPREFIXED, *(p + symbol for p in PREFIXES for symbol in _SYMBOLS)]
+    yield from (each for each in every if scale(each)[1] == scale(unit)[1])
+    yield from (unit, _example(unit).partition(" ")[2])
 
 
 def _example(unit: str) -> str:

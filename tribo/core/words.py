@@ -54,8 +54,15 @@ def checked_name(name: str) -> str:
 
 
 def did_you_mean(name: object, known: Iterable[str]) -> str | None:
-    """Return the name in `known` that is most like `name`, if one is."""
-    close = get_close_matches(name, list(known), n=1) if isinstance(name, str) else []
+    """Return the name in `known` that is most like `name`, if one is.
+
+    The same but for capitals and a prefix, as ``hz`` for ``Hz``, comes before the nearly same.
+    """
+    if not isinstance(name, str):
+        return None
+    every, end = list(known), f".{name}".casefold()
+    same = [each for each in every if f".{each}".casefold().endswith(end)]
+    close = get_close_matches(name, same or every, n=1, cutoff=0.0 if same else 0.6)
     return close[0] if close else None
 
 
@@ -70,6 +77,6 @@ def said(error: BaseException) -> str:
         text = " ".join(str(error).split())
     except Exception:
         text = "(its message cannot be shown)"
-    if isinstance(error, SyntaxError) and error.filename:
-        text = f"{error.msg} ({error.filename}, line {error.lineno})"
+    if isinstance(error, SyntaxError):
+        text = error.msg
     return f"{type(error).__name__}: {text}" if text else f"{type(error).__name__} and says no more"

@@ -25,11 +25,14 @@ class Answer(Field):
         Whether an array that broadcasts to this shape will do.
     above : float, optional
         A limit that its values exceed.
+    like : str, optional
+        An array of its shape in what the component is given.
     """
 
     shape: str = ""
     spreads: bool = False
     above: float | None = None
+    like: str = ""
 
     @cached_property
     def range(self) -> tuple[float, float]:
@@ -46,12 +49,13 @@ class Answer(Field):
         bounds = ((">", self.above), ("≥", self.at_least), ("≤", self.at_most))
         return ", ".join(f"{sign} {bound:g}" for sign, bound in bounds if bound is not None)
 
-    @property
-    def needed(self) -> str:
-        """What is allowed, in words."""
+    def needed(self, shape: tuple[int, ...] | None = None) -> str:
+        """Return what is allowed, in words: its shape where one is given, else its values."""
         unit = "" if self.unit == "1" else f"in {self.unit}"
-        shape = self.shape and f"of shape {self.shape}"
-        return ", ".join(filter(None, ("it must be real and finite", unit, self.limits, shape)))
+        shapes = " = ".join(filter(None, dict.fromkeys((self.shape, str(shape)))))
+        rules = (f"of shape {shapes}",) if shape else (unit, self.limits)
+        allowed = ", ".join(filter(None, ("it must be real and finite", *rules)))
+        return f"{allowed}; compute it from {self.like}" if self.like else allowed
 
 
 def _table(*answers: Answer) -> Mapping[str, Answer]:
@@ -61,21 +65,23 @@ def _table(*answers: Answer) -> Mapping[str, Answer]:
 _WINDOW = "(nx, ny)"
 _CYCLE = "(positions, nx, ny)"
 _OWN = "(rows, ny)"
+_OF_LAW = Answer("", "1", "", shape=_CYCLE, spreads=True, like="local.pressure")
+_OF_EFFECT = Answer("", "1", "", shape=_WINDOW, spreads=True, like="contact.pressure")
 
 ANSWERS: Mapping[str, Mapping[str, Answer]] = MappingProxyType(
     {
         "surface": _table(
-            Answer("height", "m", "Height outward from the body.", shape=_WINDOW),
+            Answer("height", "m", "Height outward from the body.", shape=_WINDOW, like="grid.mesh"),
             Answer("curvature", "1/m", "Curvature along x and y, or None.", shape="(2,)"),
         ),
         "wear_law": _table(
-            Answer("depth_rate", "1", "Depth per metre.", 0.0, shape=_CYCLE, spreads=True),
-            Answer("depth_slope", "1/Pa", "Its slope, or None.", shape=_CYCLE, spreads=True),
+            replace(_OF_LAW, name="depth_rate", description="Depth per metre.", at_least=0.0),
+            replace(_OF_LAW, name="depth_slope", unit="1/Pa", description="Its slope, or None."),
         ),
         "effect": _table(Answer("load_factor", "1", "Of the normal load.", above=0.0)),
         "contact_solver": _table(
-            Answer("pressure", "Pa", "Contact pressure.", 0.0, shape=_WINDOW),
-            Answer("overlap", "m", "Plastic displacement.", 0.0, shape=_WINDOW),
+            Answer("pressure", "Pa", "Contact pressure.", 0.0, shape=_WINDOW, like="problem.gap"),
+            Answer("overlap", "m", "Plastic displacement.", 0.0, shape=_WINDOW, like="problem.gap"),
             Answer("approach", "m", "Rigid approach."),
             Answer("iterations", "1", "Iterations on the full grid."),
             Answer("residuals", "1", "Errors in the conditions of contact.", shape="(3,)"),
@@ -112,9 +118,8 @@ def answers_of(component: Component) -> dict[str, Answer]:
     """Return the answers of a component by name: its kind's, its fields' and its states'."""
     kind = type(component).kind()
     found = dict(ANSWERS.get(kind, {}))
-    shape = _CYCLE if kind == "wear_law" else _WINDOW
-    spread = Answer("", "", "", shape=shape, spreads=True)
-    uniform = replace(spread, shape="(1, 1)")
+    spread = _OF_LAW if kind == "wear_law" else _OF_EFFECT
+    uniform = replace(spread, shape="(1, 1)", like="")
     for field in getattr(component, "provides", ()):
         known = LIMITED.get(field.name, field)
         limits = {"at_least": known.at_least, "at_most": known.at_most}

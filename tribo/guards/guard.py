@@ -84,8 +84,7 @@ class Guard(Generic[C]):
             with suppress(ValueError):
                 plain = np.broadcast_to(plain, shape)
         if plain.shape != shape or plain.dtype.kind not in REAL:
-            other = f", not of shape {shape}" if plain.shape != shape else ""
-            raise self.bad(name, _shown(values) + other, where)
+            raise self.bad(name, _shown(values), where, answer.needed(shape))
         # Sums depend on the order in memory, and a checkpoint keeps but one.
         array = np.asarray(plain, dtype=np.float64, order="C")
         low, high = np.minimum.reduce(array, axis=None), np.maximum.reduce(array, axis=None)
@@ -107,7 +106,7 @@ class Guard(Generic[C]):
 
         By default what its declaration allows is needed.
         """
-        needed = needed or self.answers[name].needed
+        needed = needed or self.answers[name].needed()
         return BadValues(f"{self} gave {name!r}{where} that is {fault}; {needed}")
 
     def typed(self, answer: object, kind: type, method: str) -> Any:

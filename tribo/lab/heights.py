@@ -129,8 +129,8 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
             heights = table_of_numbers(path)
             if pitch is None:
                 raise CaseError(
-                    f"{path} has heights and no scale; give its pitch, the distance of pixels, as "
-                    "--pitch '1 um', or pitch = '1 um' in a file"
+                    f"{path} has heights and no scale; give its pitch, the distance between "
+                    "pixels, as --pitch '1 um', or pitch = '1 um' in a file"
                 )
         else:
             found = _by_plugin(path)

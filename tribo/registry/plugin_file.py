@@ -12,10 +12,9 @@ from types import ModuleType
 
 from tribo.component import Component
 from tribo.core.errors import CaseError
-from tribo.core.words import said
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.plugins import given
-from tribo.registry.registry import default_registry, place, process_kept
+from tribo.registry.registry import default_registry, fault, process_kept
 
 
 def add_files(paths: Iterable[Path | str]) -> None:
@@ -41,8 +40,9 @@ def add_files(paths: Iterable[Path | str]) -> None:
             plugin.distribution, plugin.version, plugin.origin = path.name, digest, "file"
             default_registry().add(plugin)
         except (Exception, SystemExit) as error:
-            where = place(error, module.__name__)
-            raise CaseError(f"{path}: {said(error)}{where}", "--plugin") from error
+            words = fault(error, module.__name__)
+            where = "--plugin" if str(path) in words else f"--plugin {path}"
+            raise CaseError(words, where) from error
 
 
 def added_files() -> list[str]:

@@ -165,7 +165,7 @@ class Registry:
             meant = suggestion(did_you_mean(name, known))
             package, dot, _ = name.partition(".")
             if dot and not any(each.startswith(package + dot) for each in known):
-                meant += f" No package for {package!r} is installed, as tribo-{package} would be."
+                meant = f"; no installed package provides {package!r}."
             raise CaseError(f"unknown {words} {name!r}{meant} Installed: {self.choices(kind)}")
         if cls.kind() != kind:
             other = cls.kind().replace("_", " ")
@@ -238,9 +238,10 @@ class Registry:
         by_plugin = defaultdict(list)
         for name in self.names(kind):
             by_plugin[str(self.claimants(name)[0])].append(name)
-        texts = [f"{', '.join(own)} ({plugin})" for plugin, own in by_plugin.items()] or ["none"]
+        texts = [f"{', '.join(own)} ({plugin})" for plugin, own in by_plugin.items()]
         # Which are of this kind is not known before they are imported.
-        return "; ".join([*texts, *(["more: tribo plugins list"] if self.waiting else [])])
+        more = [f"{'more:' if texts else 'see'} tribo plugins list"] if self.waiting else []
+        return "; ".join([*texts, *more]) or "none"
 
     def load(self, plugin: Plugin) -> None:
         """Import a plugin once; its status says whether that succeeded."""
@@ -257,7 +258,7 @@ class Registry:
             raise
         except BaseException as error:
             plugin.status = "broken"
-            plugin.reason = said(error) + place(error, plugin.entry_point)
+            plugin.reason = fault(error, plugin.entry_point)
 
     def _register(self, plugin: Plugin) -> None:
         """Register a plugin with the plugin manager, and ask it for its components."""
@@ -327,8 +328,8 @@ def from_plugins_of(result: Result, hook: str) -> list[Any]:
 
 def place(error: BaseException, *entry_points: str) -> str:
     """Return file and line of the innermost call in plugins, as text; empty if there is none."""
-    if isinstance(error, SyntaxError):
-        return ""  # Its message has its place.
+    if isinstance(error, SyntaxError) and error.filename:
+        return f" ({error.filename}, line {error.lineno})"
     packages = {re.split("[.:]", entry_point)[0] for entry_point in entry_points}
     places = [
         (frame.f_code.co_filename, line)
@@ -336,6 +337,12 @@ def place(error: BaseException, *entry_points: str) -> str:
         if str(frame.f_globals.get("__name__")).partition(".")[0] in packages
     ]
     return f" ({places[-1][0]}, line {places[-1][1]})" if places else ""
+
+
+def fault(error: BaseException, *entry_points: str) -> str:
+    """Return the message of an error, with its type and place if a plugin raised it."""
+    where = place(error, *entry_points)
+    return said(error) + where if where else " ".join(str(error).split())
 
 
 @contextmanager

@@ -104,7 +104,8 @@ def _advanced(model: Model, state: State, until: float, limit: float, watch: Wat
         if watch.ends(after):
             after = _up_to_a_stop(model, state, after, watch)
     except PluginError as error:
-        error.args = (f"{error}, at {state.distance:.6g} m ({state.time:.6g} s)",)
+        what, then, rule = str(error).partition("; ")
+        error.args = (f"{what} at {state.distance:.6g} m ({state.time:.6g} s){then}{rule}",)
         raise
     after = hold(model, state, after)
     _check_window(model, after)

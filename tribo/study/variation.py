@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 from tribo.case import Case
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings, parse_value, path_keys
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, located
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
 from tribo.simulation.positions import alike
@@ -101,17 +100,14 @@ def _axis(text: str) -> tuple[str, tuple[Any, ...]]:
     path, equals, given = map(str.strip, text.partition("="))
     if not equals:
         raise CaseError(
-            f"{text!r} is not of the form path=values, as in contact.type=winkler,dcfft"
+            f"{text!r} is not of the form path=values, as in --vary contact.type=winkler,dcfft"
         )
     path_keys(path)
-    bracketed = given.startswith("[")
-    try:
-        read = tomllib.loads(f"values = {given if bracketed else f'[{given}]'}")
-    except (ValueError, RecursionError) as error:
-        if bracketed:
-            raise CaseError(f"{given!r} is not a list in TOML: {error}", path) from None
-        read = {"values": [parse_value(part.strip()) for part in given.split(",")]}
-    values = tuple(read["values"])
+    with located(path):
+        try:
+            values = tuple(parse_value(given if given.startswith("[") else f"[{given}]"))
+        except CaseError:
+            values = tuple(parse_value(part.strip()) for part in given.split(","))
     if not values or "" in values:
         raise CaseError(
             f"a value is missing; write the values with commas between them, as in {path}=1,2", path

@@ -9,8 +9,8 @@ import pytest
 from calibrations import cheap, of_kind
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
-from tribo.config.write import to_toml
 from tribo.core.errors import CaseError, TriboWarning
+from tribo.core.toml import to_toml
 from tribo.simulation.run import Simulation
 
 from tribo_inverse.calibration.calibrate import calibrate

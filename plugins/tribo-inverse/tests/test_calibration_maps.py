@@ -14,8 +14,8 @@ from scipy.special import kv
 from tribo.cli.main import tribo
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
-from tribo.config.write import to_toml
 from tribo.core.errors import CaseError
+from tribo.core.toml import to_toml
 from tribo.lab.heights import Heights
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation

@@ -7,8 +7,8 @@ import pytest
 from calibrations import cheap
 from command_line import tribo
 from tribo.config.overrides import apply_settings
-from tribo.config.write import to_toml
 from tribo.core.errors import CaseError
+from tribo.core.toml import to_toml
 from tribo.registry.registry import default_registry
 
 from tribo_inverse.calibration.calibrate import calibrate

@@ -55,7 +55,7 @@ def test_the_command_measures_and_draws(tmp_path):
         (["--ideal", "sphere"], "--ideal radius: missing"),
         (["-o", "none/scar.png"], "there is no folder none; make it with: mkdir none"),
         (["--ideal", "flat", "-o", "./a.npy"], r"--output: a\.npy is a measured map; give another"),
-        (["--ideal", '{ type = "sphere" r'], r"--ideal unknown surface '{ type = \"sphere\" r'"),
+        (["--ideal", '{ type = "sphere" r'], r"--ideal: '{ type = \"sphere\" r'"),
     ],
 )
 def test_wrong_words_of_the_command_are_told(given, words, tmp_path, monkeypatch):

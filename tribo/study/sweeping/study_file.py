@@ -15,9 +15,11 @@ from tribo.config.overrides import apply_settings, leaves_at
 from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
 from tribo.core.table import Table
+from tribo.core.toml import inline
 from tribo.study.variation import Point, check_distinct, valid_case
 
 Values = Annotated[tuple[Any, ...], Field(min_length=1)]
+_VARIED = {"load.normal": ["50 N", "100 N"]}
 _RANGE = frozenset({"low", "high"})
 
 
@@ -70,7 +72,7 @@ def load_study(path: str | Path | Mapping[str, Any]) -> tuple[Study, dict[str, A
     if isinstance(path, Mapping):
         case = path.get("case", "")
         given = case if isinstance(case, str | Path) else "a case"
-        study = _validated({**path, "case": str(given)})
+        study = _validated({**path, "case": str(given)}, repr({"grid": _VARIED}))
         return study, apply_settings(case_tables(case), study.settings)
     path = Path(path)
     tables = read_toml(path, "a study", "'tribo new sweep' writes a study to start from")
@@ -79,7 +81,7 @@ def load_study(path: str | Path | Mapping[str, Any]) -> tuple[Study, dict[str, A
             f"{path} is a case, not a study, which names a case and says what varies in it; begin "
             "one with: tribo new sweep study.toml"
         )
-    study = _validated(tables)
+    study = _validated(tables, f"grid = {inline(_VARIED)}")
     try:
         base = read_toml(path.parent / study.case)
     except CaseError as error:
@@ -87,7 +89,7 @@ def load_study(path: str | Path | Mapping[str, Any]) -> tuple[Study, dict[str, A
     return study, apply_settings(base, study.settings)
 
 
-def _validated(data: dict[str, Any]) -> Study:
+def _validated(data: dict[str, Any], example: str) -> Study:
     for key in ("settings", "grid", "zip"):
         if key in data:
             data[key] = by_path(data[key], key)
@@ -101,10 +103,7 @@ def _validated(data: dict[str, Any]) -> Study:
     except ValidationError as error:
         raise case_error(error) from None
     if not (study.grid or study.zip or study.list or study.sample):
-        raise CaseError(
-            "nothing varies; give [grid], [zip], [[list]] or [sample], as grid = "
-            "{ 'load.normal' = ['50 N', '100 N'] }"
-        )
+        raise CaseError(f"nothing varies; give grid, zip, list or sample, as {example}")
     return study
 
 

@@ -144,10 +144,12 @@ def _surface(text: str) -> Surface:
     """Return the surface that an option gives as a case does."""
     from pydantic import TypeAdapter, ValidationError
     from tribo import Surface
-    from tribo.kernel_api import case_error, parse_value
+    from tribo.kernel_api import case_error, located, parse_value
 
+    with located("--ideal"):
+        given = parse_value(text)
     try:
-        surface: Surface = TypeAdapter(Surface).validate_python(parse_value(text))
+        surface: Surface = TypeAdapter(Surface).validate_python(given)
     except ValidationError as error:
         raise CaseError(f"--ideal {case_error(error)}") from None
     return surface

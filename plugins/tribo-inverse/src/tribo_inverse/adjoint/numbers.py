@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -31,7 +31,8 @@ def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[
         If a path leads to no number with decimals, to several different numbers, or to a number of
         the numerics.
     """
-    known = {place: value for place, value, _ in leaves(case) if isinstance(value, float)}
+    every = {place: value for place, value, _ in leaves(case)}
+    known = {place: value for place, value in every.items() if isinstance(value, float)}
     if asked is None:
         return [
             (".".join(map(str, place)), [place], value)
@@ -40,7 +41,7 @@ def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[
             if not (_is_tolerance(place) or value == 0)
             if not any(isinstance(i, int) and isinstance(j, int) for i, j in pairwise(place))
         ]
-    return [_named(known, path) for path in listed(asked)]
+    return [_named(every, known, path) for path in listed(asked)]
 
 
 def listed(names: Sequence[str]) -> Sequence[str]:
@@ -51,7 +52,7 @@ def listed(names: Sequence[str]) -> Sequence[str]:
 
 
 def _named(
-    known: Mapping[tuple[Any, ...], float], path: str
+    every: Iterable[tuple[Any, ...]], known: Mapping[tuple[Any, ...], float], path: str
 ) -> tuple[str, list[tuple[Any, ...]], float]:
     keys = path_keys(path.replace(ANY, "any-body"))
     keys = [ANY if key == "any-body" else key for key in keys]
@@ -60,9 +61,9 @@ def _named(
         raise CaseError("has several stages; name one, as load.normal.1.normal", path)
     if not places:
         paths = [".".join(map(str, place)) for place in known]
-        raise CaseError(
-            f"is no number with decimals in this case{suggestion(did_you_mean(path, paths))}", path
-        )
+        fits = any(_fits(place, keys) for place in every)
+        wrong = "is no number with decimals" if fits else "the case has no such value"
+        raise CaseError(f"{wrong}{suggestion(did_you_mean(path, paths))}", path)
     if any(place[0] in HOW or _is_tolerance(place) for place in places):
         raise CaseError(
             "is a number of the numerics and has no derivative; name numbers of bodies, load, "

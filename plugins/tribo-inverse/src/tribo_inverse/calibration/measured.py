@@ -17,9 +17,16 @@ from pydantic import (
     model_validator,
 )
 from tribo import Array, CaseError, Mask, Quantity, Table
-from tribo.kernel_api import by_path, case_error, number, read_toml
+from tribo.kernel_api import by_path, case_error, number, read_toml, to_toml
 
-from tribo_inverse.calibration.quantities import DEPTH_MAP, FIELDS, PROFILES, in_words, quantity
+from tribo_inverse.calibration.quantities import (
+    DEPTH_MAP,
+    FIELDS,
+    PROFILES,
+    in_words,
+    names,
+    quantity,
+)
 
 LEAST_UNCERTAINTY = 1e-6
 """Smallest relative uncertainty."""
@@ -65,12 +72,23 @@ LOCAL = "local coefficients are fitted to maps of one test: give [[map]] in a fi
 UNSEEN = "what was too little to be seen is given as a limit, '< 0.1 mg' say"
 
 
+_EXAMPLE = {"body": "ball", "quantity": "mass", "value": "2 mg", "resolution": "0.1 mg"}
+
+
+class _QuantityName:
+    """Marks the name of a quantity: where it is missing, the message lists the names."""
+
+    @staticmethod
+    def hint(info: ValidationInfo) -> str:
+        return f"one of {names()} is needed"
+
+
 class MeasuredEntry(Table):
     """One measured quantity of one body, or of a run as a package reads it."""
 
     body: str = ""
     """Name of the body in the case; none for a quantity of the run."""
-    quantity: str
+    quantity: Annotated[str, _QuantityName()]
     """Measured quantity: one of `QUANTITIES`, or of a package."""
     value: float | tuple[float, ...] | None = None
     """The value with its unit, or a limit of detection, ``"< 0.1 mg"``; none in a planned test.
@@ -357,16 +375,15 @@ class Measurements(Table):
         return pd.concat(tables, ignore_index=True)
 
     @model_validator(mode="after")
-    def _some(self) -> Self:
+    def _some(self, info: ValidationInfo) -> Self:
         if self.map and (self.tests or self.fit or self.repeatability is not None):
             raise ValueError(LOCAL)
         if self.map:
             return self
         if not self.tests or not all(test.measured for test in self.tests.values()):
-            raise ValueError(
-                "nothing is measured; give each value as [[measured]], or as [[test.measured]] of "
-                "a [[test]]"
-            )
+            in_file = f"\n[[measured]]\n{to_toml(_EXAMPLE)}".rstrip()
+            example = in_file if info.context else f" {{'measured': [{_EXAMPLE}]}}"
+            raise ValueError(f"nothing is measured; give each value, as{example}")
         return self
 
 

@@ -82,17 +82,25 @@ def quantity(name: str) -> WornQuantity:
     """Return a quantity by its name, also one of a package; `CaseError` if none has the name."""
     if name in QUANTITIES:
         return QUANTITIES[name]
-    for ask in (default_registry().ask, from_all_plugins):
-        known: dict[str, Column] = {column.name: column for column in ask("tribo_quantities")}
-        if name in known:
-            break
+    ask = default_registry().ask
+    known: dict[str, Column] = {column.name: column for column in ask("tribo_quantities")}
+    known = known if name in known else of_packages()
     if (column := known.get(name)) is None:
-        names = [*QUANTITIES, *known]
-        meant = suggestion(did_you_mean(name, names))
-        raise CaseError(f"no quantity is called {name!r}{meant} There are: {', '.join(names)}")
+        meant = suggestion(did_you_mean(name, [*QUANTITIES, *known]))
+        raise CaseError(f"no quantity is called {name!r}{meant} There are: {names()}")
     of: Literal["run", "body of a run"] = "body of a run" if column.of_bodies else "run"
     shown = "" if column.unit == "1" else column.unit
     return WornQuantity(column.unit, shown, 1.0, of, column.label)
+
+
+def of_packages() -> dict[str, Column]:
+    """Return the quantities of every installed package, by name."""
+    return {column.name: column for column in from_all_plugins("tribo_quantities")}
+
+
+def names() -> str:
+    """Return the names of all quantities as text."""
+    return ", ".join([*QUANTITIES, *of_packages()])
 
 
 class Reading(NamedTuple):

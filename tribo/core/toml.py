@@ -1,4 +1,4 @@
-"""Write the tables of a case as TOML."""
+"""Values and tables as TOML."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def to_toml(tables: Mapping[str, Any]) -> str:
 def _lines(table: Mapping[str, Any], place: tuple[str, ...]) -> list[str]:
     given = {key: value for key, value in table.items() if value is not None}
     inside = {key: value for key, value in given.items() if isinstance(value, Mapping)}
-    own = [f"{_key(key)} = {_value(value)}" for key, value in given.items() if key not in inside]
+    own = [f"{_key(key)} = {inline(value)}" for key, value in given.items() if key not in inside]
     if place and (own or not inside):
         own = ["", f"[{'.'.join(map(_key, place))}]", *own]
     return own + [line for key, value in inside.items() for line in _lines(value, (*place, key))]
@@ -36,14 +36,15 @@ def _text(text: str) -> str:
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def _value(value: Any) -> str:
+def inline(value: Any) -> str:
+    """Return a value as TOML, in one line."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, int | float):
         return repr(value)
     if isinstance(value, Mapping):
-        pairs = (f"{_key(key)} = {_value(part)}" for key, part in value.items() if part is not None)
+        pairs = (f"{_key(key)} = {inline(part)}" for key, part in value.items() if part is not None)
         return f"{{ {', '.join(pairs)} }}"
     if isinstance(value, list | tuple):
-        return f"[{', '.join(map(_value, value))}]"
+        return f"[{', '.join(map(inline, value))}]"
     return _text(str(value))
