@@ -36,6 +36,17 @@ def test_columns_give_each_cycle(result):
     assert "volume_per_work_m3_J" not in first
 
 
+def test_energy_and_stick_zone_count_both_directions():
+    motion = {"direction": "free", "cycles": 1}
+    bodies = case()["bodies"]
+    oval = {"type": "paraboloid", "radius_x": "5 mm", "radius_y": "20 mm"}
+    bodies["ball"] = bodies["ball"] | {"surface": oval, "wear": {"type": "archard", "k": 0}}
+    with Simulation(case(40, "2 um", size="0.7 mm", motion=motion, bodies=bodies)).run() as frets:
+        last, work = frets.saves()[-1], float(frets.dataset["friction_energy"][-1])
+    assert last["cycle_energy_J"] == pytest.approx(work, rel=1e-9, abs=0)
+    assert last["stick_half_width_y_m"] > 1.5 * last["stick_half_width_x_m"] > 0
+
+
 def test_rows_give_the_last_cycle(result):
     rows = {row.key: row.value for row in result.report().rows}
     last = result.saves()[-1]

@@ -6,8 +6,10 @@ from fretting_problems import LOAD, MU, STEEL, K, ball, case
 from tribo import Case, CaseError, Simulation
 from tribo.study.check import check_case
 
+from tribo_fretting import drive
 from tribo_fretting.closed_forms import shift
 from tribo_fretting.motion import Fretting
+from tribo_fretting.projected_cg import dragged
 
 
 def run(*args, **changes):
@@ -44,8 +46,11 @@ def test_energy_of_a_run_is_that_of_its_cycles():
     assert energy == pytest.approx(1e5 * steel.energy(drag), rel=2e-4, abs=0)
 
 
-def test_a_hundred_thousand_cycles_take_few_solves():
-    assert run(cells=32)[2]["contact_solves"] <= 60
+def test_a_hundred_thousand_cycles_take_few_solves(monkeypatch):
+    tangential = []
+    monkeypatch.setattr(drive, "dragged", lambda *of: tangential.append(of) or dragged(*of))
+    assert run(cells=128)[2]["contact_solves"] <= 60
+    assert 30 < len(tangential) <= 120
 
 
 def test_the_energy_law_wears_by_the_slip():
@@ -115,9 +120,13 @@ REFUSED = {
         "%",
     ),
     "long": ({"amplitude": "100 um"}, "reciprocating"),
-    "long stage": ({"amplitude": LONG}, r"amplitude\.1\.amplitude: .*reciprocating"),
+    "long stage": ({"amplitude": LONG}, r"amplitude\.2\.amplitude: .*reciprocating"),
     "narrow": ({"amplitude": "1 um"}, "2 cells wide"),
-    "sticks": ({"amplitude": "1 nm"}, "0 cells wide"),
+    "sticks": ({"amplitude": "1 nm"}, r"kinematics\.amplitude: .*all sticks"),
+    "held": (
+        {"motion": {"force_amplitude": 0.1, "cycles": 1}},
+        r"kinematics\.force_amplitude: .*all",
+    ),
     "two ends": ({"motion": {"duration": "1 s"}}, "exactly one"),
     "short stages": ({"amplitude": STAGES, "motion": {"cycles": 2e5}}, "5000 s"),
     "passing": (
@@ -134,6 +143,28 @@ REFUSED = {
         "pass through",
     ),
 }
+
+
+UNLIKE = bodies() | {"flat": {"surface": {"type": "flat"}, "material": ALUMINIUM}}
+
+
+@pytest.mark.parametrize(
+    ("changes", "beyond", "place"),
+    [
+        ({"amplitude": "1.7 um"}, {"amplitude": "1.6 um"}, r"kinematics\.amplitude: .* 3 cells"),
+        ({"amplitude": "94 um"}, {"amplitude": "95 um"}, r"kinematics\.amplitude: .* 93\.8 µm"),
+        (
+            {"bodies": UNLIKE, "friction": {"coefficient": 0.43}},
+            {"friction": {"coefficient": 0.44}},
+            r"bodies: .* 5\.1 %",
+        ),
+    ],
+)
+def test_its_limits_are_where_they_are_stated(changes, beyond, place):
+    allowed = case(k=0.0, motion={"cycles": 1}, **changes)
+    Simulation(allowed).run().close()
+    with pytest.raises(CaseError, match=place):
+        Simulation(case(k=0.0, motion={"cycles": 1}, **changes | beyond)).run()
 
 
 @pytest.mark.parametrize("name", REFUSED)

@@ -55,9 +55,8 @@ def coefficients(
 class Cerruti:
     """Two half-spaces under tangential traction that is constant in each cell, in free space.
 
-    The convolution is padded with zeros (DC-FFT), as for the normal contact. Parameters are as in
-    `coefficients`, on a box; the components: 1 for tractions along x alone, 2 for both; and the
-    displacement along x of a rig in series under a traction of 1 on one cell, in m/Pa.
+    Parameters are as in `coefficients`, on a box that is padded; the components: 1 along x alone, 2
+    both; and the displacement along x of a rig under a traction of 1 on one cell, in m/Pa.
     """
 
     def __init__(

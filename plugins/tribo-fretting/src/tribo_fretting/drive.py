@@ -37,7 +37,7 @@ class Drive(Table):
     ]
     """Amplitude of the motion to each side: a number, or a list of stages, each a table with
     `until` and `amplitude`."""
-    stiffness: Annotated[float, Quantity("N/m", above=0, usual=(1e2, 1e12))] | None = None
+    stiffness: Annotated[float, Quantity("N/m", above=0, usual=(1e6, 1e12))] | None = None
     """Stiffness of the rig in series with the contact, along x: `amplitude` then moves the
     rig. A rigid rig if left out."""
     force_amplitude: Annotated[float, Quantity("N", above=0)] | None = None
@@ -86,7 +86,6 @@ class Drive(Table):
         Under a steady pressure a motion between ±δ leads to the tractions ±q₁, and each point slips
         4 s₁ a cycle: Masing's rule. With a rig the contact moves by δ less Q/k; with a force
         amplitude δ is less, if Q reaches it.
-
         The limit μp (Pa) has the shape of the grid, the amplitude δ is in m. The answer has both
         components of the traction; beyond the contact it is 0.
         """

@@ -44,8 +44,7 @@ def loops(result: Result, frequency: float) -> Figure:
     """Draw the tangential force over the displacement at up to five saves; frequency in Hz."""
     figure = Figure(figsize=(3.35, 2.6), layout="constrained")
     axes = figure.add_subplot(xlabel="Displacement (µm)", ylabel="Tangential force (N)")
-    count = len(result.times)
-    chosen = np.unique(np.linspace(0, count - 1, min(5, count)).round().astype(int))
+    chosen = np.unique(np.linspace(0, len(result.times) - 1, 5).round().astype(int))
     for save, shade in zip(chosen, np.linspace(0.7, 0.0, len(chosen)), strict=True):
         moved, force = loop(result, save)
         number = frequency * result.times[save]

@@ -13,9 +13,8 @@ def first_loading(
     """Return the displacement δ (m) and the traction (Pa) under a tangential force Q = ratio μP.
 
     With p, d the pressure and approach under P, and p′, d′ under P − Q/μ, for bodies of one
-    material: q = μ (p − p′), δ = μ χ (d − d′). Exact for ν = 0 and for line contacts; points slip
-    where p′ = 0. The `stretch` χ is the tangential compliance over the normal one: (2 − ν)/(2 − 2ν)
-    for balls, 1 for lines.
+    material: q = μ (p − p′), δ = μ χ (d − d′). Exact for ν = 0 and for line contacts. The
+    `stretch` χ is the tangential over the normal compliance: (2 − ν)/(2 − 2ν) for balls, else 1.
 
     References
     ----------

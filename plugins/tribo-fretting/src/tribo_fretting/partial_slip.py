@@ -122,7 +122,9 @@ class PartialSlip(Effect, Drive):
         return limit, self.first_loading(contact.grid, materials, limit, amplitude), amplitude
 
     def _check_first_contact(self, contact: ContactConditions) -> None:
-        drag, path = self._loaded(contact)[1], f"kinematics.{self.amplitude_path(contact.time)}"
+        _, drag, amplitude = self._loaded(contact)
+        by_force = drag.displacement < amplitude
+        path = "force_amplitude" if by_force else self.amplitude_path(contact.time)
         pressed, stuck = contact.pressure > 0, (contact.pressure > 0) & (drag.slip == 0)
         whole, inner = (0.5 * np.count_nonzero(each.any(axis=1)) for each in (pressed, stuck))
         slip, half_width = np.max(drag.slip[pressed]), whole * contact.grid.spacing[0]
@@ -131,12 +133,15 @@ class PartialSlip(Effect, Drive):
                 f"points slip by {1e6 * slip:.3g} µm to each side, more than half of the contact's "
                 f"half-width of {1e6 * half_width:.3g} µm; use kinematics.type = "
                 '"reciprocating" with positions, which is gross slip',
-                path,
+                f"kinematics.{path}",
             )
         rough = contact.system.curvature is None and np.any(drag.slip[pressed])
         if whole - inner < NARROW and inner and not (rough or self.allow_narrow_ring):
+            ring = (
+                f"{whole - inner:g} cells wide along x" if inner < whole else "nowhere: all sticks"
+            )
             raise CaseError(
-                f"the ring of slip is {whole - inner:g} cells wide along x; it must be {NARROW:g} "
-                "cells wide at least: take a larger amplitude, or smaller cells",
-                path,
+                f"the ring of slip is {ring}; it must be {NARROW:g} cells wide at least: take a "
+                f"larger {path.split('.')[-1]}, or smaller cells",
+                f"kinematics.{path}",
             )

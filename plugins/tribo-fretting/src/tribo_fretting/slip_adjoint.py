@@ -22,7 +22,6 @@ def pulled_back(
     """Return derivatives in μp and in numbers, by path, from derivatives in slip and traction.
 
     `by` has the latter in this order, shape (1 + components, nx, ny).
-
     With n the direction of the slip s, points that stick keep d(δ − A q) = 0; points that slip have
     ds = n d(δ − A q), and dq = n d(μp) + w with w along the rim. Which points stick adds nothing:
     where that changes s = 0 and |q| = μp, and both hold. For derivatives ŝ and q̂ the adjoint is
