@@ -46,4 +46,4 @@ def test_a_missing_effect_is_named_with_the_law_its_place_and_who_provides_it():
     message = str(caught.value)
     assert message.startswith("bodies.ball.wear: wear law 'stranger.oxidised' needs ")
     assert OXIDE in message
-    assert "these do: 'stranger.oxide_film' (" in message
+    assert "effects = [{ type = 'stranger.oxide_film'" in message

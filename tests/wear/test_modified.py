@@ -84,7 +84,7 @@ def test_what_is_wrong_inside_is_told_with_its_place():
     with pytest.raises(CaseError, match=r"^bodies\.pin\.wear\.law\.type: .*'archad'"):
         Simulation(case({**wrong, "law": {"type": "archad"}}))
     tired = {"type": "scaled", "factor": 2, "law": {"type": "stranger.tired", "law": ARCHARD}}
-    with pytest.raises(CaseError, match=r"pin\.wear: .* needs the field friction_.*stranger_oxide"):
+    with pytest.raises(CaseError, match=r"pin\.wear: .* needs friction_.*stranger_oxide"):
         Simulation(case(tired), registry=Registry.with_plugins(Offered))
 
 
