@@ -46,7 +46,7 @@ def test_excel_has_the_tables_of_the_csv_files(path, tmp_path):
 
 
 def test_an_unknown_column_is_refused_with_those_there_are(path):
-    with pytest.raises(CaseError, match="'depth'.* time, path, p max,"):
+    with pytest.raises(CaseError, match=r"'depth'.* time, path, p max,"):
         exported(path, "--columns", "time,depth")
 
 

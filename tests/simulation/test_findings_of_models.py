@@ -89,5 +89,5 @@ def test_what_is_no_finding_is_refused():
         def findings(self, snapshot):
             return ["too hot"]
 
-    with pytest.raises(PluginError, match="gave a str as a finding.*; it must be a Finding"):
+    with pytest.raises(PluginError, match=r"gave a str as a finding.*; it must be a Finding"):
         Simulation(case(Wrong(k=K))).run()

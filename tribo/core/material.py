@@ -123,9 +123,7 @@ class Materials:
             return found, tables[found]
         near = ", ".join(self.like(name))
         listed = f"did you mean {near}? 'tribo materials {name}' lists them" if near else _LISTED
-        raise WrongValues(
-            f"no material is called {name!r}; {listed}, or give a table with young and poisson"
-        )
+        raise WrongValues(f"no material is called {name!r}; {listed}")
 
     def like(self, word: str) -> list[str]:
         """Return the names of the materials with such a word in their names or descriptions."""

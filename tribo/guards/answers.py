@@ -55,7 +55,7 @@ class Answer(Field):
         shapes = " = ".join(filter(None, dict.fromkeys((self.shape, str(shape)))))
         rules = (f"of shape {shapes}",) if shape else (unit, self.limits)
         allowed = ", ".join(filter(None, ("it must be real and finite", *rules)))
-        return f"{allowed}; compute it from {self.like}" if self.like else allowed
+        return f"{allowed}; compute it from {self.like}" if shape and self.like else allowed
 
 
 def _table(*answers: Answer) -> Mapping[str, Answer]:

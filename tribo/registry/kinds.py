@@ -40,9 +40,9 @@ def _lacking(cls: Any, name: str) -> str:
     method = getattr(declared, "fget", declared)
     mark, given = "" if method is declared else "@property ", inspect.signature(method)
     like = did_you_mean(name, vars(cls))
-    meant = f" (did you mean {like!r}?)" if like else ""
+    meant = f" (it has {like!r})" if like else ""
     return (
-        f"{cls.kind().replace('_', ' ')} {cls.__qualname__} has no method {name}{meant}; add "
+        f"{cls.kind().replace('_', ' ')} {cls.__qualname__} has no method {name}{meant}; write "
         f"'{mark}def {name}({', '.join(given.parameters)})', which returns "
         f"{given.return_annotation}"
     )
