@@ -59,5 +59,5 @@ def test_a_time_without_a_save_is_refused_and_different_grids_are_named(results)
     coarse = made(grid=Grid((2e-3, 1.6e-3), (25, 20)))
     figure = comparison_picture({"one": results["one"], "coarse": coarse}, 200.0)
     assert "50 × 40, 25 × 20 cells" in figure.axes[0].get_title("left")
-    with pytest.raises(CaseError, match="no save at 7 s"):
+    with pytest.raises(CaseError, match="7 s; saved times: 0, 200"):
         comparison_picture(results, 7.0)
