@@ -21,7 +21,7 @@ class TriboError(Exception):
     ...     tribo.Material(young="210 mm", poisson=0.3)
     ... except tribo.TriboError as error:
     ...     print(error)
-    young: '210 mm' is a length [m]; a pressure [Pa] is needed, as in '210 GPa'
+    young: '210 mm' is a length [m]; a pressure [Pa] is needed, as in '2 GPa'
     """
 
     exit_code: ClassVar[int] = 1
