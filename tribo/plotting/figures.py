@@ -118,7 +118,7 @@ class Plot:
     def __dir__(self) -> list[str]:
         return [name for name, kind in KINDS.items() if kind.each(self._result)]
 
-    def __getattr__(self, name: str) -> Callable[..., Any]:
+    def __getattr__(self, name: str) -> Any:
         if name not in KINDS or not KINDS[name].each(self._result):
             raise AttributeError(unknown("picture", name, dir(self)))
         draw = KINDS[name].draw

@@ -37,6 +37,9 @@ _OF_BODIES = (
     ("volume, mm³", "wear_volume_m3", 1e9, ".3g"),
 )
 
+Scalars = dict[str, dict[str, Any]]
+"""Of one moment, by the label of the result."""
+
 
 def comparison_table(comparison: Comparison, times: Sequence[float]) -> DataTable:
     """Return a column for each result, with what differs at `times`."""
@@ -90,8 +93,8 @@ def _at(comparison: Comparison, time: float) -> Iterator[TableRow]:
 
 
 def _own(
-    fields: Sequence[Field], tables: Mapping[str, Mapping[str, Any]]
-) -> Iterator[tuple[str, tuple[Mapping[str, Mapping[str, Any]], str, float, str]]]:
+    fields: Sequence[Field], tables: Scalars
+) -> Iterator[tuple[str, tuple[Scalars, str, float, str]]]:
     """Yield a row for each column of a model, in the unit that fits its values."""
     for field in fields:
         key = labelled(field.name, field.unit)
