@@ -57,6 +57,8 @@ def test_every_kind_that_dir_names_draws(result):
         (lambda plot: plot.scar(), "ball, disk"),
         (lambda plot: plot.history("contacts"), "wear, contact"),
         (lambda plot: plot.pressure(time=7), "0, 200, 500, 1500, 3600"),
+        (lambda plot: plot.profiles("ball", saves=(1, 9)), "name, time, ax, axis"),
+        (lambda plot: plot.pressure(axis=0), "time, ax"),
         (lambda plot: plot.history("wear", time=200), "leave time out"),
     ],
 )

@@ -137,6 +137,10 @@ class Plot:
         if kind.of and (len(of) != 1 or of[0] not in there):
             given = ", ".join(of) or "none"
             raise CaseError(unknown(kind.what, given, there), f"plot.{name}")
+        known = _on_axes_signature(kind.draw).parameters
+        if other := [option for option in options if option not in known]:
+            takes = ", ".join(known)
+            raise CaseError(f"there is no {other[0]!r}; it takes {takes}", f"plot.{name}")
         if time is not None:
             with located(f"plot.{name}"):
                 options |= _saves(self._result, kind.draw, time)
