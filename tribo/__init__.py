@@ -18,12 +18,14 @@ shorthand.PLACES |= {
     "home": "tribo.config.home:home",
     "html": "tribo.cli.notebook:html",
     "materials": "tribo.registry.registry:material_files",
+    "overlay": "tribo.plotting.overlays:comparison_picture",
     "picture": "tribo.plotting.figures:result_picture",
     "plot": "tribo.plotting.figures:Plot",
     "registry": "tribo.registry.registry:default_registry",
     "report": "tribo.lab.report:lab_report",
     "saves": "tribo.lab.tables:saves_table",
     "show": "tribo.cli.lab_report:print_report",
+    "show_comparison": "tribo.cli.compare:print_comparison",
     "simulation": "tribo.simulation.run:Simulation",
 }
 _get = lazy(__name__, __file__)

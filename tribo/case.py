@@ -364,7 +364,10 @@ class Case(Table):
     def run(
         self, output: str | Path | None = None, *, progress: bool = False, **options: Any
     ) -> Result:
-        """Run from the beginning, as ``Simulation(case).run(output, …)``, with a bar if wanted."""
+        """Run from the beginning, as ``Simulation(case).run(output, …)``, with a bar if wanted.
+
+        `options` go to `Simulation.run`: ``observers=[…]``, ``overwrite=True``.
+        """
         if progress:
             from tribo.observers.progress import Progress
 

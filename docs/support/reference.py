@@ -21,7 +21,14 @@ from tribo.case import Body, Case
 from tribo.cli.commands import imported, offered
 from tribo.cli.main import tribo as command_line
 from tribo.component import Component
-from tribo.core.errors import TriboError
+from tribo.core.errors import (
+    CaseError,
+    Interrupted,
+    NumericalError,
+    OutputError,
+    PluginError,
+    ReaderGone,
+)
 from tribo.core.table import descriptions
 from tribo.core.units import _KINDS, _SYMBOLS, _UNPREFIXED, PREFIXES, Quantity
 from tribo.guards.answers import ANSWERS
@@ -145,9 +152,10 @@ def exit_codes() -> Iterator[str]:
     """Yield the exit codes, from the errors that have them."""
     yield "| Code | Raised as | Meaning |\n| --- | --- | --- |"
     yield "| 0 | | Done. |"
-    yield "| 1 | any other exception | A fault in tribo or in a plugin. |"
-    for error in TriboError.__subclasses__():
+    yield "| 1 | any other exception | A fault in tribo, or in a command of a package. |"
+    for error in (CaseError, NumericalError, PluginError, OutputError, Interrupted):
         yield f"| {error.exit_code} | `{error.__name__}` | {_summary(error)} |"
+    yield f"| {ReaderGone.exit_code} | | {_summary(ReaderGone)} |"
 
 
 def columns_table() -> Iterator[str]:

@@ -43,6 +43,15 @@ def shown(monkeypatch, stream):
     return stream.getvalue(), steps
 
 
+def test_a_narrow_terminal_shows_the_time_left_and_the_depths(monkeypatch):
+    for name, value in {"TERM": "xterm", "COLUMNS": "80", "NO_COLOR": "1"}.items():
+        monkeypatch.setenv(name, value)
+    text, _ = shown(monkeypatch, Terminal())
+    lines = re.findall(r"━+╸? +\d+:\d\d left · [^\x1b\r\n]*", text)
+    assert lines
+    assert all(len(line) <= 80 and re.search(r"ball \S+, disk \S+ µm", line) for line in lines)
+
+
 @pytest.mark.slow
 def test_the_bar_and_the_time_left_go_on_evenly_past_many_saves(monkeypatch):
     for name, value in {"TERM": "xterm", "COLUMNS": "200", "NO_COLOR": "1"}.items():

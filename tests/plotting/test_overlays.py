@@ -34,7 +34,15 @@ def test_a_map_is_the_result_less_the_first(results):
         assert low == -high
     assert figure.axes[0].get_title(loc="left") == "three less one, t = 3600 s"
     labels = [axes.child_axes[0].get_ylabel().split("\n")[0] for axes in figure.axes]
-    assert labels == ["Pressure (MPa)", "Depth of ball (µm)"]
+    assert labels == ["Pressure, difference (MPa)", "Depth of ball, difference (µm)"]
+
+
+def test_the_largest_difference_has_its_sign(results):
+    turned = difference_map({n: results[n] for n in ("three", "one")}, "one", 3600.0).axes[0]
+    pressure = turned.images[0].get_array().compressed()
+    lowest = pressure.min()
+    assert -lowest > pressure.max()
+    assert turned.child_axes[0].get_ylabel().endswith(f"largest {lowest:.4g}")
 
 
 def test_a_comparison_is_one_figure_of_all_that_is_worn(results):
@@ -59,5 +67,5 @@ def test_a_time_without_a_save_is_refused_and_different_grids_are_named(results)
     coarse = made(grid=Grid((2e-3, 1.6e-3), (25, 20)))
     figure = comparison_picture({"one": results["one"], "coarse": coarse}, 200.0)
     assert "50 × 40, 25 × 20 cells" in figure.axes[0].get_title("left")
-    with pytest.raises(CaseError, match="no saved time 7 s"):
+    with pytest.raises(CaseError, match="7 s; saved times: 0, 200"):
         comparison_picture(results, 7.0)

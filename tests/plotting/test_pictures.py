@@ -67,7 +67,7 @@ def test_sections_hold_every_save_and_hertz_beside_the_first(result):
 
 
 def test_the_map_is_the_pressure_from_zero_to_a_percentile_that_it_states(result):
-    (axes,) = pressure_map(result, [1]).figure().axes
+    (axes,) = pressure_map(result, 1).figure().axes
     (image,) = axes.images
     pressure = 1e-6 * result.field("pressure", 1).T
     shown = np.ma.filled(image.get_array(), np.nan)

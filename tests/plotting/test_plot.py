@@ -1,5 +1,7 @@
 """Pictures and tables of a result on one's own axes, in one's own style."""
 
+from inspect import signature
+
 import matplotlib
 import numpy as np
 import pytest
@@ -30,7 +32,7 @@ def test_a_picture_is_drawn_on_the_axes_that_are_given(result):
     assert np.max(left.images[0].get_array()) == pytest.approx(depth.max())
     result.plot.profiles("ball", axis=1, ax=right)
     assert [line.get_label() for line in right.lines][-1] == "3600 s"
-    with pytest.raises(CaseError, match="4 panels, 1 axes"):
+    with pytest.raises(CaseError, match=r"4 panels, 1 axes.*subplots\(2, 2\)"):
         result.plot.sections(ax=right)
 
 
@@ -55,6 +57,8 @@ def test_every_kind_that_dir_names_draws(result):
         (lambda plot: plot.scar(), "ball, disk"),
         (lambda plot: plot.history("contacts"), "wear, contact"),
         (lambda plot: plot.pressure(time=7), "0, 200, 500, 1500, 3600"),
+        (lambda plot: plot.profiles("ball", saves=(1, 9)), "name, time, ax, axis"),
+        (lambda plot: plot.pressure(axis=0), "time, ax"),
         (lambda plot: plot.history("wear", time=200), "leave time out"),
     ],
 )
@@ -63,6 +67,17 @@ def test_what_is_not_there_is_answered_with_what_is(draw, there, result):
         draw(result.plot)
     with pytest.raises(AttributeError, match="There are history, pressure, prof"):
         result.plot.scars  # noqa: B018
+
+
+def test_a_picture_of_curves_takes_several_times_and_a_map_takes_one(result):
+    assert str(signature(result.plot.profiles)) == "(name: 'str', *, time=None, ax=None, axis=None)"
+    assert "time" not in signature(result.plot.history).parameters
+    axes = result.plot.profiles("ball", time=[200, "1 h"], axis=0)
+    assert [line.get_label() for line in axes.lines] == ["200 s", "3600 s"]
+    with pytest.raises(CaseError, match=r"plot\.scar.*a list"):
+        result.plot.scar("ball", time=[200, 3600])
+    with pytest.raises(CaseError, match=r"plot\.scar.*a length"):
+        result.plot.scar("ball", time="2 mm")
 
 
 @pytest.mark.slow

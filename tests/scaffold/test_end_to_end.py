@@ -96,6 +96,9 @@ def test_the_tests_pass_of_a_law_with_other_keys(fresh, tmp_path):
     model = copied / "src" / "acme_fretting" / "fretting.py"
     before, _ = model.read_text().split("\n    examples")
     model.write_text(before + LAW)
+    example = (copied / "example.toml").read_text()
+    renamed = example.replace('k = "1e-15 1/Pa"', 'wear_rate = 1e-15, mild = "1 GPa"')
+    (copied / "example.toml").write_text(renamed)
     said = run(
         *(fresh.python, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-W", "error"),
         *("-o", "pythonpath=src", "tests"),

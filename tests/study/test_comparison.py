@@ -171,3 +171,15 @@ def test_file_names_are_safe_and_different():
     assert names[:2] == ["load.normal=50_N.h5", "load.normal=50_N~1.h5"]
     assert len(set(names)) == 4
     assert max(map(len, names)) < 120
+
+
+def test_the_data_frame_has_a_row_for_each_result_and_time(foundations, capsys):
+    table = foundations.to_dataframe([100])
+    assert list(table["result"]) == ["dcfft", "winkler"]
+    assert list(table["time (s)"]) == [100, 100]
+    peak = foundations.save("winkler", 100)["max_pressure_Pa"]
+    assert table["p max (MPa)"][1] == pytest.approx(1e-6 * peak, rel=1e-12)
+    foundations.show([100])
+    printed = capsys.readouterr().out
+    assert "at 100 s" in printed
+    assert "at 300 s" not in printed

@@ -75,7 +75,7 @@ def compare(
     with run(what, match={name: own for name, _, own in pairs}, **options) as comparison:
         chosen = comparison.chosen_times(times)
         if not as_json:
-            _print(comparison, chosen)
+            print_comparison(comparison, chosen)
         pictures = []
         if not no_plots:
             from tribo.plotting.overlays import save_overlays
@@ -88,7 +88,7 @@ def compare(
         click.echo(f"Wrote {path}")
 
 
-def _print(comparison: Comparison, times: Sequence[float]) -> None:
+def print_comparison(comparison: Comparison, times: Sequence[float]) -> None:
     """Print what differs at `times`, as many results side by side as the width allows."""
     from rich.markup import escape
 

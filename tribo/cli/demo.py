@@ -44,6 +44,9 @@ def demo(directory: Path, force: bool) -> None:
     \b
     Example:
       tribo demo -d somewhere
+
+    Exit codes: 0 done, 2 bad input, 3 numerical failure or output that cannot
+    be written, 130 interrupted.
     """
     from functools import partial
 

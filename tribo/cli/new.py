@@ -25,6 +25,8 @@ def new(name: str | None, file: Path | None, force: bool) -> None:
     Example:
       tribo new
       tribo new ball_on_disk my.toml
+
+    Exit codes: 0 done, 2 bad input, 3 output that cannot be written.
     """
     from tribo.core.writing import check_new, write_file
     from tribo.registry.all_plugins import choose

@@ -21,6 +21,9 @@ def resume(output: Path, allow_changed: bool) -> None:
     \b
     Example:
       tribo resume my.h5
+
+    Exit codes: 0 done, 2 bad input, 3 numerical failure or output that cannot
+    be written, 130 interrupted.
     """
     from tribo.cli.lab_report import print_report
     from tribo.cli.streams import printing

@@ -10,9 +10,10 @@ from typing import Any
 
 from pydantic import PrivateAttr
 from rich.console import Console
-from rich.progress import BarColumn, TaskID, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, Task, TaskID, TextColumn, TimeRemainingColumn
 from rich.progress import Progress as Bar
 from rich.table import Column
+from rich.text import Text
 
 from tribo.core.state import RunInfo, Snapshot
 from tribo.core.words import readable
@@ -23,6 +24,15 @@ RENEWED = 0.1
 """Time between two renewals of the line, in s."""
 
 
+class _Described(TextColumn):
+    """The description of a task, cut where a narrow terminal ends: the other parts stay whole."""
+
+    def render(self, task: Task) -> Text:
+        text = super().render(task)
+        text.no_wrap, text.overflow = True, "ellipsis"
+        return text
+
+
 def progress_bar(**options: Any) -> Bar:
     """Return a bar on stderr: the time to go, and what a task is described as.
 
@@ -30,9 +40,9 @@ def progress_bar(**options: Any) -> Bar:
     environment forces colours. `options` go to `rich.progress.Progress`.
     """
     return Bar(
-        BarColumn(16),
-        TimeRemainingColumn(compact=True),
-        TextColumn("left · {task.description}", table_column=Column(no_wrap=True)),
+        BarColumn(6, table_column=Column(no_wrap=True)),
+        TimeRemainingColumn(compact=True, table_column=Column(no_wrap=True)),
+        _Described("left · {task.description}", table_column=Column()),
         console=Console(file=sys.stderr),
         transient=True,
         disable=not sys.stderr.isatty(),
@@ -41,7 +51,7 @@ def progress_bar(**options: Any) -> Bar:
 
 
 class Progress(Observer):
-    """A live line on stderr: time, step, pressure, worn depth, time to go.
+    """A live line on stderr: time to go, time, pressure, worn depths, step.
 
     Runs shorter than two seconds stay silent. Where stderr is no terminal, a
     plain line is printed at each save.
@@ -77,10 +87,11 @@ class Progress(Observer):
         self._renewed = now
         self._bar.start()
         m = snapshot.measures
-        worn = [f"{name} {1e6 * body.max_wear_depth:.3g} µm" for name, body in m.bodies.items()]
+        worn = [f"{name} {1e6 * body.max_wear_depth:.3g}" for name, body in m.bodies.items()]
         words = (
-            f"{m.time:.4g} of {self._run.end_time:.4g} s · step {snapshot.state.steps} · "
-            f"p max {readable(1e-6 * m.max_pressure, '.0f')} MPa · {', '.join(worn)}"
+            f"{m.time:.4g}/{self._run.end_time:.4g} s · "
+            f"p max {readable(1e-6 * m.max_pressure, '.0f')} MPa · {', '.join(worn)} µm · "
+            f"step {snapshot.state.steps}"
         )
         self._bar.update(self._task, completed=self._part(snapshot), description=words)
         self._bar.refresh()

@@ -6,6 +6,7 @@ import logging
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial, wraps
+from inspect import Parameter, Signature, signature
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,8 @@ import numpy as np
 from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.figure import Figure
 
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, located
+from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, suggestion
 from tribo.core.writing import make_folder, write_file
 from tribo.lab.kept import kept_fields
@@ -37,6 +39,7 @@ from tribo.result.read import Result
 
 # No dates, so that the same result gives the same file.
 _METADATA: dict[str, dict[str, Any]] = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}
+TIME = Quantity("s", at_least=0)
 _LOG = logging.getLogger("tribo.plotting")
 
 
@@ -91,7 +94,8 @@ class Plot:
     ``plot("folder")`` writes all that say something to files. ``plot.scar("ball", time=200)``
     draws one in the style that is set in matplotlib, and returns its axes, or an array of them;
     a notebook shows it. ``ax`` are axes to draw on, one for each panel; ``time`` is a saved time,
-    in s. `dir` lists the pictures of this result.
+    in s or as ``"200 s"``, and of profiles and sections a list of them, too. `dir` lists the
+    pictures of this result.
 
     Examples
     --------
@@ -114,13 +118,16 @@ class Plot:
     def __dir__(self) -> list[str]:
         return [name for name, kind in KINDS.items() if kind.each(self._result)]
 
-    def __getattr__(self, name: str) -> Callable[..., Any]:
+    def __getattr__(self, name: str) -> Any:
         if name not in KINDS or not KINDS[name].each(self._result):
             raise AttributeError(unknown("picture", name, dir(self)))
-        return wraps(KINDS[name].draw)(partial(self._on_axes, name))
+        draw = KINDS[name].draw
+        on_axes: Any = wraps(draw)(partial(self._on_axes, name))
+        on_axes.__signature__ = _on_axes_signature(draw)
+        return on_axes
 
     def _on_axes(
-        self, name: str, *of: str, time: float | None = None, ax: Any = None, **options: Any
+        self, name: str, *of: str, time: Any = None, ax: Any = None, **options: Any
     ) -> Any:
         """Draw a picture on axes that are given, or on a figure of pyplot."""
         kind = KINDS[name]
@@ -130,10 +137,13 @@ class Plot:
         if kind.of and (len(of) != 1 or of[0] not in there):
             given = ", ".join(of) or "none"
             raise CaseError(unknown(kind.what, given, there), f"plot.{name}")
+        known = _on_axes_signature(kind.draw).parameters
+        if other := [option for option in options if option not in known]:
+            takes = ", ".join(known)
+            raise CaseError(f"there is no {other[0]!r}; it takes {takes}", f"plot.{name}")
         if time is not None:
-            if kind.draw is history:
-                raise CaseError("a history has all times; leave time out", f"plot.{name}")
-            options["saves"] = [self._result.save_at(time)]
+            with located(f"plot.{name}"):
+                options |= _saves(self._result, kind.draw, time)
         picture = kind.draw(self._result, *of, **options)
         if ax is not None:
             return picture.draw(ax)
@@ -142,6 +152,27 @@ class Plot:
         figure = pyplot.figure(layout="constrained")
         figure.set_figheight(figure.get_figheight() * len(picture.rows))
         return picture.fill(figure)
+
+
+def _on_axes_signature(draw: Callable[..., Picture]) -> Signature:
+    """Return the arguments of a picture on axes: it takes times instead of indices of saves."""
+    known = signature(draw).parameters
+    of = [known[name] for name in ("name",) if name in known]
+    times = [] if draw is history else ["time"]
+    options = [*times, "ax", *(name for name in ("axis",) if name in known)]
+    keywords = [Parameter(name, Parameter.KEYWORD_ONLY, default=None) for name in options]
+    return Signature([*of, *keywords])
+
+
+def _saves(result: Result, draw: Callable[..., Picture], time: Any) -> dict[str, Any]:
+    """Return the argument of a drawing function for a saved time, or for several if it takes so."""
+    takes = signature(draw).parameters
+    if "saves" in takes:
+        times = np.ravel(np.asarray(time, dtype=object))
+        return {"saves": [result.save_at(TIME.read(each)) for each in times]}
+    if "save" not in takes:
+        raise CaseError("a history has all times; leave time out")
+    return {"save": result.save_at(TIME.read(time))}
 
 
 def unknown(what: str, name: str, there: Sequence[str]) -> str:
@@ -227,4 +258,4 @@ def _made(result: Result) -> Iterator[tuple[str, Callable[[], Picture]]]:
         for of in kind.each(result):
             yield kind.file.format(*of), partial(kind.draw, result, *of)
         if kind.draw is pressure_map and len(result.times) > 2:
-            yield f"{kind.file}_early", partial(kind.draw, result, [1])
+            yield f"{kind.file}_early", partial(kind.draw, result, 1)

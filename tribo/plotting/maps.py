@@ -135,7 +135,8 @@ class Scale(NamedTuple):
         )
         axes.set(**window)
         end = f"{high:.3g}" if self.most else f"{MOST_CELLS:g} % of cells"
-        label = f"{self.label}\nto {end}; largest {np.max(cells):.4g}"
+        largest = cells[np.argmax(np.abs(cells))]
+        label = f"{self.label}\nto {end}; largest {largest:.4g}"
         bar = axes.inset_axes((1.0 + 2.0 / width, 0.0, 3.0 / width, 1.0))
         axes.figure.colorbar(image, cax=bar, label=label, ticks=ticks(max(3, int(height / 8))))
 

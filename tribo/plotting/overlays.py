@@ -113,6 +113,7 @@ def _difference(results: Results, label: str, time: float) -> Picture:
             continue
         most = float(np.percentile(np.abs(apart[marked]), MOST_CELLS))
         scale = Scale.of(name, most)._replace(colours=DIFFERENCES, least=-most, most=most)
+        scale = scale._replace(what=f"{scale.what}, difference")
         title = "" if pictures else f"{label} less {first_label}, t = {time:g} s"
         pictures.append(field_picture(apart, marked, grid, scale, title, vary=vary))
     if not pictures:

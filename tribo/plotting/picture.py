@@ -55,9 +55,14 @@ class Picture:
 
     def draw(self, given: Any) -> Any:
         """Draw on axes that are given, one for each panel, and return them."""
-        axes, count = np.ravel(np.asarray(given, dtype=object)), sum(map(len, self.rows))
-        if len(axes) != count:
-            raise CaseError(f"the picture has {count} panels, {len(axes)} axes were given", "ax")
+        axes = np.ravel(np.asarray(given, dtype=object))
+        rows, columns = len(self.rows), len(self.rows[0])
+        if len(axes) != rows * columns:
+            raise CaseError(
+                f"the picture has {rows * columns} panels, {len(axes)} axes were given; make them "
+                f"with figure, axes = plt.subplots({rows}, {columns})",
+                "ax",
+            )
         if named := self._draw(axes):
             axes[0].legend(handles=named)
         return given

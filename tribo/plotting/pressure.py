@@ -29,13 +29,13 @@ _FADED = 2.0
 """Ratio of the first pressure to the later ones above which it has panels of its own."""
 
 
-def pressure_map(result: Result, saves: Sequence[int] = (-1,)) -> Picture:
+def pressure_map(result: Result, save: int = -1) -> Picture:
     """Draw the pressure at a save from above, or its profile where it varies along one axis.
 
     The solid line is the edge of the contact, the dashed one Hertz's first contact where the
     surfaces state their curvature. A long contact is drawn wider, and the axis says how much.
     """
-    save, hertz = saves[-1], _hertz(result)
+    hertz = _hertz(result)
     pressure = result.field("pressure", save)
     touching = pressure > 0
 

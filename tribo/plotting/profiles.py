@@ -43,15 +43,15 @@ UPPER, LOWER = "#e4e4e4", "#b4b4b4"
 BESIDE: Look = {"color": "#b05a00", "linewidth": 1.2, "linestyle": (0.0, (1.2, 1.2))}
 
 
-def scar_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
+def scar_map(result: Result, name: str, save: int = -1) -> Picture:
     """Draw from above the depth of a body at a save: worn off and displaced.
 
     For a body that passes through a resolved cycle it is the groove along the whole track. What
     varies along one axis only is drawn as its profile.
     """
-    grid, gone = _gone(result, name, saves[-1:])
+    grid, gone = _gone(result, name, [save])
     scale = Scale.of(name, float(np.max(gone)))._replace(what="Depth")
-    title = f"{name}, t = {time_labels(result.times)[saves[-1]]}"
+    title = f"{name}, t = {time_labels(result.times)[save]}"
     return field_picture(gone[0], scar_mask(gone[0]), grid, scale, title)
 
 
@@ -94,14 +94,13 @@ def _gone(result: Result, name: str, saves: Sequence[int]) -> tuple[Grid, list[A
     return Grid((len(gone[0]) * grid.spacing[0], grid.size[1]), gone[0].shape), gone
 
 
-def worn_section(result: Result, saves: Sequence[int] = (-1,), axis: int | None = None) -> Picture:
+def worn_section(result: Result, save: int = -1, axis: int | None = None) -> Picture:
     """Draw both bodies in section at a save, along the axes along which one wears unevenly.
 
     They touch at their closest point, without load; a moving body lies below. The unworn surface of
     each worn body is drawn where its points were, and a thin line where a layer ends that is worn
     by half at least. The picture states how much it enlarges heights and how deep the scars are.
     """
-    save = saves[-1]
     upper, lower = sorted(map(result.body, result.body_names), key=lambda body: body.swept)
     gone = [removed(result, body.name)[save] for body in (upper, lower)]
     depths = [float(np.max(depth)) for depth in gone]
@@ -163,23 +162,23 @@ def _deep(gone: Array) -> str:
     return f"{deepest / size(unit):.3g} {unit}"
 
 
-def field_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
+def field_map(result: Result, name: str, save: int = -1) -> Picture:
     """Draw a field of the models from above at a save, or along the axis that it varies along."""
     kept = next(each for each in kept_fields(result) if each.key == name)
-    values = kept.values[saves[-1]]
+    values = kept.values[save]
     scale = Scale(kept.name.capitalize(), *shown_in(kept.unit, values), least=None)
-    title = f"t = {time_labels(result.times)[saves[-1]]}"
-    return field_picture(values, result.field("pressure", saves[-1]) > 0, result.grid, scale, title)
+    title = f"t = {time_labels(result.times)[save]}"
+    return field_picture(values, result.field("pressure", save) > 0, result.grid, scale, title)
 
 
-def height_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
+def height_map(result: Result, name: str, save: int = -1) -> Picture:
     """Draw the heights of a body in its scar, unworn and at a save, form removed."""
-    scar, unworn, _ = reliefs(result, result.body(name), saves[-1] % len(result.times))
+    scar, unworn, _ = reliefs(result, result.body(name), save % len(result.times))
     known = np.isfinite(scar)
     low, high = np.percentile(unworn[np.isfinite(unworn)], (100.0 - MOST_CELLS, MOST_CELLS))
     unit = height_unit(max(abs(low), abs(high)))
     scale = Scale("Height", unit, size(unit), PRESSURES, low, high)
-    moments = {"unworn": unworn, f"t = {time_labels(result.times)[saves[-1]]}": scar}
+    moments = {"unworn": unworn, f"t = {time_labels(result.times)[save]}": scar}
     pictures = [
         field_picture(relief, known, result.grid, scale, f"{name}, {moment}", vary=(0, 1))
         for moment, relief in moments.items()
@@ -187,13 +186,13 @@ def height_map(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Pictu
     return below_each_other(pictures)
 
 
-def material_ratio_curves(result: Result, name: str, saves: Sequence[int] = (-1,)) -> Picture:
+def material_ratio_curves(result: Result, name: str, save: int = -1) -> Picture:
     """Draw the material ratio (Abbott) curves of a body, form removed.
 
     The curves are for its scar at a save, the first surface there, and the surface beside.
     """
-    worn = reliefs(result, result.body(name), saves[-1] % len(result.times))
-    labels = f"scar, {time_labels(result.times)[saves[-1]]}", "unworn", "beside"
+    worn = reliefs(result, result.body(name), save % len(result.times))
+    labels = f"scar, {time_labels(result.times)[save]}", "unworn", "beside"
     looks = OVER, UNDER, BESIDE
     unit = height_unit(max(float(np.nanmax(np.abs(part))) for part in (worn.scar, worn.unworn)))
 

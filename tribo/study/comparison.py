@@ -7,7 +7,7 @@ from contextlib import ExitStack
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from tribo.core import findings
 from tribo.core.errors import CaseError
 from tribo.core.findings import Finding
 from tribo.core.rounding import ROUND_OFF
+from tribo.core.shorthand import call
 from tribo.lab.report import quantity_rows
 from tribo.observers.observer import Observer
 from tribo.registry.registry import Registry
@@ -27,6 +28,10 @@ from tribo.study.matching import check_match, pairs, renamed
 from tribo.study.runs import run_variants
 from tribo.study.side_by_side import comparison_table
 from tribo.study.variation import grid, short_labels, variants
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 MOST = 12
 """Most results that a table or a picture takes side by side."""
@@ -70,6 +75,28 @@ class Comparison:
 
     def __repr__(self) -> str:
         return f"<Comparison of {', '.join(self.results)}>"
+
+    def show(self, times: Sequence[float] = ()) -> None:
+        """Print what differs at `times`, in s, as ``tribo compare`` does; see `chosen_times`."""
+        call("show_comparison", self, self.chosen_times(times))
+
+    def to_dataframe(self, times: Sequence[float] = ()) -> pd.DataFrame:
+        """Return a row for each result and time, with the columns of `Result.to_dataframe`.
+
+        `times` are in s; all in common if left out.
+        """
+        import pandas as pd
+
+        rows = {
+            label: result.to_dataframe().iloc[[result.save_at(t) for t in times or self.times]]
+            for label, result in self.results.items()
+        }
+        return pd.concat(rows, names=["result", ""]).reset_index("result").reset_index(drop=True)
+
+    def picture(self, time: float | None = None) -> Figure:
+        """Draw the results over each other at a time in common, in s, or at the last."""
+        figure: Figure = call("overlay", self.results, self.times[-1] if time is None else time)
+        return figure
 
     def _repr_html_(self) -> str:
         """Show in a notebook what differs at the last time in common."""

@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections import ChainMap
 from collections.abc import Iterator, Mapping, Sequence
 from math import isnan, nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from tribo.core.column import labelled
 from tribo.core.data_table import DataTable, Heading, TableRow
+from tribo.core.fields import Field
 from tribo.core.words import readable, signed
 from tribo.lab.report import quantity_rows
+from tribo.lab.units import shown_in
 from tribo.result.layout import SAVED
 from tribo.study.differences import differences
 
@@ -33,6 +37,9 @@ _OF_BODIES = (
     ("volume, mm³", "wear_volume_m3", 1e9, ".3g"),
 )
 
+Scalars = dict[str, dict[str, Any]]
+"""Of one moment, by the label of the result."""
+
 
 def comparison_table(comparison: Comparison, times: Sequence[float]) -> DataTable:
     """Return a column for each result, with what differs at `times`."""
@@ -40,8 +47,10 @@ def comparison_table(comparison: Comparison, times: Sequence[float]) -> DataTabl
     rows = [TableRow((name, *(t[key] for t in totals)), form) for name, key, form in _TOTALS]
     found = [{row.key: row for row in quantity_rows(each)} for each in comparison.results.values()]
     for key, row in dict(ChainMap(*found)).items():
-        values = (of[key].value if key in of else None for of in found)
-        rows.append(TableRow((f"{row.label}, {row.unit}".removesuffix(", "), *values), ".4g"))
+        values = [of[key].value if key in of else nan for of in found]
+        unit, size = shown_in(row.unit, np.array(values))
+        name = f"{row.label}, {unit}".removesuffix(", ")
+        rows.append(TableRow((name, *(value / size for value in values)), ".4g"))
     for time in times:
         rows += [TableRow((f"at {time:g} s",)), *_at(comparison, time)]
     headings = Heading("", whole=True), *map(Heading, comparison.results)
@@ -53,15 +62,14 @@ def _at(comparison: Comparison, time: float) -> Iterator[TableRow]:
     labels, reference = list(comparison.results), comparison.reference
     saves = {label: comparison.save(label, time) for label in labels}
     first = comparison.results[reference]
-    fields = (field for kind in SAVED for field in first.fields_of(kind).values())
-    own = [labelled(field.name, field.unit) for field in fields]
+    own = [field for kind in SAVED for field in first.fields_of(kind).values()]
     rows = {name: (saves, key, factor, digits) for name, key, factor, digits in _SCALARS}
     for body in comparison.bodies:
         worn = {label: save["bodies"][body] for label, save in saves.items()}
         for name, key, factor, digits in _OF_BODIES:
             rows[f"{body} {name}"] = worn, key, factor, digits
-        rows |= {f"{body} {each}": (worn, each, 1.0, ".4g") for each in own}
-    rows |= {each: (saves, each, 1.0, ".4g") for each in own}
+        rows |= {f"{body} {name}": row for name, row in _own(own, worn)}
+    rows |= dict(_own(own, saves))
     for row, (tables, key, factor, digits) in rows.items():
         values = {label: float(table.get(key, nan)) for label, table in tables.items()}
         if any(values.values()) and not isnan(sum(values.values())):
@@ -82,6 +90,17 @@ def _at(comparison: Comparison, time: float) -> Iterator[TableRow]:
             cell = f"{_percent(each.l2)} %, {_percent(each.largest)} %"
             off.setdefault(f"{name} {of}", [None] * len(labels))[i] = cell
     yield from (TableRow((name, *shown)) for name, shown in off.items())
+
+
+def _own(
+    fields: Sequence[Field], tables: Scalars
+) -> Iterator[tuple[str, tuple[Scalars, str, float, str]]]:
+    """Yield a row for each column of a model, in the unit that fits its values."""
+    for field in fields:
+        key = labelled(field.name, field.unit)
+        unit, size = shown_in(field.unit, np.array([t.get(key, nan) for t in tables.values()]))
+        name = field.name.replace("_", " ")
+        yield f"{name}, {unit}".removesuffix(", "), (tables, key, 1.0 / size, ".4g")
 
 
 def _off(
