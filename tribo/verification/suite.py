@@ -40,7 +40,7 @@ def cases_in(folder: Path) -> list[ValidationCase]:
     if not found:
         raise CaseError(
             f"{folder} has no expected.toml, nor has a folder in it; write one as on "
-            "the page Verification"
+            "the page 'Verification'"
         )
     return found
 

@@ -98,7 +98,7 @@ class ValidationCase:
         """What it must give; CaseError, a line for each error, if the file is wrong."""
         path = self.folder / "expected.toml"
         try:
-            tables = read_toml(path, "expected values", "see the page Verification")
+            tables = read_toml(path, "expected values", "see the page 'Verification'")
             return Expected.model_validate(tables)
         except ValidationError as error:
             raise CaseError(f"{path}: {case_error(error)}") from None
