@@ -257,3 +257,16 @@ def test_a_case_is_not_written_over_unasked(case, command, words):
     assert done.returncode == 2
     assert words in done.stderr
     assert (case.read_text(), other.read_text()) == (CASE, "mine")
+
+
+def test_a_finished_run_is_resumed_without_its_plugin_and_stays_as_it_is(case):
+    Path("own.py").write_text(
+        "from tribo import Archard\n\n\nclass Mine(Archard):\n    type = 'mine'\n"
+    )
+    law = setting("bodies.ball.wear={type='mine', k=1e-15}")
+    assert tribo("run", "my.toml", *QUICK, *law, "--plugin", "own.py").returncode == 0
+    before = Path("my.h5").read_bytes()
+    done = tribo("resume", "my.h5")
+    assert done.returncode == 0
+    assert "my.h5" in done.stdout
+    assert Path("my.h5").read_bytes() == before

@@ -53,3 +53,11 @@ def test_a_case_prints_values_in_readable_units_and_leaves_out_defaults():
     assert not any("stepping" in line for line in lines)
     assert case.bodies["ball"].material.young == 207 * GPa
     assert (case.load.normal, case.bodies["ball"].surface.radius) == (100 * N, 5 * mm)
+
+
+def test_entries_of_a_list_are_counted_from_1_as_in_a_path():
+    stages = [{"until": 60.0, "normal": 50.0}, {"until": 3600.0, "normal": 80.0}]
+    case = load_case("tribo/templates/ball_on_disk.toml").with_values({"load.normal": stages})
+    lines = [line.strip() for line in str(case).splitlines()]
+    assert "1: until 60 s, normal 50 N" in lines
+    assert case.with_values({"load.normal.1.normal": 20.0}).load.normal[0].normal == 20 * N

@@ -41,7 +41,7 @@ def test_a_case_that_names_another_contract_is_refused_and_no_other_is(folder, o
     assert "'other.calm' cannot be used: other 4.5 is incompatible: " in line
     assert repr(other) in line
     assert f"contract {package.api_version}" in line
-    assert "docs/reference/contract.md" in line
+    assert "The contract of plugins" in line
     assert "other" not in sys.modules
 
 

@@ -83,6 +83,15 @@ def test_what_a_result_does_not_have_fails_the_row_and_says_so(own, old, new, wo
     assert words in str(row)
 
 
+def test_a_wrong_quantity_fails_its_own_row(own):
+    text = (own.folder / "expected.toml").read_text()
+    row = text[text.index("[[expect]]") :].replace("wear_depth", "wear_dept")
+    (own.folder / "expected.toml").write_text(f"{text}\n{row}")
+    (failed,) = own.run()
+    assert failed.quantity.startswith("wear dept ")
+    assert "expect.2" in failed.reason
+
+
 def test_a_folder_without_a_case_is_refused(tmp_path):
     with pytest.raises(CaseError, match=r"expected\.toml"):
         cases_in(tmp_path)

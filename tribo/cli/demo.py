@@ -13,8 +13,8 @@ RESOLVED = ("kinematics.positions=33", "grid.cells=64")
 AVERAGE = """\
 This is the paper's model: it averages the disk's wear over the stroke.
 The same hour follows, with the cycle resolved into 33 positions along the stroke,
-on 64² cells; it takes ten to thirty seconds. docs/understand/paper.md explains what differs
-("What the average costs")."""
+on 64² cells; it takes ten to thirty seconds. The page "The paper, reproduced" explains what
+differs ("What the average costs")."""
 
 LIKE = {
     "ball_scar": "like the paper's figure 4, which was measured",
@@ -44,6 +44,10 @@ def demo(directory: Path, force: bool) -> None:
     \b
     Example:
       tribo demo -d somewhere
+    \b
+    On a coarser grid:
+      tribo new ball_on_disk my.toml
+      tribo run my.toml --set grid.cells=64
 
     Exit codes: 0 done, 2 bad input, 3 numerical failure or output that cannot
     be written, 130 interrupted.

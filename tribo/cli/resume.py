@@ -16,7 +16,8 @@ from tribo.cli.options import PLUGIN, RESULT
 def resume(output: Path, allow_changed: bool) -> None:
     """Continue the stopped run whose result file is OUTPUT.
 
-    The result has the same bits as the result of a run that was never stopped.
+    The result has the same bits as the result of a run that was never stopped. A run that is done
+    stays as it is.
 
     \b
     Example:
@@ -29,12 +30,16 @@ def resume(output: Path, allow_changed: bool) -> None:
     from tribo.cli.streams import printing
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
+    from tribo.result.checkpoint import RunFolder
     from tribo.result.provenance import plugin_files
     from tribo.result.read import Result
     from tribo.simulation.run import Simulation
 
     with Result.open(output) as stopped:
-        case, made = stopped.case_tables, stopped.provenance
+        case, made, status = stopped.case_tables, stopped.provenance, stopped.status
+    if status == "done" and not RunFolder(output.resolve()).path.is_dir():
+        click.echo(f"{output} is done; see it with: tribo show {output}")
+        return
     try:
         simulation = Simulation(case)
     except CaseError as error:

@@ -161,7 +161,7 @@ def _lines(name: str, value: Any, depth: int = 0) -> Iterator[str]:
             else:
                 beside.append(f"{key} {_text(inner, fields[key])}")
     else:
-        pairs = value.items() if isinstance(value, Mapping) else enumerate(value)
+        pairs = value.items() if isinstance(value, Mapping) else enumerate(value, 1)
         inside = {str(key): inner for key, inner in pairs}
     yield "  " * depth + f"{name}: {', '.join(beside)}".removesuffix(": ")
     for key, inner in inside.items():

@@ -122,7 +122,8 @@ def installed() -> list[Plugin]:
             plugin.status = "incompatible"
             plugin.reason = (
                 f"its entry points are in the group {point.group!r}; this tribo, of contract "
-                f"{api_version}, needs them in {GROUP!r}; see docs/reference/contract.md"
+                f"{api_version}, needs them in {GROUP!r}; see the page "
+                "'The contract of plugins'"
             )
         if point.name == distribution.name:
             continue

@@ -99,8 +99,9 @@ class Check:
         shown = f"<p>The case {escape(self.verdict)}</p>"
         for heading, rows in self.blocks():
             shown += f"<p>{escape(heading)}:</p>" if heading else ""
-            cells = (f"<tr><td>{escape(n.strip())}<td>{escape(text)}" for n, text in rows)
-            shown += f"<table style='text-align: left'>{''.join(cells)}</table>" if rows else ""
+            cells = (f"<td>{escape(n.strip())}</td><td>{escape(text)}</td>" for n, text in rows)
+            lines = "".join(f"<tr>{each}</tr>" for each in cells)
+            shown += f"<table style='text-align: left'>{lines}</table>" if rows else ""
         return shown
 
     def as_json(self) -> dict[str, Any]:

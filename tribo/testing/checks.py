@@ -156,9 +156,10 @@ class Checks(ABC):
 
     def name_has_a_prefix(self) -> None:
         """Its name carries a prefix, as in acme.fretting; only tribo's own do without."""
-        name = self._cls.type
+        name, module = self._cls.type, self._cls.__module__
+        apply_if("." in module, "it is defined in a file of its own")
         require(
-            "." in name or self._cls.__module__.startswith("tribo."),
+            "." in name or module.startswith("tribo."),
             f"{name!r} needs a prefix, as in 'acme.fretting'; names without one are tribo's own",
         )
 

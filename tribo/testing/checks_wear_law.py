@@ -101,8 +101,8 @@ class WearLawChecks(LocalChecks):
         """The derivative agrees with the differences of the depth in pressure."""
         law = self._make()
         hint = (
-            "; if a field that it requires follows the pressure, say how: see 'Wear laws' in "
-            "docs/reference/plugin_interface.md"
+            "; if a field that it requires follows the pressure, say how: see 'Wear laws' on "
+            "the page 'Plugin interface'"
         )
         for number, p in product(self._numbers, _LADDER.tolist()):
             depth, slope = self._wear(law, number, p)

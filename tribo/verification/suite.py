@@ -39,8 +39,8 @@ def cases_in(folder: Path) -> list[ValidationCase]:
     found = [ValidationCase(path.parent) for path in sorted(place.glob("*/expected.toml"))]
     if not found:
         raise CaseError(
-            f"{folder} has no expected.toml, nor has a folder in it; write one as in "
-            "docs/understand/verification.md"
+            f"{folder} has no expected.toml, nor has a folder in it; write one as on "
+            "the page 'Verification'"
         )
     return found
 

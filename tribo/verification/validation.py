@@ -70,6 +70,14 @@ class Row:
         return f"{self.case}: {self.quantity}: {given}, {error} ({self.source})"
 
 
+class _Unread(CaseError):
+    """A result does not have the quantity of a row."""
+
+    def __init__(self, message: str, number: int, row: Expectation) -> None:
+        super().__init__(message, f"expect.{number}")
+        self.row = row
+
+
 @dataclass(frozen=True)
 class ValidationCase:
     """A folder with `expected.toml`, and `case.toml` or a script that is called as the folder.
@@ -90,7 +98,7 @@ class ValidationCase:
         """What it must give; CaseError, a line for each error, if the file is wrong."""
         path = self.folder / "expected.toml"
         try:
-            tables = read_toml(path, "expected values", "see docs/understand/verification.md")
+            tables = read_toml(path, "expected values", "see the page 'Verification'")
             return Expected.model_validate(tables)
         except ValidationError as error:
             raise CaseError(f"{path}: {case_error(error)}") from None
@@ -143,7 +151,8 @@ class ValidationCase:
             ]
         except Exception as error:
             words = str(error) if isinstance(error, TriboError) else said(error)
-            return [self._row(wanted.expect[0], solver, reason=words)]
+            at = error.row if isinstance(error, _Unread) else wanted.expect[0]
+            return [self._row(at, solver, reason=words)]
 
     def _found(self, settings: Settings, part: float) -> list[Found]:
         """Return the value of every quantity in one run, in a window larger by part of 3 cells."""
@@ -165,7 +174,7 @@ class ValidationCase:
             values, unit = quantity(result, row.quantity, row.body, row.time, row.place)
             row.numbers(unit)
         except CaseError as error:
-            raise CaseError(str(error), f"expect.{self.expected.expect.index(row) + 1}") from None
+            raise _Unread(str(error), self.expected.expect.index(row) + 1, row) from None
         return values, unit
 
     def _judged(self, row: Expectation, solver: str, levels: list[list[Found]]) -> Row:

@@ -95,7 +95,10 @@ def test_what_can_be_asked_in_place_of_what_is_refused():
     both = "bodies.*.material.hardness"
     assert gradient(run(bodies=HARD_PAIR), Depth("disk"), [both])[both] == 0
     first = "load.normal.1.until"
-    assert gradient(run(**EVENLY), Volume("ball"), [first])[first] > 0
+    slope = gradient(run(**EVENLY), Volume("ball"), [first])
+    assert slope[first] > 0
+    with pytest.raises(CaseError, match=f"^load.normal.1.untill: .*'{first}'"):
+        slope["load.normal.1.untill"]
 
 
 def test_measured_heights_have_to_be_asked_for():

@@ -65,6 +65,18 @@ def test_a_class_that_only_this_process_has_is_checked_in_it(monkeypatch):
     assert {each.check for each in report.failures} <= {"configuration_can_be_pickled"}
 
 
+class Unprefixed(Hill):
+    type = "hill"
+
+
+@pytest.mark.parametrize(
+    ("module", "status"), [("acme.hills", "failed"), ("hills", "not applicable")]
+)
+def test_a_class_in_a_file_of_its_own_needs_no_prefix(monkeypatch, module, status):
+    monkeypatch.setattr(Unprefixed, "__module__", module)
+    assert statuses(check(Unprefixed))["name_has_a_prefix"] == status
+
+
 class Unknown(Hill):
     @property
     def curvature(self):

@@ -11,7 +11,14 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 from tribo import Array, Case, CaseError, Explicit, Simulation, State
-from tribo.kernel_api import DEPTH_ACCURACY, Model, assemble, varied
+from tribo.kernel_api import (
+    DEPTH_ACCURACY,
+    Model,
+    assemble,
+    did_you_mean,
+    suggestion,
+    varied,
+)
 
 from tribo_inverse.adjoint.backwards import JUST, Derivatives, swept_back
 from tribo_inverse.adjoint.numbers import changed, find, listed
@@ -80,6 +87,9 @@ class Gradient:
         """Return the derivative in the number at `path`; `CaseError` if there is none."""
         if path in self.refused:
             raise CaseError(self.refused[path], path)
+        if path not in self.parameters:
+            like = suggestion(did_you_mean(path, self.parameters))
+            raise CaseError(f"is none of the numbers of this gradient{like}", path)
         return self.parameters[path]
 
 

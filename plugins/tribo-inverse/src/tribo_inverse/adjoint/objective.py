@@ -126,7 +126,8 @@ class Width:
 
     It is √20 times the standard deviation of the worn section through the middle. It is exact for a
     parabola, the loss of a ball worn flat; for a groove with a toe it is some 6 % less than the
-    width between the edges. `axis` is 0 along the sliding direction, 1 across it.
+    width between the edges. `axis` is 0 along the sliding direction, 1 across it. Its derivative
+    changes by some per cent as the edge passes from cell to cell.
 
     Raises
     ------
