@@ -8,7 +8,7 @@ import re
 import shlex
 import subprocess
 import sys
-from contextlib import redirect_stderr, redirect_stdout
+from contextlib import nullcontext, redirect_stderr, redirect_stdout
 from unittest import mock
 
 COLUMNS = {"COLUMNS": "88"}
@@ -30,6 +30,8 @@ def sh(command: str, code: int = 0, lines: int | None = None) -> None:
         mock.patch.dict(os.environ, COLUMNS),
         # Tables as on a terminal, also in a notebook.
         mock.patch("rich.console._is_jupyter", return_value=False),
+        # Nothing of a spinner either.
+        mock.patch("rich.console.Console.status", return_value=nullcontext()),
         redirect_stdout(printed),
         redirect_stderr(printed),
     ):

@@ -44,12 +44,12 @@ def test_stated_uncertainties_cover_a_much_finer_run(implicit):
         assert estimate.unit == unit
         assert abs(estimate.value - value) <= max(estimate.uncertainty, 1e-9 * value), name
         # The range of a width that is counted is at least a half of the coarsest cells.
-        most = 0.2 if "half-width" in name else 0.1
+        most = 0.2 if "width" in name else 0.1
         assert estimate.uncertainty < most * value, name
-    # The volume is exact, and a counted width good to half a cell.
+    # The volume is exact, and a counted width good to a cell.
     assert found["ball: volume"].uncertainty == 0
-    width = found["half-width along"]
-    assert width.uncertainty >= width.floor == pytest.approx(0.5 * 0.7e-3 / 49)
+    width = found["contact width along"]
+    assert width.uncertainty >= width.floor == pytest.approx(0.7e-3 / 49)
 
 
 @pytest.mark.slow

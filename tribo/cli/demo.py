@@ -13,8 +13,8 @@ RESOLVED = ("kinematics.positions=33", "grid.cells=64")
 AVERAGE = """\
 This is the paper's model: it averages the disk's wear over the stroke.
 The same hour follows, with the cycle resolved into 33 positions along the stroke,
-on 64² cells; it takes ten to thirty seconds. The page "The paper, reproduced" explains what
-differs ("What the average costs")."""
+on 64² cells; it takes ten to thirty seconds. What differs is on the page "Averaged or resolved
+strokes", under "How much it costs"."""
 
 LIKE = {
     "ball_scar": "like the paper's figure 4, which was measured",

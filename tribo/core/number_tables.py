@@ -138,6 +138,9 @@ def _only_table(file: Path) -> NDArray[Any]:
         tables = [each for each in contained(source) if each.ndim == 2]
         if len(tables) != 1:
             names = ", ".join(table.name for table in tables) or "none"
-            raise ValueError(f"one dataset of two dimensions is needed, but it has {names}")
+            raise ValueError(
+                f"one dataset of two dimensions is needed, but it has {names}; of a result write "
+                "height maps by `tribo export FILE --format xyz` (from tribo-topography)"
+            )
         check_pixels(tables[0].size)
         return np.asarray(tables[0])

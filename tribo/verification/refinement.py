@@ -132,7 +132,7 @@ def _estimates(
     model: Model, grids: Sequence[Level], steps: Sequence[Level]
 ) -> Iterator[UncertainValue]:
     dx, dy = model.grid.spacing
-    floors = {"half-width along": 0.5 * dx, "half-width across": 0.5 * dy}
+    floors = {"contact width along": dx, "contact width across": dy}
     own = next(i for i, level in enumerate(steps) if level is grids[-1])
     by_grid, by_step = (
         [_quantities(model, level.end) for level in levels] for levels in (grids, steps)
@@ -156,8 +156,8 @@ def _quantities(model: Model, end: Measures) -> dict[str, tuple[str, float]]:
     found = {
         "peak pressure": ("Pa", end.max_pressure),
         "pressure at the centre": ("Pa", end.centre_pressure),
-        "half-width along": ("m", end.half_width_x),
-        "half-width across": ("m", end.half_width_y),
+        "contact width along": ("m", 2 * end.half_width_x),
+        "contact width across": ("m", 2 * end.half_width_y),
     }
     if model.case.stop.depth is not None:
         found["path slid"] = ("m", end.distance)

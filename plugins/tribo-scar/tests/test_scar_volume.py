@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from scar_maps import PITCH, RADIUS, SHIFT, WIDE, cap, of_flat, pair, places, track, volume
-from tribo import Flat, Heights, TriboWarning
+from tribo import Flat, Grid, Heights, TriboWarning
 
-from tribo_scar import measured_scar
+from tribo_scar import measured_scar, measured_scar_map
 
 
 def test_a_shallow_scar_is_measured_out_to_its_edge():
@@ -130,3 +130,15 @@ def test_what_is_piled_up_beside_a_scar_is_told_apart(standard):
         assert abs(off) < 3 * each.piled_up_uncertainty < 0.3 * each.piled_up
         assert each.volume == pytest.approx(volume(lost), rel=0.03, abs=0)
     assert found.piled_up_uncertainty > 1.5 * whole.piled_up_uncertainty
+
+
+def test_maps_without_noise_have_nothing_piled_up_by_rounding():
+    x, y = Grid("1 mm", 64).mesh
+    ball = 1e-3 - (x**2 + y**2) / (2 * RADIUS)
+    lost = np.maximum(1e-6 * (1 - (x**2 + y**2) / 1e-4**2), 0)
+    before, after = (Heights(z, pitch=(1e-3 / 64,) * 2) for z in (ball, ball - lost))
+    found = measured_scar(before, after)
+    assert found.piled_up == 0
+    assert not found.piled.any()
+    assert found.volume == pytest.approx(np.sum(lost) * (1e-3 / 64) ** 2, rel=1e-3, abs=0)
+    assert len(measured_scar_map(found).axes[0].get_title(loc="left")) < 60

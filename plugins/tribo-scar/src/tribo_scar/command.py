@@ -25,8 +25,6 @@ if TYPE_CHECKING:
 
 DEPTHS = ".npy"
 """Suffix of a depth map."""
-MOST_DIGITS = 6
-"""Digits of a size in the table, as of maps without noise."""
 
 
 @click.command()
@@ -158,6 +156,8 @@ def _surface(text: str) -> Surface:
 def _row(name: str, scale: float, value: float | None, uncertainty: float) -> tuple[str, str, str]:
     """Return a value and its uncertainty, in units of which `scale` make one of SI, in words."""
     from tribo.kernel_api import digits_of
+
+    from tribo_scar.measurement import MOST_DIGITS
 
     if value is None or math.isinf(uncertainty):
         return name, "undetermined", ""

@@ -35,6 +35,8 @@ from tribo_scar.registration import Registration, register
 from tribo_scar.widths import LINES, WidthReading, scar_width
 from tribo_scar.worn_area import MARGIN, WornArea, worn_area
 
+MOST_DIGITS = 6
+"""Digits of a size that are printed, as of maps without noise."""
 MOST = 0.65
 """Part of the map that a scar may cover, with its margin."""
 PIT = 0.03
@@ -251,7 +253,7 @@ def measured_scar(
         piled=worn.piled,
         volume=volume,
         volume_uncertainty=volume_uncertainty,
-        piled_up=-area * float(np.sum(depth[worn.piled])),
+        piled_up=area * float(np.sum(-depth[worn.piled])),
         piled_up_uncertainty=area * sum_uncertainty(found, worn.piled),
         depth=largest,
         depth_uncertainty=largest_uncertainty,

@@ -21,7 +21,7 @@ from tribo.kernel_api import (
     style,
 )
 
-from tribo_scar.measurement import MeasuredScar
+from tribo_scar.measurement import MOST_DIGITS, MeasuredScar
 
 MISSING = "#e0b080"
 """Colour of missing pixels, which no depth has."""
@@ -44,7 +44,7 @@ def measured_scar_map(found: MeasuredScar) -> Figure:
     most = float(np.max(smoothed(found.depths)[found.scar]))
     power = math.floor(math.log10(found.volume))
     part, sure = (each / 10**power for each in (found.volume, found.volume_uncertainty))
-    decimals = digits_of(part - sure, part + sure) - 1
+    decimals = min(digits_of(part - sure, part + sure), MOST_DIGITS) - 1
     title = rf"Volume ({part:.{decimals}f} ± {sure:.{decimals}f}) $\cdot\,10^{{{power + 9}}}$ mm³"
 
     def marks(axes: Axes, shown: Layout) -> list[Artist]:

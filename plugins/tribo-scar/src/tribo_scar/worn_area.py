@@ -11,7 +11,7 @@ from tribo import Array, CaseError, Mask
 from tribo.kernel_api import interpolated, smoothed
 
 from tribo_scar.alignment import robust_deviation
-from tribo_scar.registration import DEEP, Registration
+from tribo_scar.registration import DEEP, ROUNDED, Registration
 from tribo_scar.widths import WidthReading, track_across
 
 SPOT = 0.1
@@ -132,10 +132,11 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
 def _noise(depth: Array, found: Registration) -> float:
     """Return the standard deviation of a smoothed depth where it is not worn, in m.
 
-    Robust, as a low ridge beside the scar may have been left in.
+    Robust, as a low ridge beside the scar may have been left in. Maps without noise have rounding.
     """
     unworn = depth[found.unworn]
-    return max(robust_deviation(unworn), 1e-300) if unworn.size else found.noise
+    least = ROUNDED * float(np.nanmax(np.abs(depth)))
+    return max(robust_deviation(unworn), least) if unworn.size else found.noise
 
 
 def _thin_ridges(found: Registration, fine: Array, relief: float, margin: Mask) -> Mask:

@@ -22,7 +22,7 @@ from tribo.kernel_api import (
 
 from tribo_inverse.adjoint.backwards import JUST, Derivatives, swept_back
 from tribo_inverse.adjoint.numbers import changed, find, listed
-from tribo_inverse.adjoint.parameters import Chain, chain, of_length
+from tribo_inverse.adjoint.parameters import TURNS, Chain, at_turn, chain, of_length
 from tribo_inverse.adjoint.view import Objective, Seeds, View, is_finite, looked
 from tribo_inverse.increment.breaks import unreached
 from tribo_inverse.recording.local import factor_shape, localised
@@ -152,6 +152,11 @@ def gradient(
         total = float(sum(value for value, _ in seen.values()))
         seeds = {time: seed for time, (_, seed) in seen.items()}
         end = states.get(model.end_time)
+        turning = at_turn(model, [state.time for state in states.values()])
+        if wrt is not None and (asked := [c.path for c in chains if c.path in turning]):
+            raise CaseError(TURNS, asked[0])
+        refused |= {each.path: TURNS for each in chains if each.path in turning}
+        chains = [each for each in chains if each.path not in turning]
         if end is not None and end.time < model.end_time:
             chains = [each.until(end.time) for each in chains]
             found, by_depth = _at_depth(model, tape, seeds, chains, end)

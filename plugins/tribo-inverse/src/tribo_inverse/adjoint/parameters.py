@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import Any
@@ -25,6 +26,10 @@ LAW = "law"
 CONTACT = ("young", "poisson", "hardness")
 """Numbers of a material that contacts depend on."""
 MOVES = "it moves the positions of the cycle by whole cells"
+TURNS = (
+    "has no derivative: the motion turns where it would be taken, at speed 0; "
+    "give kinematics.distance, whose derivative exists"
+)
 
 
 @dataclass(frozen=True)
@@ -237,6 +242,32 @@ def chain(
     for place in (path, *(".".join(map(str, place)) for place in places)):
         why = why.removeprefix(f"{place}: ")
     raise CaseError(f"has no derivative here: {why}", path)
+
+
+def at_turn(model: Model, times: Iterable[float]) -> set[str]:
+    """Return paths of the numbers that move the phase of the motion, which turns at such a time.
+
+    The derivative there is 0, while whole cycles more wear more.
+    """
+    turning = [time for time in times if _turns(model, time)]
+    by_time = getattr(model.case.kinematics, "duration", None) is not None
+    names = {"cycles", "duration"} if model.end_time in turning else set[str]()
+    if any(by_time or time < model.end_time for time in turning):
+        names.add("frequency")
+    return {f"kinematics.{name}" for name in names}
+
+
+def _turns(model: Model, time: float) -> bool:
+    """Whether the speed of a motion falls to 0 at `time`, in s."""
+    motion, end = model.case.kinematics, model.end_time
+    if time <= 0 or math.isinf(motion.lap):
+        return False
+    # A thousandth of a lap, at the mean speed.
+    short = 1e-3 * motion.lap * end / motion.distance_at(end)
+    last = motion.distance_at(time)
+    near, far = (last - motion.distance_at(time - by * short) for by in (1, 2))
+    # At a constant speed it is 2 times as far; where the speed falls to 0, 4 times.
+    return far > 3 * near
 
 
 def _only_wears(place: Sequence[Any]) -> bool:
