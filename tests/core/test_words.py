@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribo.core.words import readable
+from tribo.core.words import plus_minus, readable
 
 
 @pytest.mark.parametrize("form", [".0f", ".1f", ".2f", ".3f", ".3g"])
@@ -15,3 +15,9 @@ def test_what_is_small_is_told_to_a_twentieth(form):
 
 def test_below_a_million_a_number_is_written_out():
     assert [readable(value, ".3g") for value in (1263.0, 12.5e3, 2e6)] == ["1260", "12500", "2e+06"]
+
+
+def test_an_uncertainty_has_two_digits_and_its_value_as_many_decimals():
+    assert plus_minus(36.6812, 0.8123) == ("36.68", "0.81")
+    assert plus_minus(1234.5, 56.7) == ("1234", "57")
+    assert plus_minus(36.6812, 1e-9) == ("36.6812", "1e-09")
