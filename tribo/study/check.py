@@ -121,9 +121,10 @@ def check_case(case: Case, waiting: Waiting = lambda what: nullcontext()) -> Che
     """
     with waiting("composing the case"):
         model = Simulation(case).model
-    with waiting(f"first contact and a trial run of {TRIAL_TIME:g} s at most"):
+    limit = f"{TRIAL_TIME:g} s of CPU time at most"
+    with waiting(f"first contact, then a trial run on a coarse grid: {limit}"):
         prediction = predict(model)
-    with waiting(f"what packages have to say, {TRIAL_TIME:g} s at most"):
+    with waiting(f"sensitivities and other findings of packages: {limit}"):
         found = findings_of(model, prediction.first.half_width_x)
     # What has a limit is beyond it; else a finding is a fact.
     facts = tuple(each for each in found if each.limit is None)
@@ -234,6 +235,9 @@ def _end(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     for passed in prediction.worn_through:
         path, end = (readable(passed[key], ".3g") for key in ("distance_m", "time_s"))
         when = f"{path} m, {end} s"
-        yield f"layer {passed['layer']} of {passed['body']} worn through, about", when
+        yield (
+            f"layer {passed['layer']} of {passed['body']} worn through, about",
+            f"{when}, on a coarse grid",
+        )
     if any(body.layers for body in model.case.bodies.values()) and not prediction.worn_through:
         yield "layers", "none is worn through"
