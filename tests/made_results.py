@@ -79,7 +79,11 @@ def made(
             case={
                 "grid": grid.model_dump(),
                 "bodies": {
-                    name: {"layers": list(layers) if name == names[0] else []} for name in names
+                    name: {
+                        "material": {"hardness": cap},
+                        "layers": list(layers) if name == names[0] else [],
+                    }
+                    for name in names
                 },
             },
             provenance=provenance({}),

@@ -48,6 +48,7 @@ from tribo.core.units import parts as parts
 from tribo.core.units import scale as scale
 from tribo.core.words import did_you_mean as did_you_mean
 from tribo.core.words import digits_of as digits_of
+from tribo.core.words import plus_minus as plus_minus
 from tribo.core.words import readable as readable
 from tribo.core.words import shown as shown
 from tribo.core.words import signed as signed

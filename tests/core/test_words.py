@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribo.core.words import did_you_mean, readable
+from tribo.core.words import did_you_mean, plus_minus, readable
 
 
 @pytest.mark.parametrize("form", [".0f", ".1f", ".2f", ".3f", ".3g"])
@@ -29,3 +29,9 @@ def test_below_a_million_a_number_is_written_out():
 )
 def test_the_same_but_for_capitals_or_a_prefix_is_meant_before_the_nearly_same(name, known, meant):
     assert did_you_mean(name, known) == meant
+
+
+def test_an_uncertainty_has_two_digits_and_its_value_as_many_decimals():
+    assert plus_minus(36.6812, 0.8123) == ("36.68", "0.81")
+    assert plus_minus(1234.5, 56.7) == ("1234", "57")
+    assert plus_minus(36.6812, 1e-9) == ("36.6812", "1e-09")

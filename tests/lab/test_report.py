@@ -10,7 +10,7 @@ from tribo.closed_forms.hertz import first_yield_pressure
 from tribo.core.contact import ContactSystem
 from tribo.lab.against_hertz import hertz_contact
 from tribo.lab.report import lab_report
-from tribo.surfaces.forms import Cylinder
+from tribo.surfaces.forms import Cylinder, Sphere
 
 H = 4e9
 
@@ -93,3 +93,14 @@ def test_a_line_contact_yields_at_its_own_factor():
     mises = np.sqrt(0.5 * sum(difference**2 for difference in pairs))
     onset = H / 2.8 / np.max(mises)
     assert first_yield_pressure(H, line=True) == pytest.approx(onset, rel=3e-3)
+
+
+def test_no_yield_is_reported_where_a_body_has_no_hardness():
+    # Of one body of PEEK, say, by its name, which has none.
+    bodies = [
+        named("ball", Sphere(radius="5 mm"), steel(), archard()),
+        named("disk", flat(), steel(hardness=H), archard()),
+    ]
+    first = lab_report(Simulation(case(bodies=bodies, kinematics=motion(duration=0.1))).run())
+    assert first.first_contact.yield_ratio is first.first_contact.load_ratio is None
+    assert "ball" in first.first_contact_words

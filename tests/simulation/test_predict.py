@@ -178,3 +178,11 @@ def test_an_effect_that_refuses_the_first_contact_ends_check_as_it_ends_the_run(
     assert found.exit_code == stopped.value.exit_code
     (problem,) = found.problems
     assert (problem.kind, problem.value) == ("stop", 0.0)
+
+
+def test_a_softer_body_that_is_not_known_has_no_onset_of_yield():
+    known = [
+        predict(small(bodies=pair(archard(K), archard(K), hardness))).hertz.load_ratio
+        for hardness in ((4e9, 4e9), (4e9, None))
+    ]
+    assert known == [pytest.approx(0.84, abs=0.01), None]

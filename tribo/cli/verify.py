@@ -150,9 +150,10 @@ def _study_table(study: Refinement) -> DataTable:
     import numpy as np
 
     from tribo.core.data_table import DataTable, Heading, TableRow
+    from tribo.core.words import plus_minus
     from tribo.lab.units import shown_in
 
-    forms = {"quantity": "", "value": ".5g", "±": ".1e", "%": ".2f"}
+    forms = {"quantity": "", "value": ".5g", "±": "", "%": ".2f"}
     forms |= {"grid": "", "GCI %": ".2f", "steps": ""}
     headings = [Heading(label, form=form) for label, form in forms.items()]
     rows = []
@@ -161,8 +162,9 @@ def _study_table(study: Refinement) -> DataTable:
         percent = None if quoted is None or not each.value else 100 * quoted / abs(each.value)
         orders = _order(each.grid), None if gci is None else 100 * gci, _order(each.steps)
         unit, size = shown_in(each.unit, np.array(each.value))
-        plus = None if quoted is None else quoted / size
-        rows.append(TableRow((_named(each.name, unit), each.value / size, plus, percent, *orders)))
+        value = each.value / size
+        shown = (value, None) if quoted is None else plus_minus(value, quoted / size)
+        rows.append(TableRow((_named(each.name, unit), *shown, percent, *orders)))
     cells = ", ".join(str(level.cells[0]) for level in study.grids)
     steps = ", ".join(str(level.steps) for level in study.steps)
     notes = [

@@ -86,7 +86,7 @@ def few_cells(cells: float) -> Finding:
     return Finding(
         "resolution",
         f"the first contact is only {cells:.1f} cells wide, so its pressure is inaccurate "
-        f"until it has grown: raise grid.cells for {FEW_CELLS} or more",
+        f"until it has grown: raise grid.cells until it is {FEW_CELLS} cells wide",
         value=cells,
         limit=FEW_CELLS,
         place="grid.cells",

@@ -36,6 +36,17 @@ def digits_of(lower: float, upper: float) -> int:
     return max(3, 2 + math.floor(math.log10(upper)) - math.floor(math.log10((upper - lower) / 2)))
 
 
+def plus_minus(value: float, uncertainty: float) -> tuple[str, str]:
+    """Return a value and its uncertainty, which has two digits, with as many decimals.
+
+    An uncertainty below a millionth of the value leaves the value six digits.
+    """
+    if not uncertainty > 1e-6 * abs(value):
+        return f"{value:.6g}", f"{uncertainty:.1g}"
+    decimals = max(1 - math.floor(math.log10(uncertainty)), 0)
+    return f"{value:.{decimals}f}", f"{uncertainty:.{decimals}f}"
+
+
 def readable(value: float, form: str) -> str:
     """Return a number in a format, with two digits where that would round a twentieth of it off.
 

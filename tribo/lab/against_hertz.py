@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
@@ -29,9 +30,9 @@ class HertzContact:
         In m; None for a line contact, where it is not defined.
     yield_ratio : float or None
         Peak pressure over that at which yield begins beneath the surface;
-        None without a hardness.
+        None unless both bodies have a hardness.
     load_ratio : float or None
-        Load over the load of first yield, P/P_yield; None without a hardness.
+        Load over the load of first yield, P/P_yield; None with the other ratio.
     """
 
     half_width_x: float
@@ -91,6 +92,20 @@ def hertz_half_width(system: ContactSystem) -> float | None:
     return hertz.half_width_x if hertz is not None and hertz.half_width_x < inf else None
 
 
+def hardness_of(result: Result) -> dict[str, float | None]:
+    """Return the hardness at the surface of each body of a result, in Pa; None if not given."""
+    found = {}
+    for name, body in result.case_tables["bodies"].items():
+        top = next((each.get("hardness") for each in body.get("layers") or ()), None)
+        found[name] = top or body["material"].get("hardness")
+    return found
+
+
+def softer_known(system: ContactSystem, hardness: Mapping[str, float | None]) -> ContactSystem:
+    """Return the system, without its cap if a body has no hardness: the softer one is unknown."""
+    return system if all(hardness.values()) else replace(system, cap=None)
+
+
 def first_hertz(result: Result) -> HertzContact | str:
     """Return Hertz's contact for the first save of a result, or why there is none."""
     if result.case_tables.get("begin"):
@@ -103,7 +118,8 @@ def first_hertz(result: Result) -> HertzContact | str:
         return "a body has an elastic layer"
     if result.system.curvature is None:
         return "the surfaces state no curvature"
-    return hertz_contact(result.system) or "the contact is flat"
+    system = softer_known(result.system, hardness_of(result))
+    return hertz_contact(system) or "the contact is flat"
 
 
 def computed_pressure(
@@ -126,21 +142,23 @@ def in_mpa(pressure: float) -> str:
     return f"{readable(1e-6 * pressure, '.1f')} MPa"
 
 
-def yield_words(pressure: float, hardness: float, contact: HertzContact) -> str:
-    """Say whether the softer body, of this hardness, yields under a `computed_pressure`, in Pa."""
-    loads = f"P/P_yield {contact.load_ratio:.2g}"
+def yield_words(pressure: float, by_body: Mapping[str, float | None], contact: HertzContact) -> str:
+    """Say whether the softer body yields under a `computed_pressure`, in Pa.
+
+    `by_body` are the bodies' hardnesses, in Pa.
+    """
+    given = [each for each in by_body.values() if each is not None]
+    if len(given) < len(by_body):
+        name = next(name for name, each in by_body.items() if each is None)
+        return f"not known, as {name} has no hardness: in this model it never yields"
+    hardness, loads = min(given), f"P/P_yield {contact.load_ratio:.2g}"
     if pressure >= (1 - ROUND_OFF) * hardness:
-        return f"the softer body yields from the start ({loads}): the pressure is its hardness"
+        return f"from the start ({loads}): the pressure is the softer body's hardness"
     first = hertz.first_yield_pressure(hardness, line=contact.is_line)
-    percent = f"{100 * pressure / first:.0f} %"
-    onset = f"{'1.79' if contact.is_line else '1.6'} H/2.8"
+    onset = f"the pressure is {100 * pressure / first:.0f} % of the {in_mpa(first)} at which"
     if pressure > first:
         return (
-            f"the softer body yields beneath the surface at first (at {percent} of {onset}, "
-            f"{loads}), which this model leaves out: a largest plastic depth of 0 does not mean "
-            "that nothing yields"
+            f"beneath the surface, which this model leaves out: {onset} the softer body first "
+            f"yields ({loads}), and a largest plastic depth of 0 does not mean that nothing yields"
         )
-    return (
-        f"{percent} of the pressure at which the softer body first yields beneath the surface "
-        f"({onset}, {loads})"
-    )
+    return f"none at first: {onset} the softer body first yields beneath the surface ({loads})"

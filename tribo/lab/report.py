@@ -15,7 +15,13 @@ from tribo.core.errors import warn
 from tribo.core.findings import Finding
 from tribo.core.measures import reaches_border
 from tribo.core.words import readable, said, signed
-from tribo.lab.against_hertz import computed_pressure, first_hertz, in_mpa, yield_words
+from tribo.lab.against_hertz import (
+    computed_pressure,
+    first_hertz,
+    hardness_of,
+    in_mpa,
+    yield_words,
+)
 from tribo.lab.inferred import InferredVolume, inferred_volumes, track_section
 from tribo.lab.scar import scar
 from tribo.lab.units import shown_in
@@ -65,7 +71,7 @@ class FirstContact(NamedTuple):
     The ratio is the largest pressure, or the pressure at mid-length of a line
     contact, over the pressure at which a Hertz contact first yields beneath the
     surface, and `load_ratio` the load over Hertz's load of first yield; None
-    without a hardness or a Hertz contact.
+    unless both bodies have a hardness, or without a Hertz contact.
 
     Examples
     --------
@@ -219,6 +225,7 @@ def _first_contact(result: Result) -> tuple[FirstContact, str]:
     if half_space and not reaches_border(result.field("pressure", 0)):
         words += f" ({signed(100 * (largest / p0 - 1), 2)} %)"
     if system.cap is not None:
-        ratio = pressure / first_yield_pressure(system.cap, line=hertz.is_line)
-        words += f"; {yield_words(pressure, system.cap, hertz)}"
+        if hertz.load_ratio is not None:
+            ratio = pressure / first_yield_pressure(system.cap, line=hertz.is_line)
+        words += f"; yield: {yield_words(pressure, hardness_of(result), hertz)}"
     return FirstContact(p0, largest, ratio, hertz.load_ratio), f"{words}."

@@ -20,12 +20,13 @@ from tribo.core.state import State
 from tribo.evolution.local_fields import effect_fields
 from tribo.guards.guard import Guard
 from tribo.guards.trial_time import limited
-from tribo.lab.against_hertz import HertzContact, hertz_contact
+from tribo.lab.against_hertz import HertzContact, hertz_contact, softer_known
 from tribo.model.model import Model
 from tribo.result.provenance import stated_facts
 from tribo.simulation.assembly import as_it_repeats, assemble, varied
 from tribo.simulation.beginning import first_state
 from tribo.simulation.gap_filling import check_filling
+from tribo.simulation.hardness import at_surface
 from tribo.simulation.march import begin, march
 from tribo.simulation.memory import memory_needed, size_of_fields
 from tribo.simulation.validity import (
@@ -114,7 +115,8 @@ def predict(model: Model) -> Prediction:
         state = first_state(model)
         check_stroke(model, state)
     first = measure(model, state)
-    hertz = None if model.case.begin else hertz_contact(model.contact.system)
+    system = softer_known(model.contact.system, at_surface(model.case.bodies))
+    hertz = None if model.case.begin else hertz_contact(system)
     dx, dy = model.grid.spacing
     try:
         with limited():

@@ -25,6 +25,7 @@ from tribo.lab.against_hertz import (
 )
 from tribo.model.model import Model
 from tribo.motion.reciprocating import Reciprocating
+from tribo.simulation.hardness import at_surface
 from tribo.simulation.positions import lengths_of
 from tribo.simulation.predict import Prediction, predict
 from tribo.simulation.run import Simulation
@@ -121,9 +122,10 @@ def check_case(case: Case, waiting: Waiting = lambda what: nullcontext()) -> Che
     """
     with waiting("composing the case"):
         model = Simulation(case).model
-    with waiting(f"first contact and a trial run of {TRIAL_TIME:g} s at most"):
+    limit = f"{TRIAL_TIME:g} s of CPU time at most"
+    with waiting(f"first contact, then a trial run on a coarse grid: {limit}"):
         prediction = predict(model)
-    with waiting(f"what packages have to say, {TRIAL_TIME:g} s at most"):
+    with waiting(f"sensitivities and other findings of packages: {limit}"):
         found = findings_of(model, prediction.first.half_width_x)
     # What has a limit is beyond it; else a finding is a fact.
     facts = tuple(each for each in found if each.limit is None)
@@ -203,8 +205,9 @@ def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, 
         yield "Hertz peak pressure p0", f"{in_mpa(p0)}, computed {computed}"
         hardness = model.contact.system.cap
         if hardness is not None:
-            yield "p0/H", f"{p0 / hardness:.3f}"
-            yield "yield", yield_words(pressure, hardness, hertz)
+            if hertz.load_ratio is not None:
+                yield "p0/H", f"{p0 / hardness:.3f}"
+            yield "yield", yield_words(pressure, at_surface(model.case.bodies), hertz)
         across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
         yield "cells across the contact", " × ".join(across)
 
@@ -233,6 +236,9 @@ def _end(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     for passed in prediction.worn_through:
         path, end = (readable(passed[key], ".3g") for key in ("distance_m", "time_s"))
         when = f"{path} m, {end} s"
-        yield f"layer {passed['layer']} of {passed['body']} worn through, about", when
+        yield (
+            f"layer {passed['layer']} of {passed['body']} worn through, about",
+            f"{when}, on a coarse grid",
+        )
     if any(body.layers for body in model.case.bodies.values()) and not prediction.worn_through:
         yield "layers", "none is worn through"

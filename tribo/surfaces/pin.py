@@ -21,7 +21,8 @@ class Pin(Surface):
     """z = 0 up to the edge of radius e, there the arc √(e² − t²) − e, and the pin's side beyond.
 
     t = r − (R − e) is the distance from where the edge begins to be round. Without the rounding
-    the pressure at the edge has no limit; with it, finer cells find the same one.
+    the pressure at the edge has no limit. With it there is one, but the first contact needs far
+    finer cells than practical to reach it; wear soon evens the pressure out.
 
     References
     ----------

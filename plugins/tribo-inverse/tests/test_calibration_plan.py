@@ -69,8 +69,17 @@ def test_a_case_is_planned_without_values():
     # The short test's loss is of the size of its uncertainty; the long one's scatter decides.
     assert list(found.tests["count"]) == [0, 10]
     assert found.runs == 4
-    keys = ["level", "within", "runs", "tests", "parameters"]
+    assert found.findings == ()
+    keys = ["level", "within", "runs", "tests", "parameters", "readings", "findings"]
     assert list(json.loads(json.dumps(found.as_json()))) == keys
+
+
+def test_a_loss_that_the_balance_does_not_resolve_is_reported():
+    balance = {"body": "ball", "quantity": "mass", "resolution": "0.1 mg"}
+    found = plan_tests(CASE, {"measured": [balance], "repeatability": 0.2}, 0.9)
+    (finding,) = found.findings
+    assert (finding.kind, finding.limit) == ("reading", 1e-7)
+    assert finding.value == found.readings["computed"].item() < 1e-7
 
 
 @pytest.mark.parametrize(

@@ -28,3 +28,12 @@ def test_the_sensitivity_to_a_temperature_is_that_to_one_kelvin(monkeypatch):
     # A per cent of 300 K is 3 K.
     assert (bath.value, bath.uncertainty) == pytest.approx((1.0, 0.1))
     assert (load.value, load.uncertainty) == (1.0, 0.3)
+
+
+def test_influences_below_the_error_of_the_grids_are_named_alone(monkeypatch):
+    percent = {"load.normal": 1.0, "bodies.ball.wear.k": 0.2}
+    found = Sensitivity("ball", "depth", percent, dict.fromkeys(percent, 0.3), ((24, 24),) * 2)
+    monkeypatch.setattr("tribo_inverse.adjoint.sensitivity.sensitivity", lambda *given: found)
+    load, left_out = of_case(small(), 1e-4)
+    assert (load.place, left_out.value) == ("load.normal", None)
+    assert left_out.words.endswith("bodies.ball.wear.k")

@@ -86,8 +86,8 @@ def test_it_quotes_the_uncertainty_that_a_study_found(tmp_path):
         ]
         study.write_text(json.dumps({"estimates": rows}))
         found = sentence(result, result.report(), read_verified(study, result))
-        assert "the ball lost 0.0112 ± 0.0002 mm³ (0.0879 mg) and is worn" in found
-        assert re.search(r"worn \d+\.\d ± 0\.\d µm deep", found)
+        assert "the ball lost 0.01120 ± 0.00022 mm³ (0.0879 mg) and is worn" in found
+        assert re.search(r"worn \d+\.\d\d ± 0\.\d\d µm deep", found)
         rows[0]["value"] *= 1.1
         wrong = {
             json.dumps({"estimates": rows}): "another case: ball of",

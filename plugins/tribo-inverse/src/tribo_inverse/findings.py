@@ -129,6 +129,20 @@ def _resolutions(estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array) -
             )
 
 
+def unresolved(readings: pd.DataFrame) -> Iterator[Finding]:
+    """Report computed values below the smallest step of their instrument."""
+    for entry in readings[readings["computed"] < readings["step"]].itertuples():
+        computed, step = (in_words(entry.quantity, each) for each in (entry.computed, entry.step))
+        yield Finding(
+            "reading",
+            f"the computed {named(entry)}, {computed}, is below the resolution of {step}: lengthen "
+            "the test, or take a finer instrument",
+            value=entry.computed,
+            limit=entry.step,
+            place=entry.place,
+        )
+
+
 def _collinear(paths: list[str], jacobian: Array) -> Iterator[Finding]:
     """Report parameters with the same effect on the data."""
     _, angles, directions = normalised(jacobian)

@@ -22,6 +22,7 @@ BLIND = 0.2
 """Singular value of the Jacobian below which a combination of parameters counts as unknown."""
 LONGEST_NAME = 30
 """Characters of a name that fit in a table of 80 columns."""
+PER_NM = "mm³/(N·m)"
 BROKEN = "interval"
 """End of the headings of columns of intervals."""
 
@@ -49,6 +50,13 @@ def print_plan(found: Plan) -> None:
     console.print(f"{count} test{'s' * (count != 1)} give intervals within {part}.")
     console.table(_table("Tests to make", ["number"], zip(names, counts, strict=True)))
     console.table(_table("Expected intervals", [level], zip(paths, ends, strict=True)))
+    computed = (
+        (row_name(each), in_words(each.quantity, each.computed))
+        for each in found.readings.itertuples()
+    )
+    console.table(_table("One test measures, by the case", ["computed"], computed))
+    for each in found.findings:
+        console.print(f"[yellow]Warning:[/] {escape(each.words)}")
 
 
 def print_choice(found: Choice) -> None:
@@ -98,7 +106,18 @@ def estimates_table(found: Calibration) -> DataTable:
         if each.held or each.limited or math.isinf(each.upper):
             relative = ""
         rows.append((each.path, value, ends, relative))
+        if each.unit == "1/Pa":
+            rows.append(_per_newton_metre(each, digits))
     return _table(f"Fitted numbers, by {found.runs} runs", columns, rows)
+
+
+def _per_newton_metre(each: Any, digits: int) -> tuple[str, str, str, str]:
+    """Return a specific wear rate with its interval in the unit of laboratories' tables."""
+    lower, value, upper = (f"{1e9 * x:.{digits}g}" for x in (each.lower, each.value, each.upper))
+    if each.limited:
+        return "", f"below {upper} {PER_NM}", "", ""
+    ends = "" if each.held else _interval(each, lower, upper)[0]
+    return "", f"{value} {PER_NM}", ends, ""
 
 
 def data_table(found: Calibration) -> DataTable:

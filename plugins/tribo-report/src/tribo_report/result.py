@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from tribo import (
     Body,
     Case,
@@ -24,9 +25,11 @@ from tribo.kernel_api import (
     findings_of,
     lab_report,
     lab_sentences,
+    plus_minus,
     report_blocks,
     result_pictures,
     run_sentences,
+    shown_in,
     to_toml,
 )
 
@@ -94,11 +97,8 @@ def _tables(result: Result, lab: LabReport, estimates: Sequence[Estimate]) -> li
     """Return the tables of the lab report, and the uncertainties after what they are of."""
     tables = (block for block in report_blocks(result, lab) if isinstance(block, DataTable))
     saves, wear, *others = tables
-    rows = [
-        TableRow((row["name"], amount(row["value"], row["unit"]), _uncertainty(row)))
-        for row in estimates
-    ]
-    headings = list(map(Heading, ("", "value", "±")))
+    rows = [TableRow((row["name"], *_uncertainty(row))) for row in estimates]
+    headings = list(map(Heading, ("", "value ± uncertainty", "%")))
     uncertain = DataTable("Numerical uncertainty at the end", headings, rows)
     return [wear, *([uncertain] if rows else []), saves, *others]
 
@@ -121,12 +121,16 @@ def _ruled(result: Result) -> dict[str, Any]:
     return {"rows": rows, "why": why[0]}
 
 
-def _uncertainty(row: Estimate) -> str:
+def _uncertainty(row: Estimate) -> tuple[str, str]:
+    """Return a value with its uncertainty, and this in % of the value."""
     found, value = row["uncertainty"], row["value"]
     if found is None:
-        return "diverges"
-    percent = f" ({100 * found / abs(value):.2g} %)" if value else ""
-    return f"{amount(found, row['unit'])}{percent}"
+        return amount(value, row["unit"]), "diverges"
+    unit, size = shown_in(row["unit"], np.array(value))
+    both = " ± ".join(plus_minus(value / size, found / size))
+    # Around a sum, before a power of ten.
+    both = f"({both})" if unit.startswith("10") else both
+    return f"{both} {unit}".strip(), f"{100 * found / abs(value):.2g}" if value else ""
 
 
 def _is_whole(case: Mapping[str, Any]) -> bool:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tribo import CaseError, LabReport, Result
+from tribo.kernel_api import plus_minus
 
 from tribo_report.amounts import amount
 from tribo_report.printed import printed_by
@@ -104,8 +105,7 @@ def quoted(value: float, units: Mapping[str, float], study: Estimate | None = No
     uncertain = None if study is None else study["uncertainty"]
     if uncertain and uncertain > EXACT * value:
         off = uncertain / scale / 10.0**power
-        decimals = max(-math.floor(math.log10(off)), 0)
-        words = f"{number:.{decimals}f} ± {off:.{decimals}f}"
+        words = " ± ".join(plus_minus(number, off))
         words = f"({words})" if power else words
     return f"{words} × 10{str(power).translate(RAISED)} {unit}" if power else f"{words} {unit}"
 

@@ -134,7 +134,10 @@ def _asked(view: View) -> tuple[str, Answer]:
 
 
 def of_case(model: Model, half_width_x: float) -> list[Finding]:
-    """Return the `MOST` most influential numbers of a case; `half_width_x` of its contact in m."""
+    """Return the `MOST` most influential numbers of a case; `half_width_x` of its contact in m.
+
+    Where the two grids differ by more than an influence, the number is named alone.
+    """
     try:
         found = sensitivity(model, half_width_x)
     except (CaseError, NumericalError) as error:
@@ -146,9 +149,17 @@ def of_case(model: Model, half_width_x: float) -> list[Finding]:
         for place, value, mark in leaves(model.case)
         if mark and mark.unit == "K"
     }
+    known = [
+        path for path, change in found.percent.items() if abs(change) > found.uncertainty[path]
+    ]
+    unknown = [path for path in found.percent if path not in known]
+    words = "smaller than the error of the coarse grids, and left out: "
     return [
-        _sensitivity(what, path, change, found.uncertainty[path], kelvin.get(path))
-        for path, change in [*found.percent.items()][:MOST]
+        *(
+            _sensitivity(what, path, found.percent[path], found.uncertainty[path], kelvin.get(path))
+            for path in known[:MOST]
+        ),
+        *([Finding("sensitivity", words + ", ".join(unknown))] if unknown else []),
     ]
 
 

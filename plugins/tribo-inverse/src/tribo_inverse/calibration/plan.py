@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 from scipy.special import ndtri, stdtrit
-from tribo import Array, Case, CaseError
+from tribo import Array, Case, CaseError, Finding
 
 from tribo_inverse.calibration.experiment import Experiment
 from tribo_inverse.calibration.fit import FEWEST_DEGREES_OF_FREEDOM, check_effect, differenced
 from tribo_inverse.calibration.measured import Measurements, read_measurements
 from tribo_inverse.calibration.quantities import plain
+from tribo_inverse.findings import unresolved
 
 MOST = 1000
 """Largest number of tests that is tried."""
@@ -52,10 +53,15 @@ class Plan:
     """One row per parameter: `path`; `half_width`, expected of its interval, relative to the value;
     `freedom`, the degrees of freedom of its variance, infinite without scatter from test to
     test."""
+    readings: pd.DataFrame
+    """One row per entry of `measured`: `test`, `body`, `quantity`, `time_s`, the `computed` value
+    of the case, the largest of a profile or map, and the `step` of the instrument, in SI."""
+    findings: tuple[Finding, ...] = ()
+    """Readings that the instrument does not resolve."""
 
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data."""
-        return plain(self)
+        return plain(self) | {"findings": [asdict(each) for each in self.findings]}
 
 
 def plan_tests(
@@ -138,7 +144,17 @@ def plan_tests(
     halves, freedom = search.expected(counts)
     tests = pd.DataFrame({"test": [setup.name for setup in experiment.setups], "count": counts})
     expected = {"path": list(problem.names), "half_width": halves, "freedom": freedom}
-    return Plan(level, within, experiment.run_count, tests, pd.DataFrame(expected))
+    readings = experiment.data.assign(computed=computed[: len(experiment.data)])
+    readings = readings.loc[readings.groupby("place", sort=False)["computed"].idxmax()]
+    return Plan(
+        level,
+        within,
+        experiment.run_count,
+        tests,
+        pd.DataFrame(expected),
+        readings[["test", "body", "quantity", "time_s", "computed", "step"]],
+        tuple(unresolved(readings)),
+    )
 
 
 @dataclass(frozen=True)
