@@ -143,7 +143,7 @@ PAIR = [{"path": K}, {"path": "bodies.disk.wear.k"}]
     [
         ({"measured": [GOOD, GOOD], "fit": TWICE}, "fit.2.path: "),
         ({"measured": [GOOD], "fit": PAIR}, "2 parameters cannot be fitted to 1 measured value:"),
-        ({"measured": []}, "nothing is measured; give each value as [[measured]]"),
+        ({"measured": []}, "nothing is measured; give each value, as {"),
         ({"measured": GOOD}, "measured: write [[measured]] at the beginning of each"),
         ({"test": {"measured": [GOOD]}}, "test: write [[test]] at the beginning of each"),
         (one_test(measured=GOOD), "test.1.measured: write [[measured]] at the beginning of each"),

@@ -60,7 +60,7 @@ ACROSS = {"path": "circle", "extent": (1e-4, 1e-4), "speed": 0.02, "revolutions"
 REFUSED = {
     "contact.tolerance: is a number of the numerics": ({}, ["contact.tolerance"]),
     "grid.size.1: is a number of the numerics": ({}, ["grid.size.1"]),
-    "ball.wear.K: is no number with decimals in this case": ({}, ["bodies.ball.wear.K"]),
+    "ball.wear.K: is no number with decimals": ({}, ["bodies.ball.wear.K"]),
     "a list of names is needed, 'load.normal' was given": ({}, "load.normal"),
     "moves the positions of the cycle by whole cells": (
         {"grid": FINE, "kinematics": resolved()},

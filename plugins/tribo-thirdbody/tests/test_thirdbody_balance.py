@@ -20,7 +20,7 @@ K, COVER, P = 2e-16, 50e-9, 4 / SIDE**2
 def pin(*changes, **debris):
     """A flat pin on a track, both of which wear: its pressure is even, and stays so."""
     law = f"bodies.flat.wear={{ type = 'archard', k = {K} }}"
-    given = [f"effects.0.{key}={value}" for key, value in debris.items()]
+    given = [f"effects.1.{key}={value}" for key, value in debris.items()]
     return load_case(CASE, overrides=[*QUICK, law, *given, *changes])
 
 
