@@ -294,8 +294,8 @@ def peak(steps):
 def test_memory_does_not_grow_with_the_steps_of_a_run(monkeypatch):
     monkeypatch.setattr(tape, "IN_MEMORY", 1)
     few, many = (min(peak(steps) for _ in range(2)) for steps in (10, 50))
-    # A pressure takes over 3 kB, the time of a save in each variant of the case under 1 kB.
-    assert many - few < 40e3
+    # 40 saved times take 90 kB in all variants of the case; with their pressures it is 170 kB.
+    assert many - few < 130e3
 
 
 def test_factors_on_the_wear_rate_are_unknowns_too():

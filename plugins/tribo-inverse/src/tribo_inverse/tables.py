@@ -171,7 +171,7 @@ def quality_table(found: Calibration) -> DataTable:
 
 
 def _columns(value: str, found: Calibration) -> list[str]:
-    return [value, f"{100 * found.level:g} % interval", "relative interval"]
+    return [value, f"{100 * found.level:g} % interval", "relative"]
 
 
 def _known(singular_value: float) -> str:
