@@ -88,7 +88,9 @@ def test_a_case_gets_an_uncertainty_for_each_result(case, studied_once):
     data = json.loads(done.stdout)
     assert [level["cells"] for level in data["grids"]] == [[10, 10], [16, 16], [24, 24]]
     names = [estimate["name"] for estimate in data["estimates"]]
-    assert {"peak pressure", "contact width across", "ball: largest depth", "disk: volume"} <= {*names}
+    assert {"peak pressure", "contact width across", "ball: largest depth", "disk: volume"} <= {
+        *names
+    }
     for estimate in data["estimates"]:
         assert 0 <= estimate["uncertainty"] < estimate["value"]
     shown = " ".join(invoke(case, *SMALL).stdout.split())
