@@ -41,20 +41,20 @@ def table(found: dict[str, Any]) -> Markdown:
 
 
 def _lines(rows: list[dict[str, Any]]) -> Iterator[str]:
-    yield "| Case, source | Quantity | Expected | Got | Error | Order (theory) | Held to |"
-    yield "| --- | --- | ---: | ---: | ---: | ---: | --- |"
+    yield "| Case, source | Quantity | Expected | Got | Error, order (theory) | Held to |"
+    yield "| --- | --- | ---: | ---: | ---: | --- |"
     for (case, source), group in groupby(rows, lambda row: (row["case"], row["source"])):
         title = f"**{case.replace('_', '_<wbr>')}**<br>{source}"
         for row in group:
-            order = f"{row['order']:.2f} ({row['theory']:g})" if row["order"] else NOTHING
-            error = NOTHING if row["error"] is None else f"{row['error']:.1e}"
+            order = f", {row['order']:.2f} ({row['theory']:g})" if row["order"] else ""
+            error = NOTHING if row["error"] is None else f"{row['error']:.1e}{order}"
             kind = f"{row['kind']}, published" if row["published"] else row["kind"]
             cells = [
                 title,
                 f"{row['quantity']} {row['solver']}".strip(),
                 _value(row["expected"], row["unit"]),
                 _value(row["got"], row["unit"]),
-                *(error, order, f"{kind}: {row['reason']}"),
+                *(error, f"{kind}: {row['reason']}"),
             ]
             yield f"| {' | '.join(cell.replace('|', '/') for cell in cells)} |"
             title = ""
