@@ -252,10 +252,12 @@ def _varies(height: Array, exposure: Exposure) -> bool:
 
 def _check_steady_cycle(model: Model) -> None:
     """Refuse stages of the load within a cycle whose slip of points an effect states."""
+    if not model.laws.slips_locally:
+        return
     loads, cycle = model.contact.loads, 2 * model.case.kinematics.track_extent
     ends = [0.0, *(edge for edge in loads.edges if edge < model.end_time)]
     slid = np.diff([model.motion.distance_at(end) for end in ends])
-    if model.laws.slips_locally and np.any((slid > 0) & (slid < cycle * (1 - ROUND_OFF))):
+    if np.any((slid > 0) & (slid < cycle * (1 - ROUND_OFF))):
         change = 100 * (1 - loads.least / loads.largest)
         raise CaseError(
             f"a stage is shorter than a cycle of {cycle:.3g} m, in which partial slip takes the "
