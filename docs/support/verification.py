@@ -41,7 +41,7 @@ def table(found: dict[str, Any]) -> Markdown:
 
 
 def _lines(rows: list[dict[str, Any]]) -> Iterator[str]:
-    yield "| Case, source | Quantity | Expected | Got | Error, order (theory) | Held to |"
+    yield "| Case, source | Quantity | Expected | Got | Error, order (theory) | Compared with |"
     yield "| --- | --- | ---: | ---: | ---: | --- |"
     for (case, source), group in groupby(rows, lambda row: (row["case"], row["source"])):
         title = f"**{case.replace('_', '_<wbr>')}**<br>{source}"

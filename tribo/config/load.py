@@ -16,7 +16,7 @@ from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
 from tribo.core.grid import FEWEST, MOST, out_of_range
 from tribo.core.hdf5 import MARK
-from tribo.core.words import did_you_mean, shown
+from tribo.core.words import shown, similar_file
 from tribo.registry.registry import Registry, default_registry
 
 _LARGEST = 10_000_000
@@ -115,8 +115,7 @@ def read_toml(
         with path.open("rb") as file:
             content = file.read(_LARGEST + 1)
     except FileNotFoundError:
-        like = did_you_mean(path.stem, (each.stem for each in path.parent.glob("*.toml")))
-        remedy = f"did you mean {like}.toml?" if like else hint
+        remedy = similar_file(path, ".toml", hint)
         raise CaseError(f"{path}: there is no such file; {remedy}") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
+from pathlib import Path
 
 _LONGEST = 60
 
@@ -75,6 +76,12 @@ def did_you_mean(name: object, known: Iterable[str]) -> str | None:
     same = [each for each in every if f".{each}".casefold().endswith(end)]
     close = get_close_matches(name, same or every, n=1, cutoff=0.0 if same else 0.6)
     return close[0] if close else None
+
+
+def similar_file(path: Path, suffix: str, otherwise: str) -> str:
+    """Return the remedy for a missing file: one beside it with a similar name, or `otherwise`."""
+    like = did_you_mean(path.stem, (each.stem for each in path.parent.glob(f"*{suffix}")))
+    return f"did you mean {like}{suffix}?" if like else otherwise
 
 
 def suggestion(meant: str | None) -> str:

@@ -14,7 +14,7 @@ import numpy as np
 from tribo.core.errors import CaseError
 from tribo.core.findings import as_json, damaged
 from tribo.core.hdf5 import MARK, contained, open_hdf5
-from tribo.core.words import did_you_mean
+from tribo.core.words import similar_file
 from tribo.result.checkpoint import RunFolder
 from tribo.result.hdf5 import filled_image
 from tribo.result.header import FORMAT
@@ -60,8 +60,7 @@ def is_unfinished(path: Path) -> bool:
             raise CaseError(
                 f"{path}: its run ended before its first save; 'tribo run --force' starts again"
             )
-        like = did_you_mean(path.stem, (each.stem for each in path.parent.glob("*.h5")))
-        remedy = f"did you mean {like}.h5?" if like else f"give {_RESULT}"
+        remedy = similar_file(path, ".h5", f"give {_RESULT}")
         raise CaseError(f"{path} is not a file; {remedy}")
     try:
         with path.open("rb") as file:
