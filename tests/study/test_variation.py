@@ -95,12 +95,3 @@ def test_variants_with_one_reason_are_told_together():
     assert first.startswith("4 of 6 variants cannot be run")
     assert len(others) == 2
     assert "load.normal=-1, grid.cells=16; load.normal=-1, grid.cells=32: " in others[0]
-
-
-def test_variants_that_leave_their_positions_open_take_the_same():
-    short = {"stroke": "0.5 mm", "frequency": 100, "positions": "auto"}
-    data = DATA | {"kinematics": DATA["kinematics"] | short}
-    found = variants(data, grid({"load.normal": (20, 100)}))
-    one, other = (case.kinematics.positions for case in found.values())
-    assert one == other
-    assert isinstance(one, int)

@@ -261,18 +261,12 @@ def ended(time: float, depth: float, limit: float) -> Finding:
     return Finding("stop", words, value=depth, limit=limit, place="stop.depth")
 
 
-def positions_chosen(count: int, reason: str, *, optional: bool = False) -> Finding:
-    """Word the positions at which a cycle is resolved, and why."""
-    remedy = '; kinematics.positions = "average" is faster and less accurate' if optional else ""
-    return _positions(f"the cycle is resolved at {count} positions, as {reason}{remedy}", count)
-
-
-def averaged_although(reason: str, refused: object) -> Finding:
-    """Word a stroke that is averaged because it cannot be resolved."""
-    return _positions(f"the stroke is averaged although {reason}: {refused}", 1)
-
-
-def _positions(words: str, count: int) -> Finding:
+def positions_chosen(count: int) -> Finding:
+    """Word the positions that are chosen for a cycle where a case leaves them open."""
+    words = (
+        f"the cycle is resolved at {count} positions, as the case leaves their number open; "
+        'kinematics.positions = "average" is faster and less accurate'
+    )
     return Finding("positions", words, value=count, place="kinematics.positions")
 
 

@@ -92,8 +92,8 @@ class Reciprocating(Kinematics):
     positions: Annotated[int, Field(ge=3)] | Literal["cells", "average", "auto"] = "auto"
     """In how many positions of a cycle the contact is solved, an odd number, or ``"cells"`` for
     every cell of the stroke; ``"average"`` takes the track average for all of them. ``"auto"`` is
-    as many as are needed, or the average from 20 lengths of the first contact on; the motion itself
-    takes the average until a case is composed with it."""
+    the average from 20 lengths of the first contact on, else positions 0.425 of its half-width
+    apart; the motion itself takes the average until a case is composed with it."""
     swept: str | None = None
     """Name of the body whose points pass through the contact; the last body if left out."""
     allow_short_stroke: bool = False

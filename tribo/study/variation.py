@@ -12,7 +12,6 @@ from tribo.config.overrides import apply_settings, parse_value, path_keys
 from tribo.core.errors import CaseError, located
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.registry import Registry
-from tribo.simulation.positions import alike
 from tribo.simulation.run import Simulation
 
 Point = dict[str, Any]
@@ -52,8 +51,7 @@ def variants(
 ) -> dict[str, Case]:
     """Return the cases that follow from `data` with each of the points, by their labels.
 
-    All are validated and composed first, so that wrong input costs no run. Cases with open
-    positions of their cycle take the largest number that any of them needs. CaseError names the
+    All are validated and composed first, so that wrong input costs no run. CaseError names the
     variants that are not valid, or the same case, and the reason.
     """
     cases: list[tuple[str, Case]] = []
@@ -73,7 +71,7 @@ def variants(
         if other != label or label in found:
             raise CaseError(f"{other} and {label} are the same case; leave one of them out")
         found[label] = case
-    return alike(found)
+    return found
 
 
 def valid_case(data: Mapping[str, Any], point: Point, registry: Registry | None = None) -> Case:
