@@ -8,7 +8,6 @@ from paper_models import archard, case, motion, pair, small
 from strangers.running_in import RunningIn
 
 from tribo import Field, Grid, Implicit, Result, Simulation
-from tribo.simulation.predict import predict
 
 LAW = RunningIn(k_first=9e-16, k_last=3e-16, length=20.0)
 
@@ -63,13 +62,3 @@ def test_what_one_law_does_not_keep_is_nan_there_and_a_taken_name_gets_its_kind(
         assert np.isnan(kept.sel(body="disk")).all()
         assert list(result.body("ball").state) == ["pressure"]
         assert result.body("disk").state == {}
-
-
-def test_the_predicted_size_counts_it(path):
-    def size(grid_model):
-        return predict(grid_model).file_size
-
-    without = small(save_times=(20,), **PARTS)
-    # Three saves of a field on the ball and on the disk.
-    assert size(model()) - size(without) == 3 * 8 * 2 * 24 * 24
-    assert path.stat().st_size < size(model())

@@ -53,8 +53,7 @@ MEASURE = """
     model = small(**parts)
     Simulation(model.case).run(case + ".h5").close()
     peak = most()
-    plastic = model.contact.system.cap is not None
-    needed = memory_needed(model.case, model.laws.effects, model.cycle, plastic=plastic)
+    needed = memory_needed(model.case, model.laws.effects, model.cycle)
     print(json.dumps([1024 * (peak - first), needed]))
 """
 
@@ -83,16 +82,13 @@ def test_more_than_there_is_is_refused_with_the_estimate(tight):
     with pytest.raises(CaseError) as caught:
         small(grid=Grid((0.7e-3, 0.7e-3), (4000, 4000)))
     text = str(caught.value)
-    assert text.startswith("grid.cells: 4000 × 4000 cells take up to 11.9 GiB of memory, and this")
+    assert text.startswith("grid.cells: 4000 × 4000 cells take up to 13.6 GiB of memory, and this")
     assert text.endswith("leaves 64 MiB: use fewer cells")
 
 
 def test_the_file_that_is_made_in_memory_counts():
     few, many = small(save_times=()), small(save_times=tuple(range(1, 101)))
-    sizes = [
-        memory_needed(model.case, model.laws.effects, model.cycle, plastic=False)
-        for model in (few, many)
-    ]
+    sizes = [memory_needed(model.case, model.laws.effects, model.cycle) for model in (few, many)]
     # Of each save the pressure, and the wear and plastic depth of two bodies.
     cells = few.grid.cells[0] * few.grid.cells[1]
     assert sizes[1] - sizes[0] == 100 * 5 * 8 * cells

@@ -9,7 +9,6 @@ from paper_models import goes_on
 from scipy.optimize import brentq
 
 from tribo import WORN_DEPTH, Archard, Case, CaseError, Simulation, WearLaw, WearRate
-from tribo.simulation.predict import predict
 
 SHARE = 0.1
 """Of the track, what is under the pin."""
@@ -75,9 +74,6 @@ def test_the_elasticity_of_a_layer_reaches_the_contact():
             peaks.append(result.saves()[0]["max_pressure_Pa"])
             assert result.report().first_contact.hertz_peak_pressure_Pa is None
     assert 1.1 * peaks[0] < peaks[1] < 2 * peaks[0]
-    below, above = predict(Simulation(case).model).hertz_bounds
-    assert below.peak_pressure == pytest.approx(peaks[0], rel=0.02)
-    assert peaks[1] < above.peak_pressure
 
 
 def test_a_run_resumed_has_the_same_bits(tmp_path):

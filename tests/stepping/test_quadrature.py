@@ -10,9 +10,7 @@ from paper_models import last
 from tribo import Grid, Simulation
 from tribo.core import findings
 from tribo.motion.cycle import missed_shares
-from tribo.motion.stroke import Stroke, spacing_for
-from tribo.simulation.predict import predict
-from tribo.stepping.first_contact import first_contact
+from tribo.motion.stroke import Stroke
 from tribo.stepping.measure import cycle_error
 
 GRID = Grid((1.2e-3, 0.75e-3), (64, 20))
@@ -77,22 +75,3 @@ def test_a_run_says_so_and_how_many_would_do(monkeypatch):
         history = result.table("history")["cycle_error"]
     assert history[0] == 0
     assert 0.015 < history[-1] < 0.04
-
-
-def test_a_check_proposes_what_makes_the_groove_even():
-    model = resolved(7)
-    pressure = first_contact(model).contact.pressure
-    apart = spacing_for(pressure, 0.01)
-
-    def uneven(cells):
-        # Of a body that passes for ever, each cell between two positions.
-        groove = np.zeros((cells, 20))
-        for row, line in enumerate(pressure):
-            groove[row % cells] += cells * line
-        mean = pressure.sum(axis=0)
-        return np.sum(groove * np.abs(groove - mean)) / np.sum(groove) / mean.max()
-
-    # Under an even pressure positions lie anywhere, evenly over what repeats.
-    assert spacing_for(np.ones((24, 2)), 0.01, repeats=True) == 12
-    assert uneven(apart) <= 0.01 < uneven(apart + 1)
-    assert predict(model).positions_for_1_percent == 2 * int(np.ceil(12 / apart)) + 1

@@ -181,28 +181,6 @@ def least_positions(length: float, half_width: float) -> int:
     return max(3, 2 * int(np.ceil(length / half_width * (1 - ROUND_OFF))) + 1)
 
 
-def spacing_for(pressure: Array, error: float, *, repeats: bool = False) -> int:
-    """Return how far apart, in cells, positions may lie for the groove of a contact to be even.
-
-    A body that passes is worn by the sum of the pressures at each position; every point of a row
-    would get the same if there were no end of them. The mean difference, weighted with the load, is
-    `error` of the largest depth at the most. Where the contact `repeats` with the window, positions
-    divide it evenly.
-    """
-    deepest, load = float(np.max(np.sum(pressure, axis=0))), float(np.sum(pressure))
-    best = 1
-    for cells in range(2, len(pressure)):
-        if repeats and len(pressure) % cells:
-            continue
-        padded = np.pad(pressure, ((0, -len(pressure) % cells), (0, 0)))
-        met = np.sum(padded.reshape(-1, cells, pressure.shape[1]), axis=0)
-        off = np.abs(cells * met - np.sum(pressure, axis=0))
-        if float(np.sum(met * off)) > error * load * deepest:
-            break
-        best = cells
-    return best
-
-
 def near(nodes: Array, path: Array, weights: Array | float = 1.0) -> Array:
     """Return the length of a path that belongs to each node, shape (nodes,).
 

@@ -54,7 +54,7 @@ def assemble(case: Case) -> Model:
     cap, share, hardness = yielding(bodies, case.contact)
     given = (*motion.effects(), *case.effects)
     # Before the first array is made.
-    check_memory(grid, memory_needed(case, given, cycle, plastic=cap is not None))
+    check_memory(grid, memory_needed(case, given, cycle))
     surfaces, laws = {}, {}
     for name, body in bodies.items():
         exposure = exposures[name]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -11,7 +10,6 @@ import numpy as np
 
 from tribo.case import Case, Output
 from tribo.component import components
-from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, NumericalError, OverTime, PluginError, TooWorn, TriboError
 from tribo.core.findings import Finding, outgrown, trial_failed, worn_through, would_stop
 from tribo.core.grid import Grid
@@ -28,14 +26,13 @@ from tribo.simulation.beginning import first_state
 from tribo.simulation.gap_filling import check_filling
 from tribo.simulation.hardness import at_surface
 from tribo.simulation.march import begin, march
-from tribo.simulation.memory import memory_needed, size_of_fields
+from tribo.simulation.memory import memory_needed
 from tribo.simulation.validity import (
     check_stroke,
     doubting,
     few_cells,
     implausible,
     limitation,
-    positions_for,
     too_wide,
     unusual,
 )
@@ -49,12 +46,6 @@ MARGINS = (1.5, 1.0)
 """Edges of the windows to try, relative to the case's: the contact may outgrow its window."""
 LOOSE = Implicit(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
 COARSE = 72
-LONGER, FINER, SHARED = 6.5, 0.25, 0.7
-"""Time of a run over its coarse trial's, the addition by more cells, and the power of positions.
-
-Ten templates and the resolved hour take 0.6 to 1.5 times this estimate.
-"""
-BARE_FILE = 1e6
 
 
 @dataclass(frozen=True)
@@ -68,21 +59,14 @@ class Prediction:
 
     first: Measures
     hertz: HertzContact | None
-    hertz_bounds: tuple[HertzContact, HertzContact] | None
-    """For coated bodies: contacts without the layer, and of the layer throughout."""
     cells_across: tuple[float, float] | None
     last: Measures | None
     worn_through: tuple[Mapping[str, Any], ...]
     window_holds: bool | None
     positions: int
     """Of a cycle in which the contact is solved; 1 for an average."""
-    positions_for_1_percent: int | None
-    """Positions that wear the groove of the first contact evenly to 1 % of its depth."""
     memory: float
-    file_size: float
-    """In bytes, as the memory; upper estimates."""
-    run_time: float | None
-    """In s on this machine, to a factor of about 3; of implicit steps alone."""
+    """The most that a run takes, in bytes."""
     facts: Mapping[str, Mapping[str, str]]
     """The facts of components, by their place in the case."""
     problems: tuple[Finding, ...]
@@ -106,7 +90,6 @@ class CoarseRun:
     implausible: tuple[Finding, ...] = ()
     error: TriboError | None = None
     on_any_cells: bool = False
-    run_time: float | None = None
 
 
 def predict(model: Model) -> Prediction:
@@ -140,23 +123,12 @@ def predict(model: Model) -> Prediction:
     return Prediction(
         first=first,
         hertz=hertz,
-        hertz_bounds=_bounds(model.contact.system)
-        if hertz is None and not model.case.begin
-        else None,
         cells_across=across,
         last=last,
         worn_through=coarse.worn_through,
         window_holds=holds,
         positions=len(model.cycle),
-        positions_for_1_percent=positions_for(model, state.contact),
-        memory=memory_needed(
-            model.case,
-            model.laws.effects,
-            model.cycle,
-            plastic=model.contact.system.cap is not None,
-        ),
-        file_size=BARE_FILE + size_of_fields(model.case, model.laws.effects, model.cycle),
-        run_time=coarse.run_time,
+        memory=memory_needed(model.case, model.laws.effects, model.cycle),
         facts={place: stated for place, stated in facts.items() if stated},
         problems=tuple(problem for problem in problems if problem is not None),
         exit_code=ends[0][0] if ends else 0,
@@ -208,24 +180,6 @@ def _worn(model: Model, coarse: Model, state: State, watch: Watch) -> tuple[Stat
     return state, when
 
 
-def _run_time(model: Model, coarse: Model, took: float) -> float:
-    """Return the duration of a run, from its coarse trial."""
-    # Of neighbouring positions some are solved at once, or hardly change.
-    longer: float = (len(model.cycle) / len(coarse.cycle)) ** SHARED
-    cells, fewer = (nx * ny for nx, ny in (model.grid.cells, coarse.grid.cells))
-    return LONGER * took * (1 + FINER * cells / fewer) * longer
-
-
-def _bounds(system: ContactSystem) -> tuple[HertzContact, HertzContact] | None:
-    """Return Hertz's contacts of coated bodies without the layers, and of the layers throughout."""
-    if not system.coatings:
-        return None
-    bare = replace(system, coatings={})
-    throughout = replace(bare, modulus=system.surface_modulus)
-    below, above = hertz_contact(bare), hertz_contact(throughout)
-    return None if below is None or above is None else (below, above)
-
-
 def _inside(model: Model, measures: Measures) -> bool:
     (lx, ly), (dx, dy) = model.grid.size, model.grid.spacing
     return measures.half_width_x < lx / 2 - dx and measures.half_width_y < ly / 2 - dy
@@ -242,7 +196,6 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
     for margin in (1.0,) if model.contact.may_reach_edge else MARGINS:
         try:
             coarse = coarsened(model.case, COARSE, margin, half_width)
-            began = time.perf_counter()
             state = begin(coarse)
         except (CaseError, NumericalError) as error:
             failed = failed or error
@@ -257,7 +210,6 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
         except NumericalError as error:
             failed = failed or error
             continue
-        took = time.perf_counter() - began
         return CoarseRun(
             measure(coarse, state),
             when,
@@ -267,9 +219,6 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
                 *(finding for finding, _ in implausible(coarse, state)),
                 *(replace(each, words=f"at {each.time:.3g} s {each.words}") for each in watch.said),
             ),
-            run_time=_run_time(model, coarse, took)
-            if isinstance(model.case.stepping, Implicit)
-            else None,
         )
     return CoarseRun(None, error=failed, on_any_cells=isinstance(failed, PluginError))
 

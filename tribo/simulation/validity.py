@@ -24,7 +24,7 @@ from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.lab.against_hertz import hertz_contact
 from tribo.model.model import Model
-from tribo.motion.stroke import check_spacing, spacing_for
+from tribo.motion.stroke import check_spacing
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.registry import from_packages
 from tribo.stepping.measure import cycle_error
@@ -246,15 +246,3 @@ def implausible(model: Model, state: State) -> Iterator[tuple[Finding, bool]]:
         if (volume := exposure.volume(wear)) > findings.FAST * state.load_distance:
             rate = volume / state.load_distance
             yield findings.too_fast(name, rate), rate >= findings.IMPOSSIBLE
-
-
-def positions_for(model: Model, first: ContactSolution) -> int | None:
-    """Return the positions that wear the groove of the first contact evenly to 1 %.
-
-    None where the cycle is not resolved.
-    """
-    if len(model.cycle) == 1:
-        return None
-    path = float(model.cycle.path[-1])
-    spacing = spacing_for(first.pressure, findings.FINE, repeats=model.case.contact.periodic)
-    return 2 * math.ceil(0.5 * path / spacing) + 1

@@ -31,9 +31,6 @@ from tribo.simulation.predict import Prediction, predict
 from tribo.simulation.run import Simulation
 from tribo.simulation.validity import findings_of, unusual
 
-SPREAD = 3.0
-"""Factor to which the time of a run is known."""
-
 Waiting = Callable[[str], AbstractContextManager[Any]]
 
 
@@ -48,7 +45,7 @@ class Check:
     facts : tuple of Finding
         Findings of packages.
     rows : tuple of (str, str)
-        The first contact, the end of a run on a coarse grid, time, memory and file, in words.
+        The first contact, the end of a run on a coarse grid, and its memory, in words.
     data : Mapping
         The same as plain data, in SI units; unknown values are None.
 
@@ -143,26 +140,19 @@ def _widths(hertz: HertzContact) -> str:
 
 
 def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
-    """Yield materials, the first contact, the end and the size of the run, each with its name."""
+    """Yield materials, the first contact, the end and the memory of the run, by name."""
     for name, body in model.case.bodies.items():
         yield from _material(name, body.material)
     yield from _first_contact(model, prediction)
     if model.chosen is not None or prediction.positions > 1:
         resolved = f"the cycle is resolved at {prediction.positions}"
         yield "positions", model.chosen.words if model.chosen else resolved
-        if prediction.positions_for_1_percent is not None:
-            words = f"{prediction.positions_for_1_percent} if the contact stays as it is at first"
-            yield "positions for 1 % of the depth, about", words
     elif isinstance(model.case.kinematics, Reciprocating):
         half_width = hertz_half_width(model.contact.system) or prediction.first.half_width_x
         lengths = lengths_of(model.case.kinematics.stroke, half_width)
         yield "positions", f"averaged over the stroke, {lengths}"
     yield from _end(model, prediction)
-    if prediction.run_time is not None:
-        soonest, latest = prediction.run_time / SPREAD, prediction.run_time * SPREAD
-        yield "run time here, about", f"{readable(soonest, '.2g')} to {readable(latest, '.2g')} s"
     yield "memory, at most", f"{readable(prediction.memory / 2**20, '.0f')} MiB"
-    yield "result file, at most", f"{readable(prediction.file_size / 2**20, '.1f')} MiB"
 
 
 def _material(body: str, material: Material) -> Iterator[tuple[str, str]]:
@@ -185,15 +175,6 @@ def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, 
     if begin := model.case.begin:
         most = f"p max {in_mpa(first.max_pressure)}"
         yield "first contact", f"of the bodies as worn in {begin.result}: {most}"
-    elif prediction.hertz_bounds:
-        below, above = prediction.hertz_bounds
-        said = "{} without the layer, {} of the layer throughout"
-        yield "Hertz half-widths", said.format(_widths(below), _widths(above))
-        peaks = (in_mpa(each.peak_pressure) for each in (below, above))
-        _, computed = computed_pressure(
-            model.contact.system, first.max_pressure, first.centre_pressure
-        )
-        yield "Hertz peak pressure p0", f"{said.format(*peaks)}, computed {computed}"
     elif hertz is None or prediction.cells_across is None:
         yield "first contact", "no Hertz solution for these surfaces"
     else:
