@@ -146,7 +146,6 @@ def test_check_names_what_would_stop_a_run(case):
     [
         (setting("grid.size=0.36 mm"), 3),
         (EXPLICIT, 2),
-        ([*EXPLICIT, *setting("stepping.allow_unstable=true")], 0),
         ([], 0),
     ],
 )

@@ -21,7 +21,7 @@ PARTS = {
     ),
     "stepping": (
         {"type": "explicit", "time_step": 0.5},
-        {"type": "explicit", "time_step": 60, "allow_unstable": True},
+        {"type": "explicit", "time_step": 2},
         {"type": "implicit", "depth_tolerance": 0.1, "pressure_tolerance": 1.0},
     ),
     "effects": ([{"type": "thermal.flash", "ambient": "90 degC"}], ["energy.friction_traction"]),

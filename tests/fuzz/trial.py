@@ -197,8 +197,7 @@ def broken(path, code):
         for name, most in LIMITS.items():
             if not worst[name] <= most:
                 return f"{name} is {worst[name]:g}"
-        told = any(notice.startswith("chattering") for notice in result.warnings)
-        if worst["chattering"] > CHATTERING and not told:
+        if worst["chattering"] > CHATTERING:
             return f"chattering is {worst['chattering']:g}"
         along = result.case_tables["load"].get("along")
         for save, load in enumerate(result.table("saves")["load_N"]):

@@ -74,11 +74,6 @@ def test_the_largest_stable_step_is_the_one_the_run_takes():
     assert predict(model(0.99 * largest)).problems == ()
 
 
-def test_a_step_allowed_to_be_unstable_is_still_said_to_be():
-    stepping = Explicit(type="explicit", time_step=100, allow_unstable=True)
-    assert only_problem(small(stepping=stepping)).kind == "stability"
-
-
 def test_a_groove_that_does_not_settle_is_foreseen(monkeypatch):
     monkeypatch.setattr(plastic_groove, "SETTLE_PASSES", 1)
     model = small(bodies=bodies(hardness=1.5e9), contact=half_space())

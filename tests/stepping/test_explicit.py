@@ -1,9 +1,7 @@
 import numpy as np
 import pytest
-from paper_models import K, archard, last, pair, small
+from paper_models import K, archard, pair, small
 
-from tribo import Effect, Field, WearLaw, WearRate
-from tribo.contact.dcfft import DcFft
 from tribo.core.errors import CaseError
 from tribo.evolution.interval import Moment
 from tribo.simulation.run import Simulation
@@ -25,16 +23,6 @@ def test_steps_that_cannot_do_are_refused_before_anything_is_written(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_unknown_compliance_is_said_so():
-    class Silent(DcFft):
-        def smallest_compliance(self, system):
-            return None
-
-    contact = Silent()
-    with pytest.raises(CaseError, match="does not state its smallest compliance"):
-        last(small(contact=contact, stepping=Explicit(time_step=1)))
-
-
 def test_where_only_the_track_wears_the_limit_counts_the_part_of_it_in_contact():
     # λ <= k (2b/ℓ)/K̂: a point of the track is in contact for 2b of every ℓ slid.
     bodies = pair(disk=archard())
@@ -47,50 +35,3 @@ def test_where_only_the_track_wears_the_limit_counts_the_part_of_it_in_contact()
     )
     limit = largest_stable_increment(model, state, Moment(0.0, 0.0, 0.1))
     assert limit == pytest.approx(expected, rel=1e-3)
-
-
-class Load(Effect):
-    """Fields that follow the pressure, at each point and over all."""
-
-    provides = tuple(Field(name, "1", "Pressure.") for name in ("here", "over_all"))
-
-    def fields(self, contact):
-        pressure = contact.pressure
-        values = {
-            "here": pressure / 1e9,
-            "over_all": np.full_like(pressure, pressure.sum() / 1e9),
-        }
-        return {name: dict.fromkeys(contact.materials, field) for name, field in values.items()}
-
-
-def hot(field):
-    """A law whose k grows with a field; its derivative is the one at that field."""
-
-    class Hot(WearLaw):
-        requires = (field,)
-
-        def rate(self, local):
-            k = K * (1 + local.fields[field])
-            return WearRate(k * local.pressure, k)
-
-    return Hot()
-
-
-@pytest.mark.parametrize(
-    ("field", "steepest"),
-    [
-        ("here", lambda p: 1 + 2 * p.max() / 1e9),
-        # Under one load it does not change.
-        ("over_all", lambda p: 1 + p.sum() / 1e9),
-    ],
-)
-def test_the_limit_counts_what_comes_through_fields_that_follow_the_pressure(field, steepest):
-    bodies = pair(hot(field))
-    stepping = Explicit(time_step="1 h")
-    model = small(bodies=bodies, effects=[Load()], stepping=stepping)
-    slope = K * steepest(first_contact(model).contact.pressure)
-    limit = 2 * 0.58069 * model.grid.spacing[0] / (slope * model.contact.system.modulus) / 0.1
-    with pytest.raises(CaseError, match="largest stable step") as caught:
-        Simulation(model.case).run()
-    stated = float(str(caught.value).split("stable step is ")[1].split(" s")[0])
-    assert stated == pytest.approx(limit, rel=2e-3)

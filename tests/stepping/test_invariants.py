@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from paper_models import K, archard, flat, last, motion, named, small, sphere, states, steel
+from paper_models import K, archard, flat, last, named, small, sphere, states, steel
 
 from tribo import Result, Simulation
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
-from tribo.core.errors import NumericalError, TriboWarning
+from tribo.core.errors import NumericalError
 from tribo.core.grid import Grid
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
@@ -38,10 +38,6 @@ def time_step(factor):
     """A part of the largest stable one of `one_body`."""
     model = one_body()
     return factor * 2 * 0.58069 * model.grid.spacing[0] / (K * model.contact.system.modulus) / 0.1
-
-
-def unstable(factor):
-    return Explicit(time_step=time_step(factor), allow_unstable=True)
 
 
 def test_half_of_a_chequerboard_is_handed_back():
@@ -83,28 +79,8 @@ def test_chattering_stops_a_run_whose_solver_overstates_its_stability():
             return 1.0
 
     model = one_body(contact=Overstates(), stepping=Explicit(time_step=time_step(1.5)))
-    with pytest.raises(NumericalError, match=r"^step \d+, at .* s .*pressure chatters: \d+ %.*'im"):
+    with pytest.raises(NumericalError, match=r"^step \d+, at .* s .*pressure chatters, by .*'im"):
         last(model)
-
-
-def test_chattering_is_told_of_where_it_is_allowed():
-    with (
-        pytest.warns(TriboWarning, match="the pressure chatters"),
-        pytest.warns(TriboWarning, match="beyond the stability limit"),
-    ):
-        result = Simulation(one_body(stepping=unstable(1.5))).run()
-    assert result.worst()["chattering"] > CHATTERING
-
-
-@pytest.mark.parametrize(("factor", "told"), [(0.97, False), (1.03, True)])
-def test_a_step_that_may_chatter_is_told_of_before_it_does(factor, told):
-    # The mode that is 3 % beyond the limit takes hundreds of steps to show.
-    first = states(one_body(stepping=unstable(factor), kinematics=motion(duration=10)))[1]
-    found = [each for each in first.findings if each.kind == "stability"]
-    assert len(found) == told
-    if told:
-        assert (found[0].time, found[0].place) == (0, "stepping.time_step")
-        assert found[0].limit == pytest.approx(time_step(1.0), rel=1e-3)
 
 
 @pytest.mark.parametrize(

@@ -26,9 +26,6 @@ COARSE, FINE = 0.05, 0.01
 """Error of the depth by too few positions that is reported, and the error at the number advised."""
 UNLIKE = 0.01
 """Relative difference of a track from the period that is reported."""
-CHATTERING = 0.5
-"""Part of the load: implicit steps were seen to hand back up to 0.012 on smooth and rough balls,
-stable explicit ones, as they begin, 0.28; unstable ones between 0.6 and 0.9."""
 
 
 @dataclass(frozen=True)
@@ -199,32 +196,6 @@ def peak_at_the_edge(largest: float, inside: float) -> Finding:
         "and from step to step; compare pressures in the centre instead",
         value=largest,
         limit=SHARP * inside,
-    )
-
-
-def chattering(part: float) -> Finding:
-    """Word a pressure of which a part goes back and forth between cells."""
-    return Finding(
-        "chattering",
-        f"the pressure chatters: {100 * part:.0f} % of the load goes back "
-        f"and forth between cells from step to step, and {100 * CHATTERING:.0f} % are allowed; "
-        "shorten the steps (stepping.time_step), or use stepping.type = 'implicit'",
-        value=part,
-        limit=CHATTERING,
-        place="stepping",
-    )
-
-
-def unstable(time_step: float, increment: float, limit: float) -> Finding:
-    """Word an explicit step (s) that slides beyond the stability limit, both in m."""
-    largest = time_step * limit / increment
-    return Finding(
-        "stability",
-        f"{time_step:.4g} s slides {increment:.4g} m, beyond the stability limit of {limit:.4g} m, "
-        f"and the pressure may chatter; the largest stable step is {largest:.4g} s",
-        value=time_step,
-        limit=largest,
-        place="stepping.time_step",
     )
 
 

@@ -51,7 +51,7 @@ class Invariants:
 
     Examples
     --------
-    >>> tribo.Invariants(chattering=0.6).chattering > 0.5  # a run warns
+    >>> tribo.Invariants(chattering=0.6).chattering > 0.5  # a run stops
     True
     """
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tribo.core.errors import OutOfWindow, PluginError
-from tribo.core.findings import chattering, ended
+from tribo.core.findings import ended
 from tribo.core.measures import half_widths
 from tribo.core.state import State
 from tribo.model.model import Model
@@ -25,7 +25,7 @@ from tribo.simulation.validity import (
     tribo_findings,
 )
 from tribo.simulation.watch import Watch
-from tribo.stepping.invariants import chatters, hold
+from tribo.stepping.invariants import hold
 from tribo.stepping.step import distance_until, start_sliding
 
 DEPTH_ACCURACY = 1e-6
@@ -47,7 +47,7 @@ def begin(model: Model) -> State:
     `CaseError` if the contact does not fit window and stroke, or a fixed time step is unstable.
     """
     with doubting(model.case):
-        state = hold(model, None, first_state(model))
+        state = hold(None, first_state(model))
         check_stroke(model, state)
         check_filling(model, state)
         model.case.stepping.check(model, state)
@@ -107,7 +107,7 @@ def _advanced(model: Model, state: State, until: float, limit: float, watch: Wat
         what, then, rule = str(error).partition("; ")
         error.args = (f"{what} at {state.distance:.6g} m ({state.time:.6g} s){then}{rule}",)
         raise
-    after = hold(model, state, after)
+    after = hold(state, after)
     _check_window(model, after)
     return _with_findings(model, hold_wear(model, after))
 
@@ -199,8 +199,6 @@ def _with_findings(model: Model, state: State) -> State:
     if state.steps == 0:
         few = few_cells(model, state.contact)
         state = state.with_findings(*tribo_findings(model), *([few] if few else []))
-    if chatters(state) and not state.has_finding("chattering"):
-        state = state.from_here(chattering(state.invariants.chattering))
     return state
 
 
@@ -208,7 +206,7 @@ def _concluded(model: Model, state: State) -> State:
     """Replace the finding on averaging at the beginning by the finding at the end."""
     if finding := coarse_cycle(model, state):
         state = state.with_findings(finding)
-    if not state.has_finding("chattering") and (finding := peak_at_the_edge(state)):
+    if finding := peak_at_the_edge(state):
         state = state.from_here(finding)
     finding = limitation(model, state)
     return state.without_findings("averaging").from_here(finding) if finding else state

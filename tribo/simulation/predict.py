@@ -109,12 +109,11 @@ def predict(model: Model) -> Prediction:
     last = coarse.last
     holds = None if last is None else _inside(model, last) or model.contact.may_reach_edge
     across = None if hertz is None else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
-    stopping, warned = _stopping(model, state, coarse, window_holds=holds)
+    stopping = _stopping(model, state, coarse, window_holds=holds)
     doubts, ends = unusual(model.case), [(code, found) for code, found in stopping if code]
     problems = (
         *(found for _, found in stopping),
         few_cells(model, state.contact),
-        warned,
         *(too_wide(model, first) or too_wide(model, last or first)),
         *coarse.implausible,
         coarse.limitation,
@@ -138,15 +137,12 @@ def predict(model: Model) -> Prediction:
 
 def _stopping(
     model: Model, state: State, coarse: CoarseRun, *, window_holds: bool | None
-) -> tuple[list[tuple[int, Finding]], Finding | None]:
-    """Return the findings that would end a run, with exit codes, and a warning of its steps.
-
-    They are in the order in which a run would reach them.
-    """
-    stopping, warned, end = list[tuple[int, Finding]](), None, model.end_time
+) -> list[tuple[int, Finding]]:
+    """Return the findings that would end a run, as it would reach them, with exit codes."""
+    stopping, end = list[tuple[int, Finding]](), model.end_time
     try:
         check_filling(model, state)
-        warned = model.case.stepping.check(model, state)
+        model.case.stepping.check(model, state)
         effect_fields(model, state)
     except (CaseError, NumericalError) as error:
         stopping.append((error.exit_code, would_stop(f"at once: {error}", 0.0, end)))
@@ -163,7 +159,7 @@ def _stopping(
     ):
         code = coarse.error.exit_code if coarse.on_any_cells else 0
         stopping.append((code, trial_failed(coarse.error, on_any_cells=coarse.on_any_cells)))
-    return stopping, warned
+    return stopping
 
 
 def _worn(model: Model, coarse: Model, state: State, watch: Watch) -> tuple[State, float | None]:

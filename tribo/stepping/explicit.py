@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -12,16 +12,15 @@ import numpy as np
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError
 from tribo.core.fields import WearRate
-from tribo.core.findings import Finding, unstable
 from tribo.core.state import State
 from tribo.core.units import Quantity
-from tribo.evolution.course import Course, course, in_stripes
+from tribo.evolution.course import Course, course
 from tribo.evolution.friction import with_friction_work
 from tribo.evolution.interval import Moment, interval_from
-from tribo.evolution.rates import CycleRates, wear_rates
+from tribo.evolution.rates import wear_rates
 from tribo.evolution.states import remembered
 from tribo.model.events import Solved, Worn
-from tribo.stepping.contacts import counted, solve_cycle, undeformed
+from tribo.stepping.contacts import counted, extrapolated, solve_cycle, undeformed
 from tribo.stepping.linear_wear import wear_compliance
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
@@ -54,15 +53,8 @@ class Explicit(Scheme):
     type: Literal["explicit"] = "explicit"
     time_step: Annotated[float, Quantity("s", above=0)]
     """Length of a step."""
-    allow_unstable: bool = False
-    """Whether steps may exceed the stability limit, at your own risk."""
 
-    @property
-    def may_oscillate(self) -> bool:
-        """Whether the case allows steps beyond the stability limit."""
-        return self.allow_unstable
-
-    def check(self, model: Model, state: State) -> Finding | None:
+    def check(self, model: Model, state: State) -> None:
         """Check the first step; see `Scheme.check`.
 
         `CaseError` if steps are too short for the run to end, or the first step is unstable.
@@ -75,9 +67,9 @@ class Explicit(Scheme):
                 PLACE,
             )
         increment = distance_until(model, state, self.time_step)
-        if increment is None:
-            return None
-        return self._instability(model, state, interval_from(state, increment, self.time_step).end)
+        if increment is not None:
+            end = interval_from(state, increment, self.time_step).end
+            _check_stability(model, rated(model, state, end), end)
 
     def next_time(self, state: State, until: float) -> float:
         """Return the time a step on, or `until` (s) if that is sooner."""
@@ -87,15 +79,12 @@ class Explicit(Scheme):
     def slide(self, model: Model, state: State, target: float, until: float) -> State:
         """Return the state at `target` (m); see `Scheme.slide`.
 
-        `CaseError` if the step exceeds the stability limit and the case does not allow it.
+        `CaseError` if the step exceeds the stability limit.
         """
         increment = target - state.distance
         moment = interval_from(state, increment, until).end
         state = rated(model, state, moment)
-        if not (self.allow_unstable and state.has_finding("stability")):
-            finding = self._instability(model, state, moment)
-            if finding is not None:
-                state = state.from_here(finding)
+        _check_stability(model, state, moment)
         return self.step(model, state, increment, until)
 
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
@@ -110,33 +99,22 @@ class Explicit(Scheme):
         after = worn_by(model, state, slid, depths, interval)
         loads = model.loads(after).before(time)
         contacts = solve_cycle(
-            model, undeformed(model, after), loads, _extrapolated(state), after.bodies
+            model, undeformed(model, after), loads, extrapolated(state), after.bodies
         )
         model.tell(Solved(contacts))
         after = accepted(model, counted(after, contacts), contacts, loads)
         return with_friction_work(model, state, after, state.contacts, slid)
 
-    def _instability(self, model: Model, state: State, moment: Moment) -> Finding | None:
-        """Return a warning of a step beyond the limit; `CaseError` where the case allows none."""
-        limit = largest_stable_increment(model, state, moment)
-        if limit is None:
-            if self.allow_unstable:
-                return None
-            raise CaseError(
-                f"contact.type = {model.case.contact.type!r} does not state its smallest "
-                "compliance, so the stability of explicit steps cannot be checked; set "
-                "stepping.allow_unstable = true to run without the check",
-                PLACE,
-            )
-        increment, dt = moment.distance - state.distance, moment.time - state.time
-        if increment < limit:
-            return None
-        finding = unstable(dt, increment, limit)
-        if self.allow_unstable:
-            return finding
+
+def _check_stability(model: Model, state: State, moment: Moment) -> None:
+    """Raise `CaseError` if the step up to a moment exceeds the stability limit."""
+    limit = largest_stable_increment(model, state, moment)
+    increment, dt = moment.distance - state.distance, moment.time - state.time
+    if increment >= limit:
         raise CaseError(
-            f"{finding.words} (or use stepping.type = 'implicit', or set "
-            "stepping.allow_unstable = true)",
+            f"{dt:.4g} s slides {increment:.4g} m, beyond the stability limit of {limit:.4g} m; "
+            f"the largest stable step is {dt * limit / increment:.4g} s (or use stepping.type = "
+            "'implicit')",
             PLACE,
         )
 
@@ -148,20 +126,18 @@ def rated(model: Model, state: State, moment: Moment) -> State:
     return replace(state, rates=wear_rates(model, state.contacts, remembered(model, state), moment))
 
 
-def largest_stable_increment(model: Model, state: State, moment: Moment) -> float | None:
+def largest_stable_increment(model: Model, state: State, moment: Moment) -> float:
     """Return the increment below which forward Euler is stable, in m.
 
     Δs λ < 2, with λ bounded from above by the largest derivative of the wear
     rate (local, plus the derivative of a swept body times the part of the track
-    in contact) over the smallest compliance. The derivative is the larger of the
-    law's and a difference, which includes fields that follow the pressure.
-    None where the contact solver does not state its smallest compliance;
-    infinity where nothing wears.
+    in contact) over the smallest compliance. Infinity where nothing wears, or
+    where the contact solver does not state its smallest compliance.
     """
     smallest = model.contact.solver.smallest_compliance(model.contact.system)
     if smallest is None:
-        return None
-    rates = _steepened(model, state, rated(model, state, moment).rates, moment)
+        return np.inf
+    rates = rated(model, state, moment).rates
     slope = max(map(partial(_steepest, model), rates, state.contacts))
     return 2 * smallest / slope if slope > 0 else np.inf
 
@@ -175,30 +151,3 @@ def _steepest(model: Model, rates: Mapping[str, WearRate], contact: ContactSolut
     length = np.count_nonzero(touching, axis=0) * model.grid.spacing[0] + model.cycle.apart
     local = float(np.max(compliance.local[near], where=touching, initial=0.0))
     return local + float((compliance.swept[near[1]] * length).max())
-
-
-def _steepened(model: Model, state: State, rates: CycleRates, moment: Moment) -> CycleRates:
-    """Return `rates` with the total derivative where laws follow the fields of effects."""
-    shared = model.laws.slips_locally or model.laws.shares_load
-    following = [name for name, law in model.laws.wear.items() if shared or law.requires]
-    if not model.laws.effects or not following:
-        return rates
-    nudged, stripes = in_stripes(state.contacts)
-    others = wear_rates(model, nudged, remembered(model, state), moment)
-    steeper = [dict(at) for at in rates]
-    for at, other, stripe in zip(steeper, others, stripes, strict=True):
-        for name in following:
-            change = other[name].depth_rate - at[name].depth_rate
-            slope = np.divide(change, stripe, out=np.zeros_like(change), where=stripe != 0)
-            at[name] = replace(at[name], depth_slope=np.maximum(at[name].depth_slope, slope))
-    return steeper
-
-
-def _extrapolated(state: State) -> Sequence[ContactSolution]:
-    """Return the contacts after another change as large as in the last step."""
-    if not state.previous:
-        return state.contacts
-    return [
-        replace(contact, pressure=np.maximum(2 * contact.pressure - before, 0.0))
-        for contact, before in zip(state.contacts, state.previous, strict=True)
-    ]

@@ -16,7 +16,6 @@ import numpy as np
 from tribo.core.arrays import Array, union
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import NumericalError
-from tribo.core.findings import CHATTERING, chattering
 from tribo.core.measures import Invariants
 from tribo.core.state import State
 from tribo.evolution.rates import CycleRates
@@ -32,8 +31,12 @@ SMALL = 1e-9
 """Volume of a step over the volume worn so far, below which rounding dominates it."""
 ONE_LOAD = 1e-3
 """Relative change of the load above which the load, not chattering, moves the pressure."""
+CHATTERING = 0.5
+"""Part of the load: implicit steps were seen to hand back up to 0.012 on smooth and rough balls,
+stable explicit ones, as they begin, 0.28; unstable ones between 0.6 and 0.9."""
 
 _SOLVER = "tighten the tolerance of the contact solver, or choose another (contact.type)"
+_STEPS = "shorten the steps (stepping.time_step), or use stepping.type = 'implicit'"
 _MOTION = "that is a fault of the kinematics; 'tribo plugins check' tests it"
 
 
@@ -64,14 +67,13 @@ def wear_balance(
     return Invariants(volume=float(np.max(volumes)), regrowth=float(np.max(regrowths)))
 
 
-def hold(model: Model, before: State | None, after: State) -> State:
+def hold(before: State | None, after: State) -> State:
     """Return `after` with its invariants; `before` is None for the first contact.
 
     Raises
     ------
     NumericalError
-        If one does not hold, with the step, the deviation and a remedy. Chattering pressure is a
-        finding instead where the case allows unstable steps.
+        If one does not hold, with the step, the deviation and a remedy.
     """
     if before is not None:
         after = replace(after, previous=tuple(each.pressure for each in before.contacts))
@@ -79,8 +81,6 @@ def hold(model: Model, before: State | None, after: State) -> State:
             share = max(map(_chattering, before.previous, before.contacts, after.contacts))
             after = replace(after, invariants=replace(after.invariants, chattering=share))
     broken = broken_by(after)
-    if broken is None and chatters(after) and not model.case.stepping.may_oscillate:
-        broken = chattering(after.invariants.chattering).words
     if broken is not None:
         raise NumericalError(
             f"step {after.steps}, at {after.time:.6g} s ({after.distance:.6g} m): {broken}"
@@ -89,7 +89,7 @@ def hold(model: Model, before: State | None, after: State) -> State:
 
 
 def broken_by(state: State) -> str | None:
-    """Name the broken invariant of `state`, its deviation and a remedy; chattering apart."""
+    """Name the broken invariant of `state`, its deviation and a remedy."""
     lost = _not_finite(state)
     if lost is not None:
         return f"the {lost} is not finite; find what diverges: a wear law, or the kinematics"
@@ -103,6 +103,7 @@ def broken_by(state: State) -> str | None:
         ("bodies overlap out of contact, by {:.3g}", penetration, CONDITIONS, _SOLVER),
         ("a body grows back by {:.3g} m", step.regrowth, 0.0, _MOTION),
         ("the wear volume is off its law's by {:.3g} of it", step.volume, VOLUME, _MOTION),
+        ("the pressure chatters, by {:.3g} of the load", step.chattering, CHATTERING, _STEPS),
     )
     for words, value, most, remedy in limits:
         # Neither is a NaN allowed.
@@ -141,11 +142,6 @@ def _chattering(before: Array, between: ContactSolution, after: ContactSolution)
     # Where neither of the last two presses, nothing comes back.
     near = union(between.extent, after.extent)
     return handed_back(before[near], between.pressure[near], after.pressure[near])
-
-
-def chatters(state: State) -> bool:
-    """Whether the pressure chatters at the scale of the grid."""
-    return state.invariants.chattering > CHATTERING
 
 
 def _not_finite(state: State) -> str | None:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import ConfigDict
 
-from tribo.core.findings import Finding
 from tribo.core.state import State
 from tribo.core.table import Table
 from tribo.stepping.step import distance_until, rested, start_sliding
@@ -29,14 +28,8 @@ class Scheme(Table, ABC):
     needs_wear_compliance: ClassVar[bool] = False
     """Whether contacts are solved with the wear of a step as compliance."""
 
-    @property
-    def may_oscillate(self) -> bool:
-        """Whether a pressure that oscillates from step to step is only a finding."""
-        return False
-
-    def check(self, model: Model, state: State) -> Finding | None:
-        """Return a finding on the first step from `state`; `CaseError` if it is refused."""
-        return None
+    def check(self, model: Model, state: State) -> None:
+        """Raise `CaseError` if the first step from `state` is refused."""
 
     def advance(self, model: Model, state: State, until: float) -> State:
         """Return the next accepted state, at `until` (s) at the latest.

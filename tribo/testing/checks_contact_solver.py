@@ -217,7 +217,7 @@ class ContactSolverChecks(Checks):
     def runs_a_case(self) -> None:
         """In a small case each step has a contact that carries the load."""
         motion = samples.sliding(_SHORT)
-        steps = Explicit(time_step=0.1 * motion.end_time, allow_unstable=True)
+        steps = Explicit(time_step=0.1 * motion.end_time)
         stepping = samples.LONG_STEPS if self._cls.accepts_wear_compliance else steps
         parts: dict[str, Any] = {"kinematics": motion, "stepping": stepping}
         samples.run({}, lambda: {"contact": self._make(), **parts})

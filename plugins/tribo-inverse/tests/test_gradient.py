@@ -119,7 +119,7 @@ KINDS = {
         Depth("disk"),
         [*BASE[:1], *BASE[2:], *SHAPE, *OF_FRESH],
         bodies=pair(FRESH, power(1.5)),
-        stepping=Explicit(time_step=3, allow_unstable=True),
+        stepping=Explicit(time_step=3),
     ),
     "repeating": Kind(
         flats(), Depth("ball"), ["load.normal", "bodies.ball.surface.amplitude"], 1e-5
