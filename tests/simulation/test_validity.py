@@ -1,9 +1,7 @@
 """What check and the run say where a case leaves what its models hold for."""
 
 import re
-from types import SimpleNamespace
 
-import numpy as np
 import pytest
 from paper_models import archard, flat, named, pair, pin, small, steel
 
@@ -13,7 +11,7 @@ from tribo.contact.winkler import FoundationLayer, Winkler
 from tribo.core.errors import OutOfWindow, TooWorn
 from tribo.motion.closed_track import Unidirectional
 from tribo.simulation.predict import predict
-from tribo.simulation.validity import peak_at_the_edge, tribo_findings
+from tribo.simulation.validity import tribo_findings
 from tribo.surfaces.forms import Sphere
 
 
@@ -80,18 +78,6 @@ def test_a_contact_not_small_beside_its_circle_is_told_by_check_and_by_the_run(r
     assert re.search(said, found.words)
     with pytest.warns(TriboWarning, match=said):
         Simulation(model.case).run()
-
-
-def test_a_largest_pressure_at_the_edge_alone_is_told():
-    x = np.linspace(-1.1, 1.1, 45)
-    inside = np.maximum(1 - x[:, None] ** 2 - x**2, 0.0)
-    contact = SimpleNamespace(contact=SimpleNamespace(pressure=1e9 * inside))
-    assert peak_at_the_edge(contact) is None
-    sharp = np.where(inside > 0, 1e8 / np.sqrt(inside + 1e-3), 0.0)
-    contact.contact.pressure = sharp
-    found = peak_at_the_edge(contact)
-    assert (found.kind, found.value) == ("resolution", np.max(sharp))
-    assert found.value > found.limit
 
 
 def sliding(metres, k, **changes):

@@ -19,9 +19,6 @@ DEEP = 0.1
 FAST, IMPOSSIBLE = 1e-9, 1e-5
 """Specific wear rates in 1/Pa: K = kH = 0.1, the most in abrasive wear, at H = 100 MPa, and
 Archard's K ≤ 1 at 0.1 MPa."""
-SHARP = 1.2
-"""Largest pressure at the edge of a contact over the largest inside, above which it is an
-artefact."""
 COARSE, FINE = 0.05, 0.01
 """Error of the depth by too few positions that is reported, and the error at the number advised."""
 UNLIKE = 0.01
@@ -184,18 +181,6 @@ def coarse_cycle(positions: int, apart: float, error: float, advised: int) -> Fi
         value=error,
         limit=COARSE,
         place="kinematics.positions",
-    )
-
-
-def peak_at_the_edge(largest: float, inside: float) -> Finding:
-    """Word a largest pressure at the edge of the contact, with the largest inside, in Pa."""
-    return Finding(
-        "resolution",
-        f"the largest pressure, {1e-6 * largest:.4g} MPa, occurs only in cells at the edge of the "
-        f"contact, against {1e-6 * inside:.4g} MPa inside: it changes with the size of the cells "
-        "and from step to step; compare pressures in the centre instead",
-        value=largest,
-        limit=SHARP * inside,
     )
 
 

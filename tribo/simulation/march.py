@@ -21,7 +21,6 @@ from tribo.simulation.validity import (
     few_cells,
     hold_wear,
     limitation,
-    peak_at_the_edge,
     tribo_findings,
 )
 from tribo.simulation.watch import Watch
@@ -206,7 +205,5 @@ def _concluded(model: Model, state: State) -> State:
     """Replace the finding on averaging at the beginning by the finding at the end."""
     if finding := coarse_cycle(model, state):
         state = state.with_findings(finding)
-    if finding := peak_at_the_edge(state):
-        state = state.from_here(finding)
     finding = limitation(model, state)
     return state.without_findings("averaging").from_here(finding) if finding else state

@@ -205,18 +205,6 @@ def coarse_cycle(model: Model, state: State) -> Finding | None:
     return findings.coarse_cycle(len(model.cycle), model.cycle.apart, error, advised)
 
 
-def peak_at_the_edge(state: State) -> Finding | None:
-    """Return a finding if the largest pressure stands in cells at the edge of the contact alone."""
-    pressure = state.contact.pressure
-    touches = np.pad(pressure > 0, 1, constant_values=True)
-    inside = touches[1:-1, 1:-1] & touches[:-2, 1:-1] & touches[2:, 1:-1]
-    inside &= touches[1:-1, :-2] & touches[1:-1, 2:]
-    largest, within = float(np.max(pressure)), float(np.max(pressure, where=inside, initial=0.0))
-    if largest <= findings.SHARP * within or not within:
-        return None
-    return findings.peak_at_the_edge(largest, within)
-
-
 def hold_wear(model: Model, state: State) -> State:
     """Return a state with each implausible wear as a finding; `TooWorn` if it is impossible."""
     for finding, impossible in implausible(model, state):
