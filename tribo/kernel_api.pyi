@@ -109,10 +109,7 @@ from tribo.lab.units import shown_in as shown_in
 from tribo.lab.units import size as size
 from tribo.lab.units import time_labels as time_labels
 from tribo.lab.units import time_unit as time_unit
-from tribo.model.events import Drawn as Drawn
-from tribo.model.events import Event as Event
-from tribo.model.events import Worn as Worn
-from tribo.model.events import Yielded as Yielded
+from tribo.model.events import Listener as Listener
 from tribo.model.model import Model as Model
 from tribo.motion.held import Held as Held
 from tribo.motion.held import held as held

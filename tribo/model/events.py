@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from tribo.core.arrays import Array
@@ -15,45 +14,29 @@ if TYPE_CHECKING:
     from tribo.integration.division import Division
 
 
-@dataclass(frozen=True)
-class Worn:
-    """The bodies were worn over an interval, under `contacts`.
+class Listener:
+    """Learns the events of each step, rejected ones too; this one ignores them, as a run does."""
 
-    It began with a memory, and was divided as in `plan`. `ahead` is whether the contacts were
-    solved before it, without its wear. At rest only interfacial effects evolve.
-    """
+    def worn(
+        self,
+        contacts: Sequence[ContactSolution],
+        interval: Interval,
+        before: Memory,
+        plan: Division,
+        *,
+        ahead: bool = False,
+    ) -> None:
+        """Learn that the bodies were worn over an interval, under contacts, from a memory.
 
-    contacts: Sequence[ContactSolution]
-    interval: Interval
-    before: Memory
-    plan: Division
-    ahead: bool = False
+        The interval was divided as in `plan`. `ahead` is whether the contacts were solved before
+        it, without its wear. At rest only interfacial effects evolve.
+        """
 
+    def solved(self, contacts: Sequence[ContactSolution]) -> None:
+        """Learn that the contacts of a cycle were solved, without wear."""
 
-@dataclass(frozen=True)
-class Solved:
-    """The contacts at the positions of a cycle were solved, without wear."""
+    def yielded(self, places: Sequence[int]) -> None:
+        """Learn that the overlap at some positions became plastic depth."""
 
-    contacts: Sequence[ContactSolution]
-
-
-@dataclass(frozen=True)
-class Yielded:
-    """The overlap at some positions became plastic depth."""
-
-    places: Sequence[int]
-
-
-@dataclass(frozen=True)
-class Drawn:
-    """The plastic depths of the bodies, by name, were drawn out along the track."""
-
-    before: Mapping[str, Array]
-
-
-Event = Worn | Solved | Yielded | Drawn
-Listener = Callable[[Event], None]
-
-
-def unheard(event: Event) -> None:
-    """Ignore an event, as a run does."""
+    def drawn(self, before: Mapping[str, Array]) -> None:
+        """Learn that the plastic depths of the bodies, by name, were drawn out along the track."""

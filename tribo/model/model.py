@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -22,7 +22,7 @@ from tribo.guards.parts import GuardedLaw, GuardedSurface
 from tribo.lab.roughness import is_rough
 from tribo.model.contact_setup import ContactSetup
 from tribo.model.cycle import Cycle
-from tribo.model.events import Listener, unheard
+from tribo.model.events import Listener
 from tribo.model.laws import Laws
 
 
@@ -31,8 +31,7 @@ class Model:
     """A case, and the data that a run derives from it once; made by `assemble`.
 
     The parts of the case are guarded: errors name the part, and its answers are checked. `chosen`
-    states the positions chosen where the case left them open. `tell` receives the events of each
-    step, rejected ones too.
+    states the positions chosen where the case left them open.
     """
 
     case: Case
@@ -43,7 +42,7 @@ class Model:
     laws: Laws
     end_time: float
     chosen: Finding | None = None
-    tell: Listener = unheard
+    listener: Listener = field(default_factory=Listener)
 
     @property
     def grid(self) -> Grid:

@@ -13,7 +13,6 @@ from tribo.core.contact import ContactProblem, ContactSolution, CycleCompliance
 from tribo.core.loads import ByPosition
 from tribo.core.state import BodyState, State
 from tribo.evolution.states import filling, remembered
-from tribo.model.events import Solved
 from tribo.stepping.linear_wear import LinearWear
 from tribo.stepping.yielding import caps
 
@@ -93,7 +92,7 @@ def solved_anew(model: Model, state: State, loads: ByPosition) -> State:
     """Return `state` with its contacts solved under other loads (N), without wear."""
     gaps = undeformed(model, state)
     contacts = solve_cycle(model, gaps, loads, state.contacts, state.bodies)
-    model.tell(Solved(contacts))
+    model.listener.solved(contacts)
     return replace(counted(state, contacts), contacts=tuple(contacts), rates=())
 
 

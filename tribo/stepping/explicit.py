@@ -19,7 +19,6 @@ from tribo.evolution.friction import with_friction_work
 from tribo.evolution.interval import Moment, interval_from
 from tribo.evolution.rates import wear_rates
 from tribo.evolution.states import remembered
-from tribo.model.events import Solved, Worn
 from tribo.stepping.contacts import counted, extrapolated, solve_cycle, undeformed
 from tribo.stepping.linear_wear import wear_compliance
 from tribo.stepping.scheme import Scheme
@@ -95,13 +94,13 @@ class Explicit(Scheme):
         else:
             slid = Course(rated(model, state, interval.end).rates, memory)
         depths = worn_depths(model, slid.rates, increment)
-        model.tell(Worn(state.contacts, interval, memory, slid.plan, ahead=True))
+        model.listener.worn(state.contacts, interval, memory, slid.plan, ahead=True)
         after = worn_by(model, state, slid, depths, interval)
         loads = model.loads(after).before(time)
         contacts = solve_cycle(
             model, undeformed(model, after), loads, extrapolated(state), after.bodies
         )
-        model.tell(Solved(contacts))
+        model.listener.solved(contacts)
         after = accepted(model, counted(after, contacts), contacts, loads)
         return with_friction_work(model, state, after, state.contacts, slid)
 

@@ -13,7 +13,6 @@ from tribo.core.contact import ContactProblem, ContactSolution
 from tribo.core.errors import CaseError
 from tribo.core.state import BodyState, State
 from tribo.evolution.states import first_memory
-from tribo.model.events import Solved
 from tribo.stepping.contacts import undeformed
 from tribo.stepping.plastic_groove import yielded
 from tribo.stepping.step import load_factor
@@ -79,7 +78,7 @@ def _solved(model: Model, state: State, gaps: Sequence[Array]) -> State:
         raise CaseError(
             f"the first contact reaches the edge of the window of {size}; {remedy}", "grid.size"
         )
-    model.tell(Solved(contacts))
+    model.listener.solved(contacts)
     middle = len(contacts) // 2
     return replace(
         state,

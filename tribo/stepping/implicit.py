@@ -22,7 +22,6 @@ from tribo.evolution.friction import with_friction_work
 from tribo.evolution.interval import Moment, interval_from
 from tribo.evolution.rates import wear_rates
 from tribo.evolution.states import filling, remembered
-from tribo.model.events import Worn
 from tribo.stepping.contacts import counted, extrapolated, solve_cycle, undeformed
 from tribo.stepping.linear_wear import linear_wear
 from tribo.stepping.measure import loaded_mean
@@ -60,24 +59,6 @@ which passes circle and will not converge."""
 
 class StepRejected(NumericalError):
     """A step was too long; a shorter step may succeed."""
-
-
-@dataclass(frozen=True)
-class Trial:
-    """The state after a backward Euler step, and what forward Euler would have worn.
-
-    `forward` has the depth by body, on the body's surface, in m; `contacts` are the contacts under
-    which the bodies wore in their `course`.
-    """
-
-    state: State
-    forward: Mapping[str, Array]
-    contacts: Sequence[ContactSolution]
-    course: Course
-
-    def ended(self, model: Model, before: State) -> State:
-        """Return its end, with the work of friction over it."""
-        return with_friction_work(model, before, self.state, self.contacts, self.course)
 
 
 @dataclass(frozen=True)
@@ -141,19 +122,14 @@ class Implicit(Scheme):
             last = increment == remaining
             time = until if last else time_at(model, state, state.distance + increment, until)
             try:
-                trial = self._attempt(model, state, increment, time)
-                errors = depth, pressure, volume = self._errors(model, state, trial)
-                if max(errors) <= 1:
-                    ended = trial.ended(model, state)
+                after, guess, forward = self._attempt(model, state, increment, time)
+                errors = depth, pressure, volume = self._errors(model, state, after, forward)
+                exact = max(errors) <= 1
+                changes = not exact and load_changes(model, state, after)
+                # The load changes over a rest, however short the step.
+                if exact or (changes and increment < AT_REST * target and depth <= 1):
+                    ended = with_friction_work(model, state, after, guess.contacts, guess.course)
                     break
-                changes = load_changes(model, state, trial.state)
-                if changes and increment < AT_REST * target and depth <= 1:
-                    # The load changes over a rest, however short the step.
-                    return replace(
-                        trial.ended(model, state),
-                        increment=0.0,
-                        rejected_steps=state.rejected_steps + rejected,
-                    )
                 factor = SHRINK if changes and rejected >= FEW else _factor(*errors)
                 failure: NumericalError | None = None
             except (StepRejected, BadValues) as error:
@@ -171,14 +147,23 @@ class Implicit(Scheme):
             natural = factor * increment
         # A step cut short to meet a save says little about the next: keep the longer of the two.
         proposal = max(_factor(*errors) * increment, natural if increment < natural else 0.0)
-        return replace(ended, increment=proposal, rejected_steps=state.rejected_steps + rejected)
+        return replace(
+            ended,
+            increment=proposal if exact else 0.0,
+            rejected_steps=state.rejected_steps + rejected,
+        )
 
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
         """Return the state after one backward Euler step; see `Scheme.step`."""
-        return self._attempt(model, state, increment, time).ended(model, state)
+        after, guess, _ = self._attempt(model, state, increment, time)
+        return with_friction_work(model, state, after, guess.contacts, guess.course)
 
-    def _attempt(self, model: Model, state: State, increment: float, time: float) -> Trial:
-        """Try one backward Euler step.
+    def _attempt(
+        self, model: Model, state: State, increment: float, time: float
+    ) -> tuple[State, Guess, dict[str, Array]]:
+        """Return the state after one backward Euler step, its wear, and the wear by forward Euler.
+
+        The last is the depth by body, on the body's surface, in m.
 
         The step's wear enters the contact problem as compliance; where that is
         not the law's exact wear (a law not linear in pressure, a field that
@@ -242,15 +227,16 @@ class Implicit(Scheme):
             # Set first: settling a groove leaves the pressure that these rates belong to. What is
             # remembered changes them along a step.
             after = replace(after, rates=rates)
-        model.tell(Worn(contacts, interval, before, slid.plan))
+        model.listener.worn(contacts, interval, before, slid.plan)
         # What the passes leave over is pressure that does not belong to the worn gap. Stiff bodies
         # would keep so much of it that no later step, however short, could change it little.
         little, linear = LEFT_OVER * self.pressure_tolerance, self.nonlinear_tolerance * deepest
         exact = mismatch <= linear or mismatch <= little * _deformed(contacts, base + implied)
-        state = accepted(model, after, contacts, loads, exact=exact)
-        return Trial(state, forward, contacts, slid)
+        return accepted(model, after, contacts, loads, exact=exact), guess, forward
 
-    def _errors(self, model: Model, before: State, trial: Trial) -> tuple[float, float, float]:
+    def _errors(
+        self, model: Model, before: State, after: State, forward: Mapping[str, Array]
+    ) -> tuple[float, float, float]:
         """Return the step's depth, pressure and volume errors as multiples of their tolerances.
 
         The local error of backward Euler in depth is half the difference between
@@ -266,8 +252,7 @@ class Implicit(Scheme):
         for a law that is not linear in pressure or has a state. So the error of
         the volume is compared with the volume that the step itself wears.
         """
-        after, contacts = trial.state, trial.state.contacts
-        shares = [position.share for position in model.cycle]
+        contacts, shares = after.contacts, [position.share for position in model.cycle]
         pressures = [(share, c.pressure) for share, c in zip(shares, contacts, strict=True)]
         load = sum(share * float(np.sum(p)) for share, p in pressures)
         change = sum(
@@ -275,9 +260,9 @@ class Implicit(Scheme):
             for (share, p), was in zip(pressures, before.contacts, strict=True)
         )
         depth_error = volume_error = 0.0
-        for name, forward in trial.forward.items():
+        for name, explicit in forward.items():
             worn = after.bodies[name].wear - before.bodies[name].wear
-            lag = np.abs(worn - forward)
+            lag = np.abs(worn - explicit)
             scale = float(np.max(after.bodies[name].wear)) + FIRST * after.reference_depth
             # Flat bodies that have not begun to wear have neither.
             scale = scale or float(np.finfo(np.float64).tiny)
@@ -285,11 +270,11 @@ class Implicit(Scheme):
                 model, contacts, [model.cycle.maps[name].see(lag, m) for m in range(len(shares))]
             )
             depth_error = max(depth_error, 0.5 * late / scale)
-            own = 0.5 * (worn + forward)
+            own = 0.5 * (worn + explicit)
             # What points that pass a break lag behind is mended too: their load goes elsewhere.
             if np.any(own > 0) and not model.laws.wear[name].breaks:
                 share = min(1.0, float(np.max(own)) / (LATE * scale))
-                missed = 0.5 * abs(float(np.sum(worn)) - float(np.sum(forward)))
+                missed = 0.5 * abs(float(np.sum(worn)) - float(np.sum(explicit)))
                 volume_error = max(volume_error, share * missed / float(np.sum(own)))
         return (
             depth_error / self.depth_tolerance,

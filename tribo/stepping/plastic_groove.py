@@ -13,7 +13,6 @@ from tribo.core.contact import ContactSolution
 from tribo.core.errors import NumericalError
 from tribo.core.loads import ByPosition
 from tribo.core.state import BodyState, State
-from tribo.model.events import Drawn, Yielded
 from tribo.stepping.contacts import solved_anew
 from tribo.stepping.yielding import plastic_share
 
@@ -39,7 +38,7 @@ def yielded(
     """Return the bodies after yielding at some positions, counted once where these overlap."""
     if not yields(contacts):
         return dict(bodies)
-    model.tell(Yielded(places))
+    model.listener.yielded(places)
     found = {}
     for name, body in bodies.items():
         overlaps = (
@@ -61,7 +60,7 @@ def settled(model: Model, state: State, loads: ByPosition) -> State:
     if not drawn_out and not (len(model.cycle) > 1 and yields(state.contacts)):
         return state
     for _ in range(SETTLE_PASSES):
-        model.tell(Drawn({name: body.plastic for name, body in state.bodies.items()}))
+        model.listener.drawn({name: body.plastic for name, body in state.bodies.items()})
         drawn = {}
         for name, body in state.bodies.items():
             envelope = model.cycle.maps[name].envelope(body.plastic)

@@ -22,7 +22,6 @@ from tribo.evolution.interval import Interval, interval_from
 from tribo.evolution.local_fields import effect_fields
 from tribo.evolution.rates import CycleRates
 from tribo.evolution.states import own, remembered
-from tribo.model.events import Worn
 from tribo.stepping.contacts import solved_anew
 from tribo.stepping.invariants import ONE_LOAD, wear_balance
 from tribo.stepping.measure import measure
@@ -79,7 +78,7 @@ def rested(model: Model, state: State, time: float) -> State:
     if memory.between:
         rest = interval_from(state, 0.0, time)
         after = course(model, memory, state.contacts, rest)
-        model.tell(Worn(state.contacts, rest, memory, after.plan, ahead=True))
+        model.listener.worn(state.contacts, rest, memory, after.plan, ahead=True)
         state = replace(state, between=after.memory.between)
     loads = model.loads(state).before(time)
     anew = loads != model.loads(state).before(state.time) or any(

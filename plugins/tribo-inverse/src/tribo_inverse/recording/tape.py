@@ -10,16 +10,13 @@ from tempfile import SpooledTemporaryFile
 
 import numpy as np
 from numpy.typing import NDArray
-from tribo import Array, CaseError, Region, State
+from tribo import Array, CaseError, ContactSolution, Region, State
 from tribo.kernel_api import (
     Division,
-    Drawn,
-    Event,
     Interval,
+    Listener,
     Memory,
     Model,
-    Worn,
-    Yielded,
     begin,
     bounds,
     march,
@@ -125,17 +122,17 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
 
     The state for the model's own end is the last state, also where a depth ends the run sooner.
     """
-    heard: list[Event] = []
+    heard = _Heard(model)
     states: dict[float, State] = {}
-    telling = replace(model, tell=heard.append)
+    telling = replace(model, listener=heard)
     state = begin(telling)
-    _keep(tape, model, heard, "after", 0.0, 0.0)
+    heard.keep(tape, "after", 0.0, 0.0)
     if 0.0 in looked_at:
         states[0.0] = state
         tape.append(Saved(0.0))
     for accepted in march(telling, state):
         before, state = state, accepted.state
-        _keep(tape, model, heard, "before", state.time, before.time)
+        heard.keep(tape, "before", state.time, before.time)
         time = model.end_time if accepted.last else state.time
         if accepted.save and time in looked_at:
             states[time] = state
@@ -164,42 +161,68 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
     return states
 
 
-def _keep(
-    tape: Tape, model: Model, heard: list[Event], load: str, time: float, begun: float
-) -> None:
-    """Record the events up to an accepted state, without the steps that were rejected."""
-    steps = [i for i, event in enumerate(heard) if isinstance(event, Worn)]
-    if steps:
-        for event in heard[: steps[0]]:
-            tape.append(_written(event, model, "after", begun))
-        del heard[: steps[-1]]
-    for event in heard:
-        tape.append(_written(event, model, load, time))
-    heard.clear()
+class _Heard(Listener):
+    """The records of the events since the last accepted state."""
+
+    def __init__(self, model: Model) -> None:
+        self._model = model
+        self._records: list[Record] = []
+
+    def worn(
+        self,
+        contacts: Sequence[ContactSolution],
+        interval: Interval,
+        before: Memory,
+        plan: Division,
+        *,
+        ahead: bool = False,
+    ) -> None:
+        laws = {name: before.laws[name] for name in self._model.laws.wear}
+        kept = Memory(laws, before.between if self._model.laws.effects else {})
+        self._press(contacts, Slid(interval, kept, replace(plan, accuracy=np.inf), ahead))
+
+    def solved(self, contacts: Sequence[ContactSolution]) -> None:
+        self._press(contacts)
+
+    def yielded(self, places: Sequence[int]) -> None:
+        self._records.append(Gave(tuple(places)))
+
+    def drawn(self, before: Mapping[str, Array]) -> None:
+        averaged = [name for name, each in self._model.cycle.maps.items() if each.averaged]
+        rows = {name: np.argmax(before[name], axis=0) for name in averaged}
+        self._records.append(Enveloped(rows))
+
+    def _press(self, contacts: Sequence[ContactSolution], slid: Slid | None = None) -> None:
+        region = reduce(union, (bounds(contact.pressure > 0) for contact in contacts))
+        yields = any(np.any(contact.overlap > 0) for contact in contacts)
+        self._records.append(
+            Pressed(
+                region=region,
+                pressure=np.stack([contact.pressure[region] for contact in contacts]),
+                overlap=np.stack([c.overlap[region] for c in contacts]) if yields else None,
+                load="mean",
+                times=(slid.interval.time, slid.interval.end_time) if slid else (),
+                slid=slid,
+            )
+        )
+
+    def keep(self, tape: Tape, load: str, time: float, begun: float) -> None:
+        """Record the events up to an accepted state, without the steps that were rejected.
+
+        Contacts solved before the step carry the load after the time at which it begun.
+        """
+        each = enumerate(self._records)
+        steps = [i for i, of in each if isinstance(of, Pressed) and of.slid is not None]
+        first, last = (steps[0], steps[-1]) if steps else (0, 0)
+        for record in self._records[:first]:
+            tape.append(_under(record, "after", begun))
+        for record in self._records[last:]:
+            tape.append(_under(record, load, time))
+        self._records.clear()
 
 
-def _written(event: Event, model: Model, load: str, time: float) -> Record:
-    if isinstance(event, Yielded):
-        return Gave(tuple(event.places))
-    if isinstance(event, Drawn):
-        averaged = [name for name, exposure in model.cycle.maps.items() if exposure.averaged]
-        return Enveloped({name: np.argmax(event.before[name], axis=0) for name in averaged})
-    times: tuple[float, ...] = (time,)
-    slid = None
-    if isinstance(event, Worn):
-        load, times = "mean", (event.interval.time, event.interval.end_time)
-        laws = {name: event.before.laws[name] for name in model.laws.wear}
-        before = Memory(laws, event.before.between if model.laws.effects else {})
-        plan = replace(event.plan, accuracy=np.inf)
-        slid = Slid(event.interval, before, plan, event.ahead)
-    contacts = event.contacts
-    region = reduce(union, (bounds(contact.pressure > 0) for contact in contacts))
-    yields = any(np.any(contact.overlap > 0) for contact in contacts)
-    return Pressed(
-        region=region,
-        pressure=np.stack([contact.pressure[region] for contact in contacts]),
-        overlap=np.stack([c.overlap[region] for c in contacts]) if yields else None,
-        load=load,
-        times=times,
-        slid=slid,
-    )
+def _under(record: Record, load: str, time: float) -> Record:
+    """Return the record of an event; contacts solved without wear carry a load at a time (s)."""
+    if isinstance(record, Pressed) and record.slid is None:
+        return replace(record, load=load, times=(time,))
+    return record
