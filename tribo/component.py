@@ -166,8 +166,8 @@ class Component(Table, ABC):
         """Return findings on an accepted step, such as a limit that is passed.
 
         Each kind is said once, with the time and place from which on it holds: as a warning on the
-        terminal, and in the findings of the result. One of the kind ``"stop"`` ends the run, as a
-        depth that is reached does.
+        terminal, and in the findings of the result. One of the kind ``"stop"`` ends the run after
+        this step.
 
         Parameters
         ----------

@@ -128,7 +128,7 @@ def test_a_finding_may_follow_from_a_column():
     with simulation(case(most=100.0)).run() as result:
         (finding,) = [each for each in result.findings if each.kind == "stop"]
         strokes = result.table("history")["strokes"]
-    assert finding.value == strokes[-1] == pytest.approx(100.0, rel=1e-5)
+    assert strokes[-2] < 100.0 <= strokes[-1] == finding.value
 
 
 def test_a_run_with_columns_resumes_to_the_same_bits_and_with_the_same_columns(tmp_path):

@@ -81,7 +81,7 @@ def march(model: Model, state: State, watch: Watch | None = None) -> Iterator[Ac
         # Which stops are left follows from the time alone, so a resumed run sees the same.
         for until in _stops(model):
             while state.time < until:
-                state = watch.told(_advanced(model, state, until, limit, watch))
+                state = watch.told(_advanced(model, state, until, limit))
                 worn_out = _depth(model, state) >= limit
                 last = worn_out or state.time >= model.end_time or state.has_finding("stop")
                 if last:
@@ -94,14 +94,12 @@ def march(model: Model, state: State, watch: Watch | None = None) -> Iterator[Ac
                     return
 
 
-def _advanced(model: Model, state: State, until: float, limit: float, watch: Watch) -> State:
-    """Return the next state that holds, up to the limit of the depth or where a model stops."""
+def _advanced(model: Model, state: State, until: float, limit: float) -> State:
+    """Return the next state that holds, up to the limit of the depth."""
     try:
         after = model.case.stepping.advance(model, state, until)
         if _depth(model, after) > limit:
             after = _up_to_depth(model, state, after, limit)
-        if watch.ends(after):
-            after = _up_to_a_stop(model, state, after, watch)
     except PluginError as error:
         what, then, rule = str(error).partition("; ")
         error.args = (f"{what} at {state.distance:.6g} m ({state.time:.6g} s){then}{rule}",)
@@ -132,23 +130,6 @@ def _up_to_depth(model: Model, state: State, after: State, limit: float) -> Stat
         else:
             low, depth_low = trial, depth
         slow = high - low > 0.5 * width
-    return after
-
-
-def _up_to_a_stop(model: Model, state: State, after: State, watch: Watch) -> State:
-    """Return the state after the part of a step in which a model or observer ends the run.
-
-    It is accurate to a millionth of the path; at rest it is the whole step.
-    """
-    state = start_sliding(model, state)
-    low, high = 0.0, after.distance - state.distance
-    while high - low > DEPTH_ACCURACY * after.distance:
-        trial = 0.5 * (low + high)
-        cut = _cut(model, state, after, trial)
-        if watch.ends(cut):
-            high, after = trial, cut
-        else:
-            low = trial
     return after
 
 

@@ -89,10 +89,6 @@ class Watch:
                 self.said.append(state.findings[-1])
         return state
 
-    def ends(self, state: State) -> bool:
-        """Whether the run ends at a state."""
-        return any(finding.kind == "stop" for finding in self._findings(state))
-
     def _findings(self, state: State) -> Iterator[Finding]:
         """Yield the findings on a state, with their places."""
         for place, component in self._speakers:
