@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
+from collections.abc import Sequence
 
 from tribo.case import Case
 from tribo.core.errors import CaseError
@@ -34,11 +34,13 @@ def in_order(case: Case, effects: Sequence[GuardedEffect]) -> tuple[GuardedEffec
     ordered: list[GuardedEffect] = []
     waiting = list(effects)
     while waiting:
-        ready = next((e for e in waiting if _is_ready(e, waiting, known | of_laws)), None)
-        if ready is None:
-            first = waiting[0]
-            missing = sorted(set(first.requires) - known - of_laws) or [LOAD_SHARE.name]
-            text = _missing(f"effect {first.component.type!r}", missing, waiting)
+        # What several provide is known once all have.
+        free = [e for e in waiting if not any(_needs(e, other) for other in waiting)]
+        ready = (free or waiting)[0]
+        missing = sorted(set(ready.requires) - known - of_laws)
+        if missing or not free:
+            missing = missing or [LOAD_SHARE.name]
+            text = _missing(f"effect {ready.component.type!r}", missing, waiting)
             raise MissingFieldError(text, "effects", missing)
         shares = {LOAD_SHARE.name} & {name for e in ordered for name in _provided(e)}
         waiting.remove(ready)
@@ -55,13 +57,8 @@ def in_order(case: Case, effects: Sequence[GuardedEffect]) -> tuple[GuardedEffec
     return tuple(ordered)
 
 
-def _is_ready(effect: GuardedEffect, waiting: Sequence[GuardedEffect], known: Set[str]) -> bool:
-    """Whether all that an effect requires is known before those that wait."""
-    if not set(effect.requires) <= known:
-        return False
-    # What several provide is known once all have.
-    others = [e for e in waiting if e is not effect and LOAD_SHARE.name in _provided(e)]
-    return LOAD_SHARE.name not in effect.requires or not others
+def _needs(effect: GuardedEffect, other: GuardedEffect) -> bool:
+    return effect is not other and bool(set(effect.requires) & _provided(other))
 
 
 def _provided(effect: GuardedEffect) -> set[str]:

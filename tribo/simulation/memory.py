@@ -37,33 +37,22 @@ def memory_needed(case: Case, effects: Sequence[Effect | GuardedEffect], cycle: 
     return BESIDES + 8.0 * case.grid.cells[0] * case.grid.cells[1] * arrays
 
 
-def memory_left() -> tuple[float, str]:
-    """Return the bytes that this process may still take, and what sets the limit.
-
-    Without psutil nothing is known of a limit.
-    """
+def memory_left() -> float:
+    """Return the bytes of this machine that this process does not have; infinity without psutil."""
     try:
         import psutil
     except ImportError:
-        return math.inf, "no known limit"
-    process = psutil.Process()
-    size = process.memory_info()
-    least = float(psutil.virtual_memory().total - size.rss), "this machine"
-    # Linux and FreeBSD tell it.
-    if hasattr(process, "rlimit"):
-        soft, _ = process.rlimit(psutil.RLIMIT_AS)
-        if soft not in (psutil.RLIM_INFINITY, -1):
-            least = min(least, (float(soft - size.vms), "the limit of this process (ulimit -v)"))
-    return least
+        return math.inf
+    return float(psutil.virtual_memory().total - psutil.Process().memory_info().rss)
 
 
 def check_memory(grid: Grid, needed: float) -> None:
     """Raise `CaseError` where a run on `grid` would need more bytes than there are."""
-    left, limit = memory_left()
+    left = memory_left()
     if needed > left:
         nx, ny = grid.cells
         raise CaseError(
-            f"{nx} × {ny} cells take up to {_size(needed)} of memory, and {limit} leaves "
+            f"{nx} × {ny} cells take up to {_size(needed)} of memory, and this machine leaves "
             f"{_size(max(left, 0.0))}: use fewer cells",
             "grid.cells",
         )
