@@ -14,21 +14,14 @@ def entry_points(group: str) -> Iterator[tuple[metadata.Distribution, metadata.E
 
     ``tribo.2`` is below ``tribo``. Unreadable metadata are skipped.
     """
-    names: dict[str, None] = {}
-    for distribution in metadata.distributions():
+    known = set()
+    for found in metadata.distributions():
         with suppress(Exception):
-            # Parsing everything that is installed would take most of composing a run.
-            text = distribution.read_text("entry_points.txt") or ""
-            if f"[{group}]" in text or f"[{group}." in text:
-                names[distribution.name] = None
-    for name in names:
-        # By name: of a folder that is searched twice, and of leftovers, the one in use.
-        with suppress(Exception):
-            found = metadata.distribution(name)
-            if found.version:
-                for point in found.entry_points:
-                    if f"{point.group}.".startswith(f"{group}."):
-                        yield found, point
+            points = [p for p in found.entry_points if f"{p.group}.".startswith(f"{group}.")]
+            # A folder may be searched twice, and of leftovers of a package the first is in use.
+            if points and found.version and found.name not in known:
+                known.add(found.name)
+                yield from ((found, point) for point in points)
 
 
 def applies(requirement: str) -> bool:
