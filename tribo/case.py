@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
-from tribo.component import components, registry_of
+from tribo.component import components
 from tribo.contact.dcfft import DcFft
 from tribo.contact.solver import ContactSolver
 from tribo.core.errors import CaseError
@@ -23,7 +23,6 @@ from tribo.core.words import checked_name, did_you_mean, suggestion
 from tribo.effects.effect import Effect
 from tribo.motion.kinematics import Kinematics
 from tribo.observers.observer import Observer
-from tribo.registry.plugins import check_requirements
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 from tribo.surfaces.surface import Surface
@@ -220,11 +219,8 @@ class Case(Table):
             observers: Sequence[Observer] = (),
             output: Output = ...,
             stop: Stop = ...,
-            requires: Sequence[str] = (),
         ) -> None: ...
 
-    requires: tuple[str, ...] = ()
-    """Distributions that must be installed, as ``"acme-tribo>=1.2"``."""
     grid: Grid
     load: Load
     materials: dict[str, Material] = Field({})
@@ -269,13 +265,6 @@ class Case(Table):
     @classmethod
     def _coefficient(cls, friction: Any) -> Any:
         return {"coefficient": friction} if isinstance(friction, int | float) else friction
-
-    @field_validator("requires")
-    @classmethod
-    def _requirements(cls, requires: tuple[str, ...], info: ValidationInfo) -> tuple[str, ...]:
-        if requires:
-            check_requirements(requires, registry_of(info).plugins)
-        return requires
 
     @field_validator("bodies", mode="before")
     @classmethod

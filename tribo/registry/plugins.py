@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from importlib import metadata
 from typing import TYPE_CHECKING, Literal
 
-from packaging.requirements import InvalidRequirement, Requirement
+from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-from tribo.core.distributions import applies, entry_points, lacking
+from tribo.core.distributions import applies, entry_points
 from tribo.core.errors import warn
 from tribo.registry.hookspecs import GROUP, PROJECT, api_version
 
@@ -156,26 +156,6 @@ def _choose(plugins: list[Plugin]) -> None:
             plugin.status, plugin.reason = "disabled", reason
     for name in sorted((off | only) - known):
         warn(f"no plugin is called {name!r}")
-
-
-def check_requirements(requires: Iterable[str], plugins: Sequence[Plugin] = ()) -> None:
-    """Raise ValueError unless every requirement, as ``"acme-tribo>=1.2"``, is met.
-
-    One whose marker does not hold here is skipped. A distribution whose plugins are all disabled,
-    broken or incompatible does not meet a requirement.
-    """
-    for text in requires:
-        try:
-            name = canonicalize_name(Requirement(text).name)
-        except InvalidRequirement:
-            words = f"{text!r} is not a requirement; write one as 'acme-tribo>=1.2'"
-            raise ValueError(words) from None
-        if lack := lacking(text):
-            raise ValueError(f"{text!r} is needed, but {lack}; install it with pip")
-        found = [each for each in plugins if canonicalize_name(each.distribution) == name]
-        if found and applies(text) and not any(plugin.usable for plugin in found):
-            reason = f"the plugin {found[0]} is {found[0].status}: {found[0].reason}"
-            raise ValueError(f"{text!r} is needed, but {reason}")
 
 
 def undeclared() -> list[str]:

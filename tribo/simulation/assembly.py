@@ -128,7 +128,7 @@ def as_it_repeats(grid: Grid, contact: ContactSolver) -> Grid:
 
 def varied(case: Case, **changes: Any) -> Case:
     """Return `case` with other parts and without observers."""
-    return case.model_copy(update={"observers": (), "requires": (), **changes})
+    return case.model_copy(update={"observers": (), **changes})
 
 
 def _law(body: Body, name: str, grid: Grid, exposure: Exposure) -> GuardedLaw:

@@ -14,7 +14,7 @@ ANY = "*"
 """The key that stands for each body, as in ``bodies.*.material.hardness``."""
 HOW = ("grid", "stepping")
 """Parts of a case for its numerics, which have no derivative."""
-NOT_PHYSICS = (*HOW, "output", "stop", "begin", "observers", "requires")
+NOT_PHYSICS = (*HOW, "output", "stop", "begin", "observers")
 """Parts of a case whose numbers are left out unless they are named."""
 END = ("stop", "depth")
 """The exception: a number of these parts that is physics, since it may set the life of a body."""
