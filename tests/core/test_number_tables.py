@@ -9,11 +9,12 @@ import pytest
 
 from tribo.core import number_tables
 from tribo.core.errors import CaseError
+from tribo.core.hdf5 import contained
 from tribo.core.number_tables import read_numbers, table_of_numbers
 from tribo.core.units import Quantity
 
 
-@pytest.mark.parametrize("suffix", [".npy", ".csv", ".h5"])
+@pytest.mark.parametrize("suffix", [".npy", ".csv"])
 def test_an_empty_file_is_called_so(suffix, tmp_path):
     path = tmp_path / f"a{suffix}"
     path.touch()
@@ -29,7 +30,7 @@ def test_what_is_named_as_an_array_and_is_none_is_told(tmp_path):
     np.save(path, np.array([{}], dtype=object), allow_pickle=True)
     for content in [path.read_bytes(), *others]:
         path.write_bytes(content)
-        with pytest.raises(ValueError, match=r"a\.npy cannot .*: it is no NumPy array of numbers"):
+        with pytest.raises(ValueError, match=r"a\.npy cannot .*: it is no NumPy array and no text"):
             table_of_numbers(path)
 
 
@@ -90,16 +91,10 @@ def huge_npy(path):
         file.truncate(file.tell() + 8 * 30000**2)
 
 
-def huge_hdf5(path):
-    with h5py.File(path, "w") as file:
-        file.create_dataset("heights", (30000, 30000), "f8", chunks=(100, 100))
-
-
-@pytest.mark.parametrize(("name", "write"), [("a.npy", huge_npy), ("a.h5", huge_hdf5)])
-def test_a_map_with_too_many_pixels_is_refused_before_it_is_read(name, write, tmp_path):
-    write(tmp_path / name)
+def test_a_map_with_too_many_pixels_is_refused_before_it_is_read(tmp_path):
+    huge_npy(tmp_path / "a.npy")
     with pytest.raises(ValueError, match=r"900,000,000 .* 67,108,864"):
-        table_of_numbers(tmp_path / name)
+        table_of_numbers(tmp_path / "a.npy")
 
 
 def test_a_text_with_too_many_numbers_is_refused(tmp_path, monkeypatch):
@@ -116,31 +111,10 @@ def test_groups_that_nest_deeply_or_in_a_ring_are_read_through(tmp_path):
             group = group.create_group("a")
         group["heights"] = np.ones((3, 4))
         group["root"] = file["/"]
-    begun = time.process_time()
-    assert table_of_numbers(tmp_path / "a.h5").shape == (3, 4)
+        begun = time.process_time()
+        assert [each.shape for each in contained(file)] == [(3, 4)]
     # It took 60 s where each group was looked up by its whole path.
     assert time.process_time() - begun < 10
-
-
-def in_another_file(kind, file, other):
-    if kind == "link":
-        file["heights"] = h5py.ExternalLink(other, "/map")
-    elif kind == "virtual":
-        layout = h5py.VirtualLayout((3, 4), "f8")
-        layout[...] = h5py.VirtualSource(other, "map", (3, 4))
-        file.create_virtual_dataset("heights", layout)
-    else:
-        file.create_dataset("heights", (3, 4), "f8", external=[(other, 0, 96)])
-
-
-@pytest.mark.parametrize("kind", ["link", "virtual", "storage"])
-def test_heights_in_another_file_are_not_read(kind, tmp_path):
-    with h5py.File(tmp_path / "other.h5", "w") as file:
-        file["map"] = np.ones((3, 4))
-    with h5py.File(tmp_path / "a.h5", "w") as file:
-        in_another_file(kind, file, str(tmp_path / "other.h5"))
-    with pytest.raises(ValueError, match=r"'heights' .* another file"):
-        table_of_numbers(tmp_path / "a.h5")
 
 
 def test_where_a_number_is_missing_is_told(tmp_path):

@@ -1,6 +1,5 @@
 """Heights from an array or a file."""
 
-import h5py
 import numpy as np
 import pytest
 from paper_models import archard, motion, named, small, sphere, steel
@@ -29,21 +28,6 @@ def test_files_give_the_same_as_python(name, tmp_path):
         header = "a,b,c,d" if name.startswith("headed") else ""
         np.savetxt(path, HEIGHTS, delimiter=",", header=header, comments="")
     assert HeightMap(size=SIZE, heights=path) == HeightMap(size=SIZE, heights=HEIGHTS)
-
-
-def test_an_hdf5_file_has_one_table(tmp_path):
-    path = tmp_path / "map.h5"
-    with h5py.File(path, "w") as file:
-        file["scan/heights"] = HEIGHTS
-        file["scan/pixel"] = 1e-6
-    assert HeightMap(size=SIZE, heights=path) == HeightMap(size=SIZE, heights=HEIGHTS)
-    with h5py.File(path, "a") as file:
-        file["scan/errors"] = HEIGHTS
-    with pytest.raises(ValueError, match=r"one dataset of two dim.*/scan/errors, /scan/heights"):
-        HeightMap(size=SIZE, heights=path)
-    path.write_bytes(b"no HDF5")
-    with pytest.raises(ValueError, match=r"map\.h5 cannot be read as a table of numbers"):
-        HeightMap(size=SIZE, heights=path)
 
 
 def test_a_map_smaller_than_the_window_and_the_path_is_refused_in_one_line():

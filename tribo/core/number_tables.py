@@ -11,17 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribo.core.arrays import Array
-from tribo.core.hdf5 import contained, open_hdf5
 from tribo.core.units import number
 
-HDF5 = (".h5", ".hdf5")
 MOST_PIXELS = 2**26
 """Numbers of the largest table that is read, as a map of 8192²: 0.5 GiB, of which tribo makes a few
 copies."""
 
 
 def read_numbers(file: Path) -> Array:
-    """Return the numbers of a CSV file, with or without a header, of a .npy, or of an HDF5 file.
+    """Return the numbers of a CSV file, with or without a header, or of a .npy file.
 
     ValueError if there is no such file, or something else in it; the message says so.
     """
@@ -66,14 +64,12 @@ def table_of_numbers(file: Path) -> Array:
             check_pixels(numbers.size)
             # What is mapped would change with the file.
             numbers = np.array(numbers)
-        elif file.suffix in HDF5:
-            numbers = _only_table(file)
         else:
             with file.open(encoding="utf-8-sig") as lines:
                 numbers = _table_of_text(lines)
     except (ValueError, OSError, LookupError, RuntimeError) as error:
-        other = any(words in str(error) for words in ("magic string", "Python objects"))
-        reason = "it is no NumPy array of numbers" if other else " ".join(str(error).split())
+        other = any(words in str(error) for words in ("magic string", "Python objects", "codec"))
+        reason = "it is no NumPy array and no text" if other else " ".join(str(error).split())
         raise ValueError(f"{file} cannot be read as a table of numbers: {reason}") from None
     if numbers.dtype.kind not in "fiu":
         words = {"c": "complex numbers", "U": "text", "S": "text"}
@@ -131,16 +127,3 @@ def _value(cell: str) -> float | None:
         return number(cell or "nan")
     except ValueError:
         return None
-
-
-def _only_table(file: Path) -> NDArray[Any]:
-    with open_hdf5(file) as source:
-        tables = [each for each in contained(source) if each.ndim == 2]
-        if len(tables) != 1:
-            names = ", ".join(table.name for table in tables) or "none"
-            raise ValueError(
-                f"one dataset of two dimensions is needed, but it has {names}; of a result write "
-                "height maps by `tribo export FILE --format xyz` (from tribo-topography)"
-            )
-        check_pixels(tables[0].size)
-        return np.asarray(tables[0])

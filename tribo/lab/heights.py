@@ -15,7 +15,7 @@ from tribo.core.grid import Grid
 from tribo.core.number_tables import table_of_numbers
 from tribo.registry.all_plugins import from_all_plugins
 
-OWN = (".npy", ".csv", ".txt", ".h5", ".hdf5")
+OWN = (".npy", ".csv", ".txt")
 """Files that are read without a plugin; they state no scale."""
 FEWEST = 16
 BLUR = 2.0
@@ -97,7 +97,7 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
     Parameters
     ----------
     path : str or Path
-        A NumPy, CSV or HDF5 file with one table of heights in m, a row for each x, NaN or nothing
+        A NumPy or CSV file with a table of heights in m, a row for each x, NaN or nothing
         where missing; or a file in a format that a plugin reads, as tribo-topography reads formats
         of instruments.
     pitch : tuple of float, optional
@@ -154,7 +154,7 @@ def _by_plugin(path: Path) -> Heights:
     formats = from_all_plugins("tribo_height_formats")
     if not formats:
         raise CaseError(
-            f"{path} is no NumPy, CSV or HDF5 file ({', '.join(OWN)}); install tribo-topography, "
+            f"{path} is no NumPy or CSV file ({', '.join(OWN)}); install tribo-topography, "
             "which reads the files of instruments, or export it as one of those"
         )
     heights: Heights = formats[0].read(path)

@@ -1,4 +1,4 @@
-"""Heights given as an array: from a NumPy, CSV or HDF5 file, or from Python."""
+"""Heights given as an array: from a NumPy or CSV file, or from Python."""
 
 from __future__ import annotations
 
@@ -41,9 +41,8 @@ class HeightMap(Laid):
     size: tuple[Length, Length]
     """Edge lengths of the rectangle along x, the sliding direction, and y."""
     heights: Annotated[tuple[Line, ...], Field(min_length=2)]
-    """Heights outward in m, a row for each x with a value for each y, or the name of a .npy, CSV or
-    HDF5 file with them; a relative name starts at the current directory. From Python also an
-    array."""
+    """Heights outward in m, a row for each x with a value for each y, or the name of a .npy or CSV
+    file with them; a relative name starts at the current directory. From Python also an array."""
 
     @field_validator("heights", mode="before")
     @classmethod

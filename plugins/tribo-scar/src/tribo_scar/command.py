@@ -64,7 +64,7 @@ def scar(
     """Measure a scar between two height maps, BEFORE and AFTER a test.
 
     The maps are laid on each other (shift, rotation, tilt) by their unworn
-    surface, and subtracted. Files are NumPy, CSV or HDF5 with heights in m, which
+    surface, and subtracted. Files are NumPy or CSV with heights in m, which
     need --pitch, or in a format that a plugin reads, such as tribo-topography. x is
     the sliding direction; what is missing is NaN. With one file, --ideal gives the
     shape before the test.
