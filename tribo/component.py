@@ -10,14 +10,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from pydantic import (
     BaseModel,
     GetCoreSchemaHandler,
-    GetJsonSchemaHandler,
     SerializerFunctionWrapHandler,
     ValidationError,
     ValidationInfo,
     model_serializer,
     model_validator,
 )
-from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from tribo.core.column import Column
@@ -31,9 +29,6 @@ from tribo.core.words import said
 if TYPE_CHECKING:
     from tribo.core.findings import Finding
     from tribo.core.state import Snapshot
-
-KIND = "x-kind"
-"""Key that marks, in a JSON schema, a place for any component of a kind."""
 
 
 class Component(Table, ABC):
@@ -61,7 +56,7 @@ class Component(Table, ABC):
     the name of a key of `Material`, or of one of its `properties`, which a case then gives."""
 
     examples: ClassVar[Sequence[Mapping[str, Any]]] = ()
-    """Configurations that its schema shows, and with which the conformance kit tries it."""
+    """Configurations with which the conformance kit tries it."""
 
     columns: ClassVar[Sequence[Column]] = ()
     """Numbers that the result has at each step and save beside its own, read off a `Snapshot`."""
@@ -129,20 +124,6 @@ class Component(Table, ABC):
             raise
         except BaseException as error:
             raise told(f"{name!r} could not read its keys: {said(error)}") from error
-
-    @classmethod
-    def __get_pydantic_json_schema__(
-        cls, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
-        """Mark the place of an interface, and add its name to the schema of a class."""
-        if Component in cls.__bases__:
-            return {KIND: cls.kind()}
-        made = super().__get_pydantic_json_schema__(schema, handler)
-        named = {"const": cls.type, "default": cls.type, "title": "Type", "type": "string"}
-        made["properties"] = {"type": named, **made.get("properties", {})}
-        if cls.examples:
-            made.setdefault("examples", list(cls.examples))
-        return made
 
     def __eq__(self, other: object) -> bool:
         """Whether class and configuration are the same; caches do not count."""

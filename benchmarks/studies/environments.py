@@ -34,7 +34,6 @@ USE = (
     ("run", "my.toml", "-o", "other.h5", *SMALL, "--set", "load.normal=80"),
     ("compare", "my.h5", "other.h5", "-o", "compared"),
     ("plugins", "list"),
-    ("schema",),
     ("doctor",),
 )
 

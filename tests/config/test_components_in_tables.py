@@ -4,12 +4,7 @@ import json
 import pickle
 
 import dummies_in_tables as dummies
-import jsonschema
 import pytest
-from pydantic import ValidationError
-
-from tribo import Registry
-from tribo.config.schema import json_schema
 
 MATERIAL = {"young": "207 GPa", "poisson": 0.3}
 DATA = {
@@ -22,15 +17,6 @@ DATA = {
     },
     "observers": ["counter", {"type": "counter", "every": 2}],
 }
-
-
-def ball(wear):
-    return {"bodies": {"ball": {"material": MATERIAL, "wear": wear}}}
-
-
-def refuses(data, schema):
-    with pytest.raises(jsonschema.ValidationError):
-        jsonschema.validate(data, schema)
 
 
 @pytest.fixture
@@ -57,35 +43,3 @@ def test_what_is_written_can_be_read_back(validate, options):
     assert validate(dumped) == rig
     assert validate(json.loads(rig.model_dump_json(**options))) == rig
     assert pickle.loads(pickle.dumps(rig)) == rig
-
-
-@pytest.fixture
-def schema():
-    return json_schema(dummies.Rig, dummies.registry())
-
-
-@pytest.mark.parametrize(
-    "wear",
-    [
-        {"type": "liner", "k": 1},
-        {"type": "linear", "k": 0},
-        {"type": "linear", "k": 1, "z": 1},
-        "linear",
-        {"type": "blend", "parts": [{}]},
-    ],
-)
-def test_the_json_schema_accepts_what_validates_and_refuses_what_does_not(schema, validate, wear):
-    jsonschema.Draft202012Validator.check_schema(schema)
-    jsonschema.validate(DATA, schema)
-    with pytest.raises(ValidationError):
-        validate(ball(wear))
-    refuses(ball(wear), schema)
-
-
-def test_the_json_schema_follows_the_registry():
-    one = json_schema(dummies.Rig, dummies.registry(dummies.NoWear))
-    jsonschema.validate(ball("none"), one)
-    refuses(ball({"type": "linear", "k": 1}), one)
-    none = json_schema(dummies.Rig, Registry([]))
-    jsonschema.validate({"bodies": {"a": {"material": MATERIAL}}, "observers": []}, none)
-    refuses({"bodies": {}, "observers": ["counter"]}, none)

@@ -1,11 +1,8 @@
 """Tables describe and print themselves, and a case prints as a tree of what was given."""
 
 import pytest
-from pydantic import Field
-from pydantic.json_schema import SkipJsonSchema
 
-from tribo import Archard, GPa, N, Sphere, load_case, mm
-from tribo.core.table import Table
+from tribo import GPa, N, Sphere, load_case, mm
 from tribo.core.units import parse, stated
 
 
@@ -22,25 +19,9 @@ def test_a_value_is_stated_with_the_digits_that_it_was_given(given, unit, shown)
     assert stated(parse(given, unit), unit) == shown
 
 
-def test_a_schema_leaves_out_the_example_in_python():
-    assert ">>>" in Archard.__doc__
-    assert ">>>" not in Archard.model_json_schema()["description"]
-
-
 def test_values_without_names_are_refused_in_plain_words():
     with pytest.raises(TypeError, match=r"value of Sphere by its name, as Sphere\(radius=…\)"):
         Sphere(5e-3)
-
-
-def test_a_schema_has_the_descriptions_by_the_keys_that_it_has():
-    class Hidden(Table):
-        k: float = Field(1.0, alias="lambda")
-        """Of wear."""
-        unseen: SkipJsonSchema[int] = 0
-        """Of nobody."""
-
-    keys = Hidden.model_json_schema()["properties"]
-    assert {name: each["description"] for name, each in keys.items()} == {"lambda": "Of wear."}
 
 
 def test_a_case_prints_values_in_readable_units_and_leaves_out_defaults():

@@ -4,14 +4,11 @@ import json
 import os
 import subprocess
 import sys
-from importlib import import_module
 
 import pytest
 from fake_distributions import LAW, OBSERVER, SHORT, distribute
 
-from tribo import Case, Registry, Result
-from tribo.config.schema import json_schema
-from tribo.core.errors import TriboWarning
+from tribo import Result
 from tribo.templates import template
 
 GOOD = LAW.format(name="odd.one")
@@ -51,12 +48,10 @@ def test_a_plugin_that_breaks_or_crashes_is_named_and_ends_no_command(folder, as
     assert named.returncode == 2
     (line,) = named.stderr.splitlines()
     assert line.startswith("error: bodies.ball.wear: wear law 'odd.one' cannot be used: odd")
-    for command in (["schema"], ["export", "plain.h5", "--format", "calm"]):
-        done = asked(*command)
-        assert done.returncode == 0, done.stderr
-        assert "odd.one" not in done.stdout
-        warned = [line for line in done.stderr.splitlines() if "left out" in line]
-        assert sorted(line.split()[1] for line in warned) == ["deadly", "odd"]
+    done = asked("export", "plain.h5", "--format", "calm")
+    assert done.returncode == 0, done.stderr
+    warned = [line for line in done.stderr.splitlines() if "left out" in line]
+    assert sorted(line.split()[1] for line in warned) == ["deadly", "odd"]
     assert asked("plugins", "list").returncode == 0
 
 
@@ -124,43 +119,6 @@ def test_malformed_distributions_harm_no_other(folder, asked):
         plugins = {(p["distribution"], p["status"]) for p in result.provenance["plugins"]}
     assert (made["distribution"], made["version"]) == ("odd", "1.0")
     assert ("odd", "loaded") in plugins
-
-
-SCHEMAS = {
-    "exits": "raise SystemExit(0)",
-    "is no JSON": "return {'examples': {1, 2}}",
-    "is nothing": "return None",
-}
-
-
-def with_schema(schema="return handler(source)"):
-    made = OBSERVER.format(name="odd.one", title="Odd").replace(
-        '= "odd.one"\n',
-        '= "odd.one"\n'
-        "    @classmethod\n"
-        "    def __get_pydantic_json_schema__(cls, source, handler):\n"
-        f"        print('a schema is made')\n        {schema}\n",
-    )
-    return f"print('imported')\n{made}"
-
-
-def test_what_a_plugin_prints_does_not_spoil_the_schema(folder, asked):
-    install(folder, code=with_schema())
-    done = asked("--plugins", "odd", "schema")
-    assert '"odd.one"' in json.dumps(json.loads(done.stdout))
-    assert "imported" in done.stderr
-    assert "a schema is made" in done.stderr
-
-
-@pytest.mark.parametrize("fault", SCHEMAS)
-def test_a_configuration_without_a_schema_is_left_out_with_one_line(folder, fault):
-    install(folder, "odd_one", with_schema(SCHEMAS[fault]))
-    registry = Registry.with_plugins(import_module("odd_one"))
-    with pytest.warns(TriboWarning, match=r"^observer 'odd\.one' of odd_one is left out") as caught:
-        schema = json_schema(Case, registry)
-    assert len(caught) == 1
-    assert "odd.one" not in json.dumps(schema)
-    assert "progress" in json.dumps(schema)
 
 
 @pytest.mark.slow

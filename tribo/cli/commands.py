@@ -27,7 +27,6 @@ OWN = {
     "plot": "Draw the pictures of a result.",
     "export": "Write tables as CSV or for Excel.",
     "materials": "List the materials that a case may name.",
-    "schema": "Print the JSON Schema of a case.",
     "plugins": "List, show, check and begin plugins.",
     "verify": "Compare with closed forms and other codes; find the errors of a case.",
     "doctor": "Test the installation and every plugin.",

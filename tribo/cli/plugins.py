@@ -81,7 +81,7 @@ def show(name: str) -> None:
 def check(name: str) -> None:
     """Run the conformance checks on a component, or on all of a distribution.
 
-    They are generated from the examples in the schema of its configuration,
+    They are generated from the examples that its class gives,
     or from its defaults if it has any for every key. A component that cannot
     be made without a file is named and left to the tests of its package. Exit
     codes: 0 nothing failed, 2 bad input, 3 some failed.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
-from pydantic import AfterValidator, Field, field_validator
+from pydantic import AfterValidator, field_validator
 
 from tribo.core.arrays import Array
 from tribo.core.table import Table
@@ -28,17 +28,7 @@ def _some(cells: int) -> int:
 
 
 # A closed form needs fewer than a case.
-Cells = Annotated[
-    int,
-    AfterValidator(_some),
-    Field(json_schema_extra={"minimum": FEWEST, "maximum": MOST}),
-]
-
-
-def _or_one(schema: dict[str, Any]) -> None:
-    """Let a schema for a pair also take one value for both."""
-    pair = {key: schema.pop(key) for key in list(schema) if key != "description"}
-    schema["anyOf"] = [pair["prefixItems"][0], pair]
+Cells = Annotated[int, AfterValidator(_some)]
 
 
 class Grid(Table):
@@ -55,9 +45,9 @@ class Grid(Table):
     """
 
     in_order: ClassVar[bool] = True
-    size: tuple[Length, Length] = Field(json_schema_extra=_or_one)
+    size: tuple[Length, Length]
     """Edge lengths along x, the sliding direction, and y."""
-    cells: tuple[Cells, Cells] = Field(json_schema_extra=_or_one)
+    cells: tuple[Cells, Cells]
     """Number of cells along x and y."""
     ends_at_window: bool = False
     """Whether a body ends at the window's edge, as a flat pin does: contact may then reach it."""

@@ -13,14 +13,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 from pydantic import (
     BaseModel,
     ConfigDict,
-    GetJsonSchemaHandler,
     ModelWrapValidatorHandler,
     ValidationError,
     ValidationInfo,
     model_validator,
 )
-from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema
 
 from tribo.core.explain import case_error, explained
 from tribo.core.units import quantities, stated
@@ -79,20 +76,6 @@ class Table(BaseModel, metaclass=_TableClass):
         """Return the keys that it needs, as the end of a message."""
         needed = [name for name, field in cls.model_fields.items() if field.is_required()]
         return f"a table with {' and '.join(needed)} is needed"
-
-    @classmethod
-    def __get_pydantic_json_schema__(
-        cls, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
-        """Describe each key by the docstring of its field."""
-        made = handler.resolve_ref_schema(handler(schema))
-        if "description" in made:
-            made["description"] = about(cls)
-        keys = made.get("properties", {})
-        for name, text in descriptions(cls).items():
-            # A field that is left out of the schema has no key.
-            keys.get(cls.model_fields[name].alias or name, {})["description"] = text
-        return made
 
     def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
         """Yield the fields that are not at their defaults."""

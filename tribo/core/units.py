@@ -12,9 +12,8 @@ from functools import cache
 from numbers import Real
 from typing import Any, get_args
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import GetCoreSchemaHandler
 from pydantic.fields import FieldInfo
-from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from tribo.core.errors import CaseError
@@ -97,12 +96,12 @@ _KINDS = {
 """Name and example of a quantity, by its SI unit."""
 
 _BOUNDS = {
-    "above": ("greater than", operator.gt, "exclusiveMinimum"),
-    "at_least": ("at least", operator.ge, "minimum"),
-    "below": ("less than", operator.lt, "exclusiveMaximum"),
-    "at_most": ("at most", operator.le, "maximum"),
+    "above": ("greater than", operator.gt),
+    "at_least": ("at least", operator.ge),
+    "below": ("less than", operator.lt),
+    "at_most": ("at most", operator.le),
 }
-"""Bounds of a `Quantity`: words, comparison and keyword in a JSON schema."""
+"""Bounds of a `Quantity`: words and comparison."""
 
 _PREFIXED = re.compile(r"(m|N|Pa|Hz|W|J)(?!\^|\w)")
 """Start of a unit that is written with prefixes."""
@@ -297,11 +296,11 @@ class Quantity:
             raise CaseError(f"{given} is not finite; {self.hint()}")
         bounds = [(getattr(self, field), *how) for field, how in _BOUNDS.items()]
         bounds = [each for each in bounds if each[0] is not None]
-        if not all(holds(number, bound) for bound, _, holds, _ in bounds):
+        if not all(holds(number, bound) for bound, _, holds in bounds):
             zero = "0 K" if self.unit == "K" else "0"
             must = " and ".join(
                 f"{words} {stated(bound, self.unit) if bound else zero}"
-                for bound, words, *_ in bounds
+                for bound, words, _ in bounds
             )
             remedy = f"; {self.remedy}" if self.remedy else f", as in '{self.example}'"
             raise CaseError(f"{given}: must be {must}{remedy}")
@@ -327,19 +326,6 @@ class Quantity:
                 lambda value: value if isinstance(value, str) else float(value)
             ),
         )
-
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
-        """Return the JSON schema of the field: a number, or text with a unit."""
-        number: JsonSchemaValue = {"type": "number"}
-        for field, (_, _, keyword) in _BOUNDS.items():
-            if getattr(self, field) is not None:
-                number[keyword] = getattr(self, field)
-        if self.unit != "1":
-            number["description"] = f"in {self.unit}"
-        text = {"type": "string", "description": f"with a unit, as in '{self.example}'"}
-        return {"anyOf": [number, text], "x-unit": self.unit}
 
     def _validate(self, value: object) -> float | str:
         try:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any, ClassVar
-
-from pydantic import ConfigDict
+from typing import TYPE_CHECKING, ClassVar
 
 from tribo.core.state import State
 from tribo.core.table import Table
@@ -15,15 +13,8 @@ if TYPE_CHECKING:
     from tribo.model.model import Model
 
 
-def _type_required(schema: dict[str, Any]) -> None:
-    # It has a default for those who make objects; in a case it tells the two apart.
-    schema.setdefault("required", []).append("type")
-
-
 class Scheme(Table, ABC):
     """A scheme of integration in time; a closed, built-in choice."""
-
-    model_config = ConfigDict(json_schema_extra=_type_required)
 
     needs_wear_compliance: ClassVar[bool] = False
     """Whether contacts are solved with the wear of a step as compliance."""

@@ -7,14 +7,18 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import redirect_stdout
 from copy import deepcopy
+from inspect import isclass
 from typing import Any, ClassVar, Self
 
 import numpy as np
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
 
 from tribo.component import Component, components
 from tribo.core.arrays import Array
 from tribo.core.fields import Field
-from tribo.core.units import scale
+from tribo.core.table import descriptions
+from tribo.core.units import parts, quantities, scale
 from tribo.guards.answers import answers_of
 from tribo.testing.child import Lost, Unknown, child
 from tribo.testing.compare import (
@@ -123,10 +127,10 @@ class Checks(ABC):
 
     def configuration_is_described(self) -> None:
         """Each field of the configuration has a description, and each real number its unit."""
-        properties = list(_properties(self._cls))
-        silent = [name for name, schema in properties if not schema.get("description")]
+        keys = list(_keys(self._cls))
+        silent = [name for name, text, _ in keys if not text]
         require(not silent, f"{', '.join(silent)}: no description; put a docstring under the field")
-        bare = [name for name, schema in properties if _is_bare(schema)]
+        bare = [n for n, _, f in keys if float in parts(f) and not any(quantities(f))]
         require(
             not bare,
             f"{', '.join(bare)}: no unit; declare it as Annotated[float, Quantity('Pa')], "
@@ -250,21 +254,12 @@ class Checks(ABC):
             )
 
 
-def _properties(cls: type[Component]) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    """Yield every field with its schema, also of nested tables, but not `type`."""
-    schema = cls.model_json_schema()
-    for table, inner in {"": schema, **schema.get("$defs", {})}.items():
-        for name, part in inner.get("properties", {}).items():
-            if name != "type":
-                yield f"{table}.{name}".lstrip("."), part
-
-
-def _is_bare(schema: Mapping[str, Any]) -> bool:
-    """Whether a number without a unit is possible here; nested tables are looked at elsewhere."""
-    if "x-unit" in schema:
-        return False
-    if schema.get("type") == "number":
-        return True
-    inner = [*schema.get("anyOf", ()), *schema.get("prefixItems", ())]
-    inner += [schema[key] for key in ("items", "additionalProperties") if key in schema]
-    return any(_is_bare(part) for part in inner if isinstance(part, Mapping))
+def _keys(table: type[BaseModel], place: str = "") -> Iterator[tuple[str, str | None, FieldInfo]]:
+    """Yield every key of a table, and of tables inside, with its description and field."""
+    texts = descriptions(table)
+    for name, field in table.model_fields.items():
+        yield f"{place}{name}", texts.get(name), field
+        inside = (part for part in parts(field) if isclass(part) and issubclass(part, BaseModel))
+        for part in inside:
+            if not issubclass(part, Component):
+                yield from _keys(part, f"{place}{name}.")

@@ -247,7 +247,7 @@ def parametrize_checks(
 
 
 def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
-    """Return configurations to check a class with, read off its schema.
+    """Return configurations to check a class with.
 
     Parameters
     ----------
@@ -262,7 +262,7 @@ def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
     Raises
     ------
     ValueError
-        If the schema cannot be made, or its examples are no list of tables.
+        If its `examples` are no list of tables.
 
     Examples
     --------
@@ -270,12 +270,8 @@ def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
     >>> example_configs(tribo.Sphere)
     [{'radius': '5 mm'}]
     """
-    try:
-        examples = cls.model_json_schema().get("examples")
-    except Exception as error:
-        raise ValueError(f"making the schema of {cls.__qualname__} raised {said(error)}") from error
-    if examples:
-        if not (isinstance(examples, list) and all(isinstance(e, Mapping) for e in examples)):
+    if examples := cls.examples:
+        if not (isinstance(examples, Sequence) and all(isinstance(e, Mapping) for e in examples)):
             raise ValueError(f"they are {examples!r}; they must be a list of tables")
         return [dict(example) for example in examples]
     try:
