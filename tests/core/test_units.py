@@ -82,6 +82,7 @@ def test_conversion_rounds_once(text, unit, exactly):
         ("5 parsec", "m", "unknown unit 'parsec'; a length"),
         ("5 Gpa", "Pa", "'GPa'"),
         ("5 MPA", "Pa", "'MPa'"),
+        ("200 mpa", "Pa", "'MPa'"),
         ("5 hz", "Hz", "'Hz'"),
         ("5 w/(m k)", "W/(m K)", "'W/(m K)'"),
         ("46 W/m K", "W/(m K)", "put the divisor in parentheses"),

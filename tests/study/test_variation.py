@@ -76,10 +76,10 @@ def test_values_alone_are_the_labels_where_the_paths_are_the_same():
         (["loda.normal=1,2"], "did you mean 'load'?"),
         (["bodies.bal.wear.k=1,2"], "two bodies, as [bodies.ball] and [bodies.disk]; given: "),
         (["contact.type=winklr,dcfft"], "did you mean 'winkler'?"),
-        (["load.normal='1 N,2 N'"], "load.normal: '1 N,2 N': cannot read the unit"),
-        (["load.normal=1 N,2 Pa"], "with load.normal=2 Pa: load.normal: "),
+        (["load.normal='1 N,2 N'"], "load.normal=1 N,2 N: '1 N,2 N': cannot read the unit"),
+        (["load.normal=1 N,2 Pa"], "with load.normal=2 Pa: '2 Pa'"),
         # It is only when the parts are joined that this one is found.
-        (["kinematics.swept=disk,dsk"], "with kinematics.swept=dsk: kinematics"),
+        (["kinematics.swept=disk,dsk"], "with kinematics.swept=dsk: no body"),
     ],
 )
 def test_what_is_wrong_is_said_before_anything_runs(axes, message):

@@ -167,7 +167,7 @@ def _keys_of(details: ErrorDetails, data: Any) -> tuple[str | int, ...]:
     loc, finished = details["loc"], details["type"] in (TOLD, UNKNOWN)
     kept: list[str | int] = []
     for i, key in enumerate(loc):
-        if isinstance(key, str) and isinstance(data, list | tuple):
+        if isinstance(key, str) == isinstance(data, list | tuple):
             continue
         # What is missing is not there; a name alone stands for a table that lacks its keys.
         left_out = i == len(loc) - 1 and (finished or isinstance(data, Mapping | list | tuple))

@@ -64,7 +64,7 @@ class Grid(Table):
     @field_validator("size", "cells", mode="before")
     @classmethod
     def _both_axes(cls, value: Any) -> Any:
-        return (value, value) if isinstance(value, int | float | str) else value
+        return value if isinstance(value, list | tuple) else (value, value)
 
     @property
     def spacing(self) -> tuple[float, float]:

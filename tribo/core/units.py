@@ -368,11 +368,12 @@ def _called(dimension: Dimension) -> str:
     return "a quantity in " + " ".join(f"{u}^{n}" if n != 1 else u for u, n in powers if n)
 
 
-def _units(unit: str) -> Iterator[str]:
-    """Yield the symbols with the dimension of a unit, that unit and the unit of its example."""
-    every = [*_SYMBOLS, *_UNPREFIXED, *(p + symbol for p in PREFIXES for symbol in _SYMBOLS)]
-    yield from (each for each in every if scale(each)[1] == scale(unit)[1])
-    yield from (unit, _example(unit).partition(" ")[2])
+def _units(unit: str) -> list[str]:
+    """Return a unit and the symbols with its dimension, nearest in size to its example first."""
+    every = [*_SYMBOLS, *_UNPREFIXED, *(p + symbol for p in PREFIXES for symbol in _SYMBOLS), unit]
+    of_kind = (each for each in every if scale(each)[1] == scale(unit)[1])
+    usual = parse(_example(unit), unit)
+    return sorted(of_kind, key=lambda each: abs(math.log(scale(each)[0] / usual)))
 
 
 def _example(unit: str) -> str:

@@ -68,14 +68,14 @@ def checked_name(name: str) -> str:
 def did_you_mean(name: object, known: Iterable[str]) -> str | None:
     """Return the name in `known` that is most like `name`, if one is.
 
-    The same but for capitals and a prefix, as ``hz`` for ``Hz``, comes before the nearly same.
+    The first that is the same but for capitals and a prefix, as ``Hz`` for ``hz``, comes before the
+    nearly same.
     """
     if not isinstance(name, str):
         return None
     every, end = list(known), f".{name}".casefold()
     same = [each for each in every if f".{each}".casefold().endswith(end)]
-    close = get_close_matches(name, same or every, n=1, cutoff=0.0 if same else 0.6)
-    return close[0] if close else None
+    return next(iter(same or get_close_matches(name, every, n=1)), None)
 
 
 def similar_file(path: Path, suffix: str, otherwise: str) -> str:

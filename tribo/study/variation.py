@@ -61,7 +61,9 @@ def variants(
         try:
             cases.append((label, valid_case(data, point, registry)))
         except CaseError as error:
-            reasons.setdefault(str(error), []).append(label)
+            # A label has the place that it varies.
+            reason = str(error).removeprefix(f"{error.path}: " if error.path in point else "")
+            reasons.setdefault(reason, []).append(label)
     if reasons:
         raise CaseError(_refusal(reasons, len(points)))
     found: dict[str, Case] = {}
