@@ -27,7 +27,7 @@ def folder(tmp_path, monkeypatch):
     """A folder of distributions that are found as if installed; none stays imported."""
     monkeypatch.syspath_prepend(str(tmp_path))
     forget(tmp_path)
-    # A busy machine makes no plugin that is tried not ready.
+    # Where a busy machine makes an import slow, no plugin is broken.
     with patch.dict(os.environ, {"TRIBO_PLUGIN_TIME_LIMIT": "240"}):
         yield tmp_path
     forget(tmp_path)

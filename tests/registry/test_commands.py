@@ -62,18 +62,16 @@ def test_the_doctor_names_every_fault_and_none_hurts_a_list_or_a_check(folder, a
     install(folder, "needy", requires=["tribo<0.0.1"], name="odd.needy")
     install(folder, "left", name="odd.both")
     install(folder, "right", name="odd.both")
-    distribute(folder, "to_be", "1.0", {}, ["tribo>=0.1"])
-    hint, conflict = "to_be 1.0 requires tribo but", "'odd.both' is offered by left 1.0 and right"
+    conflict = "'odd.both' is offered by left 1.0 and right"
     listed = asked("plugins", "list", "--json")
     statuses = {row["name"]: row["status"] for row in json.loads(listed.stdout)}
     assert statuses["odd.endless"] == "available"
     assert statuses["odd.both"] == "conflict"
-    assert f"hint: {hint}" in listed.stderr
     with monkeypatch.context() as patient:
         patient.setenv("TRIBO_PLUGIN_TIME_LIMIT", "0.5")
         checked = asked("plugins", "check", "odd.endless")
     assert checked.returncode == 2
-    assert "endless 1.0, which is not ready: within 0.5 s" in checked.stderr
+    assert "endless 1.0, which is broken: its import did not end within 0.5 s" in checked.stderr
     for verb in ("show", "check"):
         done = asked("plugins", verb, "odd.both")
         assert done.returncode == 2
@@ -84,7 +82,6 @@ def test_the_doctor_names_every_fault_and_none_hurts_a_list_or_a_check(folder, a
     assert "broken: its import crashed the process (SIGABRT)" in doctor.stdout
     assert "incompatible: it requires tribo<0.0.1" in doctor.stdout
     assert conflict in doctor.stdout
-    assert f"hint  {hint}" in doctor.stdout
 
 
 @pytest.mark.parametrize("choice", [["--no-plugin", "odd"], ["--plugins", "none"]])

@@ -7,7 +7,7 @@ from fake_distributions import distribute, observer, plugins
 
 from tribo import CaseError
 from tribo.core.errors import TriboWarning
-from tribo.registry import probe as module
+from tribo.registry import child as module
 from tribo.registry.all_plugins import import_all
 from tribo.registry.probe import probe_all
 from tribo.registry.registry import Registry
@@ -36,9 +36,9 @@ def test_a_time_limit_that_is_none_is_one_clear_error(folder, monkeypatch, limit
     [
         ("forks", FORKS + CALM, "loaded", ""),
         ("forks_and_crashes", FORKS + "os.abort()", "broken", "SIGABRT"),
-        ("forks_and_hangs", FORKS + "time.sleep(600)", "not ready", "0.3 s"),
-        ("threads_and_hangs", THREAD + CALM, "not ready", "0.3 s"),
-        ("burns_and_hangs", "while True: pass", "not ready", "0.3 s"),
+        ("forks_and_hangs", FORKS + "time.sleep(600)", "broken", "0.3 s"),
+        ("threads_and_hangs", THREAD + CALM, "broken", "0.3 s"),
+        ("burns_and_hangs", "while True: pass", "broken", "0.3 s"),
         (
             "keeps_no_core",
             "import resource; raise ValueError(resource.getrlimit(resource.RLIMIT_CORE))",

@@ -11,7 +11,7 @@ from fake_distributions import LAW, distribute, observer, plugins
 
 from tribo import CaseError, Observer, Registry, Surface, hookimpl
 from tribo.registry.catalogue import catalogue
-from tribo.registry.plugins import builtin, undeclared
+from tribo.registry.plugins import builtin
 
 
 class Quiet(Observer):
@@ -217,19 +217,3 @@ def test_plugins_can_be_turned_off(folder, monkeypatch, off):
     assert [p.status for p in registry.plugins] == ["disabled"]
     with pytest.raises(CaseError, match=r"five-tribo 1\.0 is disabled: turned off"):
         registry.lookup("observer", "five.calm")
-
-
-@pytest.mark.parametrize(
-    ("requires", "group", "hinted"),
-    [
-        ("tribo[x]; python_version>'3'", "other", True),
-        ("tribo", "tribo.v1.wear_law", False),
-        ("tribo-energy", "other", False),
-        ("tribo; extra == 'test'", "other", False),
-        ("tribo ?? 3", "other", False),
-    ],
-)
-def test_what_requires_tribo_and_declares_nothing_is_hinted_at(folder, requires, group, hinted):
-    distribute(folder, "hinted", "1.2", {"hinted.calm": "hinted"}, ["numpy", requires], group)
-    hints = [hint for hint in undeclared() if hint.startswith("hinted 1.2 requires tribo")]
-    assert len(hints) == hinted

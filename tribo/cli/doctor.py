@@ -31,7 +31,7 @@ def doctor(as_json: bool, time_limit: float | None) -> None:
       tribo doctor
     """
     from tribo.core.errors import NumericalError
-    from tribo.registry.plugins import installed, undeclared
+    from tribo.registry.plugins import installed
     from tribo.registry.probe import probe_all
     from tribo.registry.registry import Registry
     from tribo.result.provenance import environment
@@ -45,14 +45,13 @@ def doctor(as_json: bool, time_limit: float | None) -> None:
         "checks": checks,
         "plugins": [record.facts for record in records],
         "conflicts": list(conflicts.values()),
-        "hints": undeclared(),
     }
     if as_json:
         echo_json(found)
     else:
         _print(found)
     bad = [check["name"] for check in checks if not check["ok"]]
-    bad += [str(r) for r in records if r.status in ("broken", "not ready", "incompatible")]
+    bad += [str(r) for r in records if r.status in ("broken", "incompatible")]
     bad += conflicts
     if bad:
         raise NumericalError(f"not well: {', '.join(bad)}")
@@ -104,8 +103,6 @@ def _print(found: dict[str, Any]) -> None:
         _line(name, well, f"{plugin['status']}: {plugin['reason']}".rstrip(": "))
     for conflict in found["conflicts"]:
         _line("name", False, conflict)
-    for hint in found["hints"]:
-        click.echo(f"hint  {hint}")
 
 
 def _line(name: str, well: bool, detail: str) -> None:

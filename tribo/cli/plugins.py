@@ -31,12 +31,9 @@ def list_(as_json: bool) -> None:
       tribo plugins list --json
     """
     from tribo.registry.catalogue import catalogue
-    from tribo.registry.plugins import undeclared
     from tribo.registry.registry import default_registry
 
     rows = catalogue(default_registry())
-    for hint in undeclared():
-        click.echo(f"hint: {hint}", err=True)
     if as_json:
         echo_json(rows)
         return

@@ -9,10 +9,9 @@ from dataclasses import dataclass, field
 from importlib import metadata
 from typing import TYPE_CHECKING, Literal
 
-from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-from tribo.core.distributions import applies, entry_points
+from tribo.core.distributions import entry_points
 from tribo.core.errors import warn
 from tribo.registry.hookspecs import GROUP, PROJECT, api_version
 
@@ -22,9 +21,7 @@ if TYPE_CHECKING:
 DISABLED = "TRIBO_DISABLE_PLUGINS"
 ONLY = "TRIBO_PLUGINS"
 
-Status = Literal[
-    "available", "loaded", "disabled", "broken", "not ready", "incompatible", "conflict"
-]
+Status = Literal["available", "loaded", "disabled", "broken", "incompatible", "conflict"]
 
 
 @dataclass(eq=False)
@@ -33,12 +30,11 @@ class Plugin:
 
     It came with a version of a distribution, or none, and lies in the module `entry_point`. Its
     status is ``available`` (not imported yet), ``loaded``, ``disabled`` by the user, ``broken`` (it
-    raised, or breaks the contract of plugins), ``not ready`` (its import in a process of its own,
-    or a thread that this left running, did not end in time) or ``incompatible`` (a requirement of
-    its distribution is not met, or it is for another contract), the `reason` why it cannot be used;
-    in lists, a name that two plugins declare is in ``conflict``. `names` are those that its entry
-    points declare, `classes` the components by name once `load`, which returns the object that
-    carries the hooks, has imported it.
+    raised, breaks the contract of plugins, or did not end in time) or ``incompatible`` (a
+    requirement of its distribution is not met, or it is for another contract), the `reason` why it
+    cannot be used; in lists, a name that two plugins declare is in ``conflict``. `names` are those
+    that its entry points declare, `classes` the components by name once `load`, which returns the
+    object that carries the hooks, has imported it.
 
     Examples
     --------
@@ -156,20 +152,3 @@ def _choose(plugins: list[Plugin]) -> None:
             plugin.status, plugin.reason = "disabled", reason
     for name in sorted((off | only) - known):
         warn(f"no plugin is called {name!r}")
-
-
-def undeclared() -> list[str]:
-    """Return a hint for each distribution that requires tribo and declares no plugin."""
-    found = set()
-    for distribution in metadata.distributions():
-        with suppress(Exception):
-            needed = [Requirement(text) for text in distribution.requires or () if applies(text)]
-            groups = distribution.entry_points.groups
-            requires_us = PROJECT in [requirement.name.lower() for requirement in needed]
-            if requires_us and not any(f"{each}.".startswith(f"{PROJECT}.") for each in groups):
-                found.add(f"{distribution.name} {distribution.version}")
-    return [
-        f"{which} requires tribo but declares no plugin; if it is one, add an entry point to the "
-        f"group {GROUP!r}, and reinstall it"
-        for which in sorted(found)
-    ]

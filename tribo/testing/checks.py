@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import io
+import pickle
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import redirect_stdout
 from copy import deepcopy
+from importlib.util import find_spec
 from inspect import isclass
 from typing import Any, ClassVar, Self
 
@@ -20,7 +22,6 @@ from tribo.core.fields import Field
 from tribo.core.table import descriptions
 from tribo.core.units import parts, quantities, scale
 from tribo.guards.answers import answers_of
-from tribo.testing.child import Lost, Unknown, child
 from tribo.testing.compare import (
     CheckFailed,
     apply_if,
@@ -82,7 +83,6 @@ class Checks(ABC):
         self._fields = dict(fields)
         self._configs = configs
         self._bodies = BODIES
-        self._lost = ""
         self._kept: dict[int, Any] = {}
 
     @abstractmethod
@@ -151,8 +151,9 @@ class Checks(ABC):
         """An object can be sent to another process, as parallel sweeps need it."""
         apply_if(self._cls.__module__ != "__main__", "it is defined in a script or a notebook")
         try:
-            again = child().call(deepcopy, self._config)
-        except (Unknown, Lost) as error:
+            again = pickle.loads(pickle.dumps(self._config))
+            find_spec(self._cls.__module__)
+        except (pickle.PicklingError, AttributeError, TypeError, ValueError) as error:
             raise CheckFailed(
                 f"{error}; put the class in a module that can be imported by its name"
             ) from error

@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from tribo.component import Component
 from tribo.core.errors import PluginError
 from tribo.core.words import said
+from tribo.registry.child import in_child
 from tribo.registry.kinds import check_class
 from tribo.registry.registry import place
 from tribo.testing.checks import Checks, FieldValue
@@ -23,7 +24,6 @@ from tribo.testing.checks_kinematics import KinematicsChecks
 from tribo.testing.checks_observer import ObserverChecks
 from tribo.testing.checks_surface import SurfaceChecks
 from tribo.testing.checks_wear_law import WearLawChecks
-from tribo.testing.child import Lost, Unknown, child
 from tribo.testing.compare import CheckFailed, NotApplicable
 from tribo.testing.likely import LIKELY
 from tribo.testing.process import process_restored
@@ -171,11 +171,13 @@ def check(
     'surface Flat (flat): 15 passed'
     """
     check_class(cls)
-    outcomes = [
-        outcome_of(checks, name)
-        for checks in suites(cls, configs, fields)
-        for name in names_of(type(checks))
+    asked = [
+        (checks, name) for checks in suites(cls, configs, fields) for name in names_of(type(checks))
     ]
+    # No component can end or hold up this process.
+    outcomes, ended = in_child(outcome_of, asked)
+    lost = f"it {ended}, as no call of a component may; nothing more is tried"
+    outcomes += [_came(*each, "failed", lost) for each in asked[len(outcomes) :]]
     kind = cls.kind().replace("_", " ")
     return Report(f"{kind} {cls.__qualname__} ({cls.type})", tuple(outcomes))
 
@@ -316,24 +318,7 @@ def names_of(suite: type[Checks]) -> list[str]:
 
 
 def outcome_of(checks: Checks, name: str) -> Outcome:
-    """Make one check in a process of its own, so that no component can end or hold up this one.
-
-    In this process where the class cannot be found by another.
-    """
-    if name == Checks.configuration_can_be_pickled.__name__:
-        return _outcome(checks, name)
-    if not checks._lost:
-        try:
-            outcome: Outcome = child().call(_outcome, checks, name)
-            return outcome
-        except Unknown:
-            return _outcome(checks, name)
-        except Lost as error:
-            checks._lost = f"{error}, as no call of a component may; nothing more is tried"
-    return _came(checks, name, "failed", checks._lost)
-
-
-def _outcome(checks: Checks, name: str) -> Outcome:
+    """Make one check, by its name."""
     try:
         with process_restored():
             perform(checks, name)

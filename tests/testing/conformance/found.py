@@ -15,22 +15,23 @@ def main() -> None:
     warnings.simplefilter("ignore")
     from testing.conformance.mistakes import MISTAKES, configuration
 
+    from tribo.registry.child import in_child
     from tribo.testing.kit import names_of, outcome_of, suites
 
     rows = []
     for words, cls in MISTAKES.items():
         (checks,) = suites(cls, [configuration(cls)], {})
+        names, runs = [], []
+        for name in sorted(names_of(type(checks))):
+            (runs if name.startswith("runs_") else names).append(name)
         # A whole run only where nothing else finds it.
-        found: list[str] = []
-        for name in sorted(names_of(type(checks)), key=lambda name: name.startswith("runs_")):
-            if found and name.startswith("runs_"):
+        for some in (names, runs):
+            outcomes, ended = in_child(outcome_of, [(checks, name) for name in some])
+            found = [each.check for each in outcomes if each.status == "failed"]
+            found += [some[len(outcomes)]] if ended else []
+            if found:
                 break
-            if outcome_of(checks, name).status == "failed":
-                found.append(name)
-            if checks._lost:
-                break
-        ends = bool(checks._lost)
-        kind = cls.kind().replace("_", " ")
+        kind, ends = cls.kind().replace("_", " "), bool(ended)
         rows.append({"mistake": words, "kind": kind, "found_by": found, "ends_the_process": ends})
         print(f"{words}: {', '.join(found) or 'not found'}", flush=True)
     lines = ",\n".join(json.dumps(row, ensure_ascii=False) for row in rows)
