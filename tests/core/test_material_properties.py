@@ -100,6 +100,6 @@ def test_what_is_wrong_with_it_is_told_at_its_place(law, properties, place, word
     [(Brittle, set()), (Deaf, {"what_is_declared_matters"}), (Silent, {"answers_fit_a_run"})],
 )
 def test_the_kit_gives_what_is_declared_and_finds_what_is_not_read_or_not_declared(law, failed):
-    (checks,) = suites(law, [{}], {})
+    (checks,) = suites(law, [{}])
     outcomes = [outcome_of(checks, name) for name in failed or names_of(type(checks))]
     assert {each.check for each in outcomes if each.status == "failed"} == failed

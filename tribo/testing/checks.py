@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import pickle
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import redirect_stdout
 from copy import deepcopy
 from importlib.util import find_spec
@@ -17,7 +17,6 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from tribo.component import Component, components
-from tribo.core.arrays import Array
 from tribo.core.fields import Field
 from tribo.core.table import descriptions
 from tribo.core.units import parts, quantities, scale
@@ -39,8 +38,6 @@ from tribo.testing.rescaling import UNITS, in_other_units, rescaled, units_of
 BODIES = ("ball", "disk")
 """Names of the bodies that components are tried with."""
 OTHER_NAMES = ("upper", "lower")
-FieldValue = float | Callable[[Array], Array]
-"""The value of a local field, or how it follows from the pressure."""
 
 
 def needed_by(*models: object) -> list[Field]:
@@ -61,8 +58,6 @@ class Checks(ABC):
     ----------
     config : Component
         The configuration.
-    fields : Mapping[str, float or callable]
-        Typical values of local fields, in SI, or functions of the pressure.
     configs : sequence of Component, optional
         All configurations that are checked: some facts need hold in one of them only.
     """
@@ -72,15 +67,9 @@ class Checks(ABC):
     _exactness: ClassVar[float] = 1e-9
     """Part of an answer by which it may differ in other units."""
 
-    def __init__(
-        self,
-        config: Any,
-        fields: Mapping[str, FieldValue],
-        configs: Sequence[Any] = (),
-    ) -> None:
+    def __init__(self, config: Any, configs: Sequence[Any] = ()) -> None:
         self._cls: Any = type(config)
         self._config = config
-        self._fields = dict(fields)
         self._configs = configs
         self._bodies = BODIES
         self._kept: dict[int, Any] = {}
@@ -115,7 +104,7 @@ class Checks(ABC):
     def _among(self, names: tuple[str, str]) -> Self:
         """Return the checks of a component whose configuration calls the bodies otherwise."""
         data = renamed(self._config.model_dump(), BODIES, names)
-        other = type(self)(self._cls.model_validate(data), self._fields)
+        other = type(self)(self._cls.model_validate(data))
         other._bodies = names
         return other
 

@@ -220,4 +220,4 @@ class ContactSolverChecks(Checks):
         steps = Explicit(time_step=0.1 * motion.end_time)
         stepping = samples.LONG_STEPS if self._cls.accepts_wear_compliance else steps
         parts: dict[str, Any] = {"kinematics": motion, "stepping": stepping}
-        samples.run({}, lambda: {"contact": self._make(), **parts})
+        samples.run(lambda: {"contact": self._make(), **parts})

@@ -56,7 +56,7 @@ class EffectChecks(LocalChecks):
 
     def _inputs(self, component: Any, number: int) -> ContactConditions:
         """Return conditions by number, with a state of some age at each point; 3: at rest."""
-        fresh = samples.contact_conditions(component, self._fields, number % 3, self._bodies)
+        fresh = samples.contact_conditions(component, number % 3, self._bodies)
         at: ContactConditions = self._remembering(
             fresh, _LONGEST * samples.pattern(GRID.cells) ** 3
         )
@@ -208,7 +208,7 @@ class EffectChecks(LocalChecks):
             requires = tuple(field.name for field in effect.provides)
 
         law = Reads(k=samples.ARCHARD.k)
-        samples.run(self._fields, lambda: {"law": law, "effects": [self._make()]})
+        samples.run(lambda: {"law": law, "effects": [self._make()]})
 
 
 def _beside(value: Any, by: float) -> Any:

@@ -156,7 +156,7 @@ class KinematicsChecks(Checks):
         apply_if("swept" in self._cls.model_fields, "it has no key `swept`")
         rate, met = samples.pattern(GRID.cells), {}
         for name in BODIES:
-            exposures = type(self)(renewed(self._config, {"swept": name}), {})._exposures()
+            exposures = type(self)(renewed(self._config, {"swept": name}))._exposures()
             require(exposures[name].swept, f"{name!r} does not move although `swept` names it")
             met[name] = {body: exposures[body].average(rate) for body in BODIES}
         first, second = BODIES
@@ -205,4 +205,4 @@ class KinematicsChecks(Checks):
         """In a small case each body loses just what its law says."""
         motion = self._make()
         stop = Stop(distance=min(3.0, 0.999 * motion.distance_at(motion.end_time)))
-        samples.run({}, lambda: {"kinematics": self._make(), "stop": stop})
+        samples.run(lambda: {"kinematics": self._make(), "stop": stop})

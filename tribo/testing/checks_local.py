@@ -107,7 +107,7 @@ class LocalChecks(Checks):
         idle |= {("property", field.name) for field in model.material_properties}
         apply_if(idle, "it has no number but defaults and 0, no state, and requires nothing")
         for config in self._configs:
-            checks = self if config is self._config else type(self)(config, self._fields)
+            checks = self if config is self._config else type(self)(config)
             component = checks._make()
             for given in checks._samples():
                 usual = checks._call(component, given)

@@ -74,7 +74,7 @@ class ObserverChecks(Checks):
 def _watched(*observers: Observer) -> list[Any]:
     """Return the inputs of an observer in a small run, which has the `observers` too."""
     keeps = Keeps()
-    case = samples.small_case({}, observers=observers, output=Output(save_times=(5.0,)))
+    case = samples.small_case(observers=observers, output=Output(save_times=(5.0,)))
     with TemporaryDirectory() as folder, chdir(folder):
         Simulation(case).run(observers=[keeps]).close()
     return keeps._seen

@@ -54,7 +54,7 @@ class WearLawChecks(LocalChecks):
 
     def _fields_at(self, law: Any, pressure: Array, number: int) -> dict[str, Array]:
         spread = samples.pattern(_SHAPE, number + 7)
-        return samples.fields(names_of(law.requires), self._fields, pressure, spread)
+        return samples.fields(names_of(law.requires), pressure, spread)
 
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
         rates: Mapping[str, Array] = component.rate(given).state_rates
@@ -159,7 +159,7 @@ class WearLawChecks(LocalChecks):
         depth = float(self._wear(law, 3, samples.PEAK)[0].flat[0])
         distance = 0.3 * _APPROACH / depth if depth > 0 else 1.0
         motion = samples.sliding(float(np.clip(distance, 1e-3, 1e6)))
-        samples.run(self._fields, lambda: {"law": self._make(), "kinematics": motion})
+        samples.run(lambda: {"law": self._make(), "kinematics": motion})
 
     def _when(self, number: int) -> str:
         """Return at which speed, and when, a sample is."""

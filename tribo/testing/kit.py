@@ -17,7 +17,7 @@ from tribo.core.words import said
 from tribo.registry.child import in_child
 from tribo.registry.kinds import check_class
 from tribo.registry.registry import place
-from tribo.testing.checks import Checks, FieldValue
+from tribo.testing.checks import Checks
 from tribo.testing.checks_contact_solver import ContactSolverChecks
 from tribo.testing.checks_effect import EffectChecks
 from tribo.testing.checks_kinematics import KinematicsChecks
@@ -127,15 +127,12 @@ class Report:
         return "\n".join(lines)
 
 
-def check(
-    cls: type[Component],
-    configs: Sequence[Config] | None = None,
-    *,
-    fields: Mapping[str, FieldValue] = _NOTHING,
-) -> Report:
+def check(cls: type[Component], configs: Sequence[Config] | None = None) -> Report:
     """Check that a class fulfils its interface, with each of some configurations.
 
-    The bodies of the cases it is tried in are called ``ball`` and ``disk``.
+    The bodies of the cases it is tried in are called ``ball`` and ``disk``. A field that the class
+    requires has the typical value of its declaration; without it, the required ``NAME_slope``
+    times the pressure if there is one, else 1.
 
     Parameters
     ----------
@@ -145,12 +142,6 @@ def check(
     configs : sequence of Component or Mapping, optional
         Valid configurations, as objects or as in a case; ``type`` may be left
         out. By default `example_configs`.
-    fields : Mapping[str, float or callable], optional
-        Typical values, in SI, of the local fields that the class requires. A
-        field that depends on the pressure is a function of it, and enters the
-        total derivative that the law's derivative is compared with. By default a
-        field has the typical value of its declaration; without it, the required
-        ``NAME_slope`` times the pressure if there is one, else 1.
 
     Returns
     -------
@@ -171,9 +162,7 @@ def check(
     'surface Flat (flat): 15 passed'
     """
     check_class(cls)
-    asked = [
-        (checks, name) for checks in suites(cls, configs, fields) for name in names_of(type(checks))
-    ]
+    asked = [(checks, name) for checks in suites(cls, configs) for name in names_of(type(checks))]
     # No component can end or hold up this process.
     outcomes, ended = in_child(outcome_of, asked)
     lost = f"it {ended}, as no call of a component may; nothing more is tried"
@@ -187,7 +176,6 @@ def parametrize_checks(
     configs: Sequence[Config] | None = None,
     *,
     expected_failures: Mapping[str, str] = _NOTHING,
-    fields: Mapping[str, FieldValue] = _NOTHING,
 ) -> Callable[..., None]:
     """Return a test function with which pytest runs each check with each configuration.
 
@@ -197,7 +185,7 @@ def parametrize_checks(
 
     Parameters
     ----------
-    cls, configs, fields
+    cls, configs
         As in `check`.
     expected_failures : Mapping[str, str], optional
         The reason why a check, by name, cannot pass. If it passes, the test
@@ -232,7 +220,7 @@ def parametrize_checks(
     }
     tests = [
         pytest.param(checks, name, id=f"{name}-{number}", marks=marks.get(name, ()))
-        for number, checks in enumerate(suites(cls, configs, fields))
+        for number, checks in enumerate(suites(cls, configs))
         for name in names_of(suite)
     ]
 
@@ -283,9 +271,7 @@ def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
     return [{}]
 
 
-def suites(
-    cls: type[Component], configs: Sequence[Config] | None, fields: Mapping[str, FieldValue]
-) -> Iterator[Checks]:
+def suites(cls: type[Component], configs: Sequence[Config] | None) -> Iterator[Checks]:
     """Yield the checks of a class with each of its configurations."""
     configs = example_configs(cls) if configs is None else configs
     if not configs:
@@ -300,7 +286,7 @@ def suites(
         except ValidationError as error:
             what = f"configs[{number}] is not valid for {cls.__qualname__}"
             raise ValueError(f"{what}: {error}") from error
-    yield from (SUITES[cls.kind()](config, fields, made) for config in made)
+    yield from (SUITES[cls.kind()](config, made) for config in made)
 
 
 def perform(checks: Checks, name: str) -> None:

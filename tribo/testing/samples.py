@@ -40,7 +40,7 @@ from tribo.simulation.run import Simulation
 from tribo.simulation.watch import Watch
 from tribo.stepping.implicit import Implicit
 from tribo.surfaces.forms import Cylinder, Flat, Sphere
-from tribo.testing.checks import BODIES, FieldValue, needed_by
+from tribo.testing.checks import BODIES, needed_by
 from tribo.testing.compare import first_difference, locked, require
 from tribo.testing.process import process_state
 from tribo.wear.archard import Archard
@@ -95,29 +95,20 @@ def for_models(material: Material, *models: object, spread: float = 0.5) -> Mate
     return material.model_copy(update={"properties": values or None})
 
 
-def field(
-    name: str,
-    names: Sequence[str],
-    given: Mapping[str, FieldValue],
-    p: Array,
-    spread: Array | float = 0.5,
-) -> Array:
+def field(name: str, names: Sequence[str], p: Array, spread: Array | float = 0.5) -> Array:
     """Return values of the field `name` at the pressures `p`.
 
-    `spread`, from 0 to 1, leads over the field's range: 5 % about a value that is `given`; half to
-    twice the typical value that an effect declares that was imported, or from one of its limits to
-    the other. A field of which nothing is known follows its slope if that is among `names` too, and
-    is about 1 if not; a slope is 1.
+    `spread`, from 0 to 1, leads over the field's range: half to twice the typical value that an
+    effect declares that was imported, or from one of its limits to the other. A field of which
+    nothing is known follows its slope if that is among `names` too, and is about 1 if not; a slope
+    is 1.
     """
-    about = 0.95 + 0.1 * np.asarray(spread)
-    value = given.get(name)
-    if value is not None:
-        return np.zeros_like(p) + (value(p) if callable(value) else about * value)
     if (known := declared(name)) and (values := _range(known)):
         return np.zeros_like(p) + np.interp(spread, (0.0, 0.5, 1.0), values)
     slope = f"{name}_slope"
     if slope in names:
-        return field(slope, (), given, p, spread) * p
+        return field(slope, (), p, spread) * p
+    about = 0.95 + 0.1 * np.asarray(spread)
     return np.zeros_like(p) + (1.0 if name.endswith("_slope") else about)
 
 
@@ -147,11 +138,9 @@ def _range(declared: Field) -> tuple[float, float, float] | None:
     return low, typical, high if most is None else min(high, most)
 
 
-def fields(
-    names: Sequence[str], given: Mapping[str, FieldValue], p: Array, spread: Array
-) -> dict[str, Array]:
+def fields(names: Sequence[str], p: Array, spread: Array) -> dict[str, Array]:
     """Return `field` for each of some names."""
-    return {name: field(name, names, given, p, spread) for name in names}
+    return {name: field(name, names, p, spread) for name in names}
 
 
 def pattern(shape: tuple[int, ...], number: int = 0) -> Array:
@@ -193,15 +182,12 @@ def hertz_pressure(grid: Grid) -> Array:
 
 
 def contact_conditions(
-    effect: Any,
-    given: Mapping[str, FieldValue],
-    number: int = 0,
-    names: Sequence[str] = BODIES,
+    effect: Any, number: int = 0, names: Sequence[str] = BODIES
 ) -> ContactConditions:
     """Return the input of a fresh effect, by number; the second body is swept."""
     # The faster, the less pressure: the power stays what it is.
     pressure = hertz_pressure(GRID) / (1, 2, 20)[number]
-    known = fields(names_of(effect.requires), given, pressure, pattern(GRID.cells, number))
+    known = fields(names_of(effect.requires), pressure, pattern(GRID.cells, number))
     start = effect.initial_state()
     state = {
         f.name: np.full((1, 1) if f.uniform else GRID.cells, start[f.name])
@@ -252,7 +238,7 @@ def problem(
     return locked(ContactProblem(system, ball(grid), LOAD))
 
 
-def run(given: Mapping[str, FieldValue], parts: Callable[[], dict[str, Any]]) -> None:
+def run(parts: Callable[[], dict[str, Any]]) -> None:
     """Run a small case, and once more from the middle with new objects.
 
     The run itself holds in each step that a body loses just what its law says. It leaves the state
@@ -260,7 +246,7 @@ def run(given: Mapping[str, FieldValue], parts: Callable[[], dict[str, Any]]) ->
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        model, resumed = (_accepted(given, parts()) for _ in range(2))
+        model, resumed = (_accepted(parts()) for _ in range(2))
         before = process_state()
         states = [begin(model)]
         for accepted in march(model, states[0]):
@@ -278,20 +264,19 @@ def run(given: Mapping[str, FieldValue], parts: Callable[[], dict[str, Any]]) ->
         require(where is None, f"{where} was changed in a run")
 
 
-def _accepted(given: Mapping[str, FieldValue], parts: Mapping[str, Any]) -> Model:
+def _accepted(parts: Mapping[str, Any]) -> Model:
     """Return the model of a small case: of several contacts, the first that nothing refuses."""
     refused: list[CaseError] = []
     for motion, solver in product((sliding(3.0), _Staying(**dict(sliding(3.0)))), SOLVERS):
         common = {"kinematics": motion, "contact": solver()}
         try:
-            return Simulation(small_case(given, **{**common, **parts})).model
+            return Simulation(small_case(**{**common, **parts})).model
         except CaseError as error:
             refused.append(error)
     raise refused[0]
 
 
 def small_case(
-    given: Mapping[str, FieldValue],
     *,
     kinematics: Kinematics | None = None,
     law: Any = ARCHARD,
@@ -318,8 +303,8 @@ def small_case(
             for name, surface in zip(BODIES, _shapes(kinematics), strict=True)
         },
         kinematics=kinematics,
-        friction=None if friction in provided else float(field(friction, (), given, np.zeros(()))),
-        effects=[*([_providing(needed, given)] if needed else []), *effects],
+        friction=None if friction in provided else float(field(friction, (), np.zeros(()))),
+        effects=[*([_providing(needed)] if needed else []), *effects],
         **{"contact": Winkler(), "stepping": LONG_STEPS, **more},
     )
 
@@ -338,14 +323,14 @@ class _Staying(Reciprocating):
         return {name: Stationary(grid) for name in bodies}
 
 
-def _providing(names: Sequence[str], given: Mapping[str, FieldValue]) -> Effect:
+def _providing(names: Sequence[str]) -> Effect:
     class Given(Effect):
         type = "tribo.testing.given"
         provides = tuple(Field(name, "1", "A sample.") for name in names)
 
         def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
             shape = contact.pressure.shape
-            answers = fields(names, given, contact.pressure, 0.49 + 0.02 * pattern(shape))
+            answers = fields(names, contact.pressure, 0.49 + 0.02 * pattern(shape))
             return {name: dict.fromkeys(contact.materials, v) for name, v in answers.items()}
 
     return Given()

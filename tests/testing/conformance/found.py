@@ -20,7 +20,7 @@ def main() -> None:
 
     rows = []
     for words, cls in MISTAKES.items():
-        (checks,) = suites(cls, [configuration(cls)], {})
+        (checks,) = suites(cls, [configuration(cls)])
         names, runs = [], []
         for name in sorted(names_of(type(checks))):
             (runs if name.startswith("runs_") else names).append(name)

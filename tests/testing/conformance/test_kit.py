@@ -157,24 +157,11 @@ class Sloped(Heated):
         return replace(super().rate(local), depth_slope=1e-16 * local.fields["heat_slope"])
 
 
-@pytest.mark.parametrize(
-    ("cls", "fields"),
-    [
-        (Heated, {"heat": lambda pressure: 2 * pressure}),
-        (Sloped, {}),
-        (Sloped, {"heat_slope": 2.0}),
-        (Sloped, {"heat": lambda pressure: pressure}),
-    ],
-)
-def test_a_field_may_follow_the_pressure_as_given_or_by_its_slope(cls, fields):
-    report = check(cls, [{}], fields=fields)
-    assert report.ok, str(report)
-
-
-def test_a_field_that_is_given_as_a_number_does_not_follow_the_pressure():
-    (checks,) = suites(Heated, [{}], {"heat": 1e9})
+def test_a_field_follows_the_pressure_by_its_slope_alone():
+    (sound,), (wrong,) = (suites(cls, [{}]) for cls in (Sloped, Heated))
+    sound.derivative_is_that_of_the_depth()
     with pytest.raises(CheckFailed, match="follows the pressure, say how"):
-        checks.derivative_is_that_of_the_depth()
+        wrong.derivative_is_that_of_the_depth()
 
 
 class Protected(Law):

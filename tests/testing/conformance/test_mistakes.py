@@ -37,7 +37,7 @@ def test_the_table_has_them_all_and_95_percent_are_found():
 @pytest.mark.filterwarnings("ignore")
 def test_a_mistake_is_found(row, monkeypatch):
     cls = MISTAKES[row["mistake"]]
-    (checks,) = suites(cls, [configuration(cls)], {})
+    (checks,) = suites(cls, [configuration(cls)])
     if row["ends_the_process"]:
         monkeypatch.setenv("TRIBO_PLUGIN_TIME_LIMIT", "0.7")
         outcomes, ended = in_child(outcome_of, [(checks, row["found_by"][0])])

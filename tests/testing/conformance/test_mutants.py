@@ -81,13 +81,13 @@ ERRORS = (CheckFailed, AssertionError, AttributeError, RuntimeError, ValueError)
 def test_a_mutant_is_caught_by_its_check(monkeypatch, name, mutant):
     # One never comes to its end.
     monkeypatch.setattr(samples, "STEPS", 100)
-    (checks,) = suites(mutant, [{}], {})
+    (checks,) = suites(mutant, [{}])
     with pytest.raises(ERRORS):
         perform(checks, name)
 
 
 def test_a_sound_load_passes():
-    (checks,) = suites(MODELS["Spring"], [{}], {})
+    (checks,) = suites(MODELS["Spring"], [{}])
     perform(checks, "runs_in_a_case")
 
 
