@@ -66,15 +66,7 @@ class Guard(Generic[C]):
 
     def number(self, name: str, value: object, where: str = "") -> float:
         """Return the answer `name`, which is a number, as a float."""
-        plain = value if isinstance(value, float | int) else _plain(value)
-        if isinstance(plain, np.ndarray):
-            if plain.shape != ():
-                raise self.bad(name, _shown(value), where)
-            plain = float(plain)
-        least, most = self.answers[name].range
-        if not least <= plain <= most:
-            raise self.bad(name, f"{plain!s:.24}", where)
-        return float(plain)
+        return float(self.array(name, value, (), where))
 
     def array(self, name: str, values: object, shape: tuple[int, ...], where: str = "") -> Array:
         """Return the answer `name` as floats of this shape, which cannot be written to any more."""
@@ -94,7 +86,7 @@ class Guard(Generic[C]):
             bad = np.count_nonzero(~np.isfinite(array))
             worst = low if low < least else high
             fault = f"not finite in {bad} cells" if bad else f"{worst:.6g} somewhere"
-            raise self.bad(name, fault, where)
+            raise self.bad(name, fault if shape else f"{array!s:.24}", where)
         if array.base is not None:
             # What it is a view of could still be written to.
             array = array.copy()

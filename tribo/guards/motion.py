@@ -18,7 +18,8 @@ from tribo.motion.cycle import Position, Speeds
 from tribo.motion.exposure import Exposure, Passing, Stationary, Track
 from tribo.motion.kinematics import Kinematics
 
-SAMPLES = 8
+PARTS = tuple(part / 8 for part in range(1, 9))
+"""Of a run, at which its path is tried before it begins."""
 SAME = 1e-6
 """Part by which what must be the same may differ."""
 
@@ -170,25 +171,32 @@ class GuardedMotion(Guard[Kinematics]):
         time = self.ask(self.component.time_at, distance)
         return self.number("time_at", time, f" at {distance:g} m")
 
-    def check_distance(self, end: float) -> None:
+    def check_distance(self, end: float, parts: Sequence[float] = PARTS) -> None:
         """Refuse a distance that does not grow from 0 to `end` (s), or is not `time_at`'s inverse.
 
-        A few times are tried; a run checks its own times.
+        Times are tried that are `parts` of the end; a run checks its own times.
         """
         start, total = self.distance_at(0.0), self.distance_at(end)
         if start != 0 or not total > 0:
             raise PluginError(
                 f"{self} slides from {start:g} m to {total:g} m; it must slide on from 0"
             )
-        for part in range(1, SAMPLES + 1):
-            distance = total * part / SAMPLES
-            time = self.time_at(distance)
-            reached = self.distance_at(time)
-            if not (time >= 0 and abs(reached - distance) <= SAME * total):
+        before = start
+        for time in (end * part for part in parts):
+            distance = self.distance_at(time)
+            if distance < before:
                 raise PluginError(
-                    f"{self} puts {distance:g} m at {time:g} s, but has slid {reached:g} m by "
-                    "then: its time is not the inverse of its distance"
+                    f"{self} slides back from {before:.6g} m to {distance:.6g} m before {time:g} s"
                 )
+            first = self.time_at(distance)
+            reached = self.distance_at(first)
+            if not (0 <= first <= time + SAME * end and abs(reached - distance) <= SAME * distance):
+                raise PluginError(
+                    f"{self} slides {distance:.9g} m in {time:.9g} s, and puts that at {first:.9g} "
+                    f"s, by when it has slid {reached:.9g} m: its time is not the inverse of its "
+                    "distance, the first time there"
+                )
+            before = distance
 
     def check_contact(self, half_width_x: float) -> None:
         """Raise `CaseError` if its averaging makes no sense for the first contact."""

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from tribo.core.arrays import Array, Cell, Mask
+from tribo.core.arrays import Array
 from tribo.core.fields import ContactConditions
 from tribo.core.grid import Grid
 from tribo.core.material import Material
+from tribo.core.state import Snapshot
 from tribo.effects.effect import Effect
 from tribo.guards.answers import initial
 from tribo.guards.parts import GuardedEffect
@@ -34,9 +36,8 @@ _LONGEST = 60.0
 """Time for which a state has been there at most, in s."""
 _FAR = 100.0
 _FINER, _ROUND_OFF = 0.1, 1e-9
-_VARIED, _SLIGHT, _NUDGE = 1e-3, 1e-6, 1e-5
-"""Part by which a cell is varied, and of an answer that beyond `reach` may change: rounding; and
-part by which all that fields follow is varied."""
+_NUDGE = 1e-5
+"""Part by which all that fields follow is varied."""
 
 
 class EffectChecks(LocalChecks):
@@ -72,6 +73,16 @@ class EffectChecks(LocalChecks):
         rates = component.state_rates(inputs) if inputs.state else {}
         # A state itself is the answer to whoever requires its name.
         return {**provided, **inputs.state, **self._state_answers(component, rates)}
+
+    def _asked(self, component: Any, given: Any) -> Mapping[str, Any]:
+        if type(component).load_factor is Effect.load_factor:
+            return self._call(component, given)
+        factor = float(component.load_factor(self._snapshot))
+        return {**self._call(component, given), "load_factor": factor}
+
+    @cached_property
+    def _snapshot(self) -> Snapshot:
+        return samples.last({"effects": [self._make()]})
 
     def answers_fit_a_run(self) -> None:
         """Each declared field comes for each body, finite, within its limits, on the window.
@@ -131,43 +142,6 @@ class EffectChecks(LocalChecks):
             where = given.state and first_difference(self._call(effect, given), later)
             require(not where, f"{where} follows contact.distance beside the state")
 
-    def reach_is_as_declared(self) -> None:
-        """Nothing follows pressure, state or wear of points further away than `reach` says."""
-        effect = self._make()
-        apply_if(effect.reach, "it declares no reach")
-        whole = effect.reach == "contact"
-        reach = effect.reach if isinstance(effect.reach, tuple) else (0, 0)
-        for sample in self._samples():
-            given = locked(_even(sample)) if whole else sample
-            usual = values_in(self._call(effect, given))
-            for what, cells, other in _varied(given, whole):
-                near = np.any([_within(reach, cell) for cell in cells], axis=0)
-                for where, values in values_in(self._call(effect, locked(other))).items():
-                    change = np.abs(values - usual[where])
-                    off = np.max(np.where(near, 0.0, np.broadcast_to(change, GRID.cells)))
-                    require(
-                        off <= _SLIGHT * np.max(np.abs(usual[where])),
-                        f"{where} follows {what} further away than reach = {effect.reach!r}",
-                    )
-
-    def slopes_are_derivatives(self) -> None:
-        """A field called NAME_slope is the derivative of the field NAME in pressure."""
-        effect = self._make()
-        names = {field.name for field in effect.provides}
-        sloped = [name for name in names if f"{name}_slope" in names]
-        apply_if(sloped, "it provides no slope")
-        for given in self._samples():
-            step = 1e-6 * given.pressure
-            less, now, more = (
-                self._call(effect, locked(replace(given, pressure=given.pressure + way * step)))
-                for way in (-1, 0, 1)
-            )
-            for name in sloped:
-                for body in given.materials:
-                    found = now[f"{name}_slope"][body] * step
-                    needed = 0.5 * (more[name][body] - less[name][body])
-                    expect_close(f"change of {name!r} by its slope", found, needed, 1e-4)
-
     def product_is_that_of_differences(self) -> None:
         """What `pull_back` answers are the derivatives of each field in all that it follows."""
         apply_if(self._cls.pull_back is not Effect.pull_back, "it states no product")
@@ -216,32 +190,6 @@ def _beside(value: Any, by: float) -> Any:
     return by * value * (0.5 + samples.pattern(np.shape(value))) if np.ndim(value) else by * value
 
 
-def _varied(
-    given: ContactConditions, whole: bool
-) -> Iterator[tuple[str, list[Cell], ContactConditions]]:
-    """Yield the varied input, its cells, and the conditions with it.
-
-    One cell is varied; of a pressure that acts as a whole, two are exchanged, so that sums stay.
-    """
-    (nx, ny), varied = GRID.cells, ("pressure", "state", "wear_rates")
-    here, there = (nx // 2, ny // 2), (nx // 2 + 3, ny // 2 - 1)
-    for path, values in values_in(given).items():
-        if path.partition(".")[0] not in varied or np.shape(values) != GRID.cells:
-            continue
-        exchanged = whole and path == "pressure"
-        for cells in [[here, there]] if exchanged else [[here], [(0, 0)]]:
-            other = values.copy()
-            if exchanged:
-                other[here], other[there] = values[there], values[here]
-            else:
-                other[cells[0]] += _VARIED * np.max(np.abs(values))
-
-            def change(at: Any, value: Any, path: str = path, other: Array = other) -> Any:
-                return other if ".".join(map(str, at)) == path else value
-
-            yield path, cells, mapped(given, change)
-
-
 def _on(grid: Grid, given: ContactConditions, part: float = 1.0) -> ContactConditions:
     """Return conditions in another window, with a part of what varies, which is smooth there."""
     x, y = (axis / length for axis, length in zip(grid.mesh, GRID.size, strict=True))
@@ -257,18 +205,6 @@ def _on(grid: Grid, given: ContactConditions, part: float = 1.0) -> ContactCondi
     pressure = part * np.max(given.pressure) * (samples.hertz_pressure(grid) / samples.PEAK) ** 4
     system = replace(given.system, grid=grid)
     return locked(replace(mapped(given, smooth), system=system, pressure=pressure))
-
-
-def _within(reach: tuple[int, int], cell: tuple[int, int]) -> Mask:
-    """Return where the window is no further from a cell than it is reached."""
-    rows, columns = np.indices(GRID.cells)
-    return (np.abs(rows - cell[0]) <= reach[0]) & (np.abs(columns - cell[1]) <= reach[1])
-
-
-def _even(given: ContactConditions) -> ContactConditions:
-    """Return conditions with fields that are alike at all points: what follows Σ μ p follows Σp."""
-    even = mapped(given.fields, lambda _, values: np.full_like(values, np.mean(values)))
-    return replace(given, fields=even)
 
 
 def _gone_far(effect: GuardedEffect, given: ContactConditions) -> ContactConditions:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections import UserDict
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from dataclasses import replace
 from itertools import product
 from typing import Any, ClassVar
 
 import numpy as np
+from scipy.ndimage import maximum_filter
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, Mask
 from tribo.core.fields import Field, names_of
 from tribo.core.material import Material
 from tribo.core.units import quantities
@@ -28,6 +27,7 @@ from tribo.testing.compare import (
     locked,
     mapped,
     require,
+    values_in,
 )
 from tribo.testing.rescaling import renewed, units_of
 
@@ -36,6 +36,9 @@ _DECADE, _GROWS, _MUCH = 0.1, 5.0, 20.0
 _ABOVE, _NUDGE = 1e-9, 1e-3
 _RUNGS = 33
 """Values of a state between which a jump of the rates is looked for."""
+_VARIED, _SLIGHT = 1e-3, 1e-6
+"""Part beyond the largest to which a cell is varied; and part of an answer that may change beyond
+`reach`: rounding."""
 
 
 class LocalChecks(Checks):
@@ -110,14 +113,18 @@ class LocalChecks(Checks):
             checks = self if config is self._config else type(self)(config)
             component = checks._make()
             for given in checks._samples():
-                usual = checks._call(component, given)
+                usual = checks._asked(component, given)
                 for what, name in sorted(idle):
                     own = {rate_of(name): None}
                     for pair in _altered(component, given, what, name):
-                        if first_difference({**usual, **own}, {**checks._call(*pair), **own}):
+                        if first_difference({**usual, **own}, {**checks._asked(*pair), **own}):
                             idle.discard((what, name))
         listed = ", ".join(f"the {what} {name!r}" for what, name in sorted(idle))
         require(not idle, f"no answer changes with {listed}")
+
+    def _asked(self, component: Any, given: Any) -> Mapping[str, Any]:
+        """Return all its answers."""
+        return self._call(component, given)
 
     def rates_jump_at_breaks_alone(self) -> None:
         """Where an answer jumps as a state changes, the field declares a break."""
@@ -177,31 +184,102 @@ class LocalChecks(Checks):
                     "end",
                 )
 
-    def only_declared_fields_are_asked_for(self) -> None:
-        """It asks for no field but those in `requires`."""
-        given = self._sample()
-        asked = Asked(given.fields)
-        with suppress(KeyError):
-            self._call(self._make(), replace(given, fields=asked))
-        missed = ", ".join(sorted(asked.missed))
-        require(not missed, f"it asked for {missed}; add that to requires")
+    def slopes_are_derivatives(self) -> None:
+        """The slope of an answer, `depth_slope` or NAME_slope, is its derivative in pressure."""
+        component, stated = self._make(), False
+        follows = (
+            "; if a field that it requires follows the pressure, say how: see 'Wear laws' on the "
+            "page 'Plugin interface'"
+        )
+        for number in self._numbers:
+            pressure = self._sample(number).pressure
+            step = 1e-5 * pressure
+            less, now, more = (
+                values_in(self._call(component, self._under(number, pressure + way * step)))
+                for way in (-1, 0, 1)
+            )
+            for where, value in now.items():
+                name, dot, body = where.partition(".")
+                slope = now.get(f"{name.removesuffix('_rate')}_slope{dot}{body}")
+                if slope is None:
+                    continue
+                stated = True
+                forward, backward = more[where] - value, value - less[where]
+                # At a kink one side is right. Round-off is 1e-11 of the value.
+                changes = np.stack([forward, backward, (forward + backward) / 2])
+                error = np.min(np.abs(slope * step - changes), axis=0)
+                excess = error - 1e-4 * np.maximum(np.abs(slope) * step, 1e-5 * np.abs(value))
+                worst = np.unravel_index(int(np.argmax(excess)), excess.shape)
+                require(
+                    excess[worst] <= 0,
+                    f"at p = {pressure[worst]:.3g} Pa {where} changes by {changes[2][worst]:.6g} "
+                    f"with {step[worst]:.3g} Pa, but by its slope by {(slope * step)[worst]:.6g}"
+                    f"{follows if component.requires else ''}",
+                )
+        apply_if(stated, "it states no slope")
+
+    def _under(self, number: int, pressure: Array) -> Any:
+        """Return the conditions of a number under another pressure."""
+        return locked(replace(self._sample(number), pressure=pressure))
+
+    def reach_is_as_declared(self) -> None:
+        """Nothing follows what is further away than `reach` says; a law follows its point alone."""
+        model = self._make()
+        declared = getattr(model, "reach", "point")
+        apply_if(declared, "it declares no reach")
+        whole = declared == "contact"
+        reach = declared if isinstance(declared, tuple) else (0, 0)
+        for sample in self._samples():
+            given = locked(_even(sample)) if whole else sample
+            usual = values_in(self._call(model, given))
+            for what, varied, other in _varied(given, declared):
+                positions = [1] * (varied.ndim - 2)
+                near = maximum_filter(varied, [*positions, *(1 + 2 * n for n in reach)])
+                for where, values in values_in(self._call(model, locked(other))).items():
+                    change = np.abs(values - usual[where])
+                    off = np.max(np.where(near, 0.0, np.broadcast_to(change, near.shape)))
+                    require(
+                        off <= _SLIGHT * np.max(np.abs(usual[where])),
+                        f"{where} follows {what} further away than reach = {declared!r}",
+                    )
 
 
-class Asked(UserDict[str, Any]):
-    """A mapping that records the names of failed look-ups."""
+def _varied(given: Any, reach: object) -> Iterator[tuple[str, Mask, Any]]:
+    """Yield a varied input, where it is varied, and the conditions with it.
 
-    def __init__(self, values: Mapping[str, Any]) -> None:
-        super().__init__(values)
-        self.missed: set[str] = set()
+    Of a pressure that acts as a whole two points are exchanged, so that sums stay.
+    """
+    shape = given.pressure.shape
+    half = samples.pattern(shape) > 0.5
+    few = [_one(shape, part) for part in (0.0, 0.4, 0.6)]
+    names = {"pressure", "state", "wear_rates", *(() if reach == "contact" else ("fields",))}
+    for path, values in values_in(given).items():
+        if path.partition(".")[0] not in names or np.shape(values) != shape:
+            continue
+        for varied in few[:2] if isinstance(reach, tuple) else [half]:
+            other = np.where(varied, (1 + _VARIED) * np.max(np.abs(values)), values)
+            if reach == "contact" and path == "pressure":
+                varied = few[1] | few[2]
+                other = values.copy()
+                other[varied] = values[varied][::-1]
 
-    def __missing__(self, name: str) -> Any:
-        self.missed.add(name)
-        raise KeyError(name)
+            def change(at: Any, value: Any, path: str = path, other: Array = other) -> Any:
+                return other if ".".join(map(str, at)) == path else value
 
-    def __contains__(self, name: object) -> bool:
-        if name not in self.data:
-            self.missed.add(str(name))
-        return name in self.data
+            yield path, varied, mapped(given, change)
+
+
+def _one(shape: tuple[int, ...], part: float) -> Mask:
+    """Return an array that is true at one point, a part of its way from corner to corner."""
+    where = np.zeros(shape, dtype=bool)
+    where[tuple(int(part * n) for n in shape)] = True
+    return where
+
+
+def _even(given: Any) -> Any:
+    """Return conditions with fields that are alike at all points: what follows Σ μ p follows Σp."""
+    even = mapped(given.fields, lambda _, values: np.full_like(values, np.mean(values)))
+    return replace(given, fields=even)
 
 
 def _at(given: Any, name: str, value: float) -> Any:

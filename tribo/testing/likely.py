@@ -4,14 +4,14 @@ _OFTEN = """
 work in place, a global seed, or numpy.seterr: calls_leave_no_trace
 a cache, a counter, a buffer used again, or fresh noise: same_inputs_give_same_bits
 a number of the code, or of another unit: units_may_be_rescaled
-a mean, a shift, or swapped axes: points_are_independent reach_is_as_declared
+a mean, a shift, or swapped axes: reach_is_as_declared
 a mean over the window, or swapped axes: larger_window_has_the_same_fields window_changes_no_average
 a zero or a scale by the window, or swapped axes: smaller_window_sees_the_same_surface
 a length of the track, a mean, or swapped axes: averages_are_linear_and_keep_the_volume
 a mean in place of the largest value: envelope_covers_the_field
 swapped axes, a symmetry, or another zero of the gap: pressure_goes_with_the_gap
 a cell for a length or an area: finer_cells_change_little finer_cells_sample_the_same_surface
-a factor left out in one of the two: derivative_is_that_of_the_depth slopes_are_derivatives
+a factor left out in one of the two: slopes_are_derivatives
 a factor or a sign left out in one of the two: curvature_is_that_of_the_heights
 a number or a sign left out in one of the two: product_is_that_of_differences
 a length left out in one of the two: compliance_is_the_average_of_a_linear_law
@@ -20,13 +20,11 @@ a sign, growth by itself, or no term that ends it: states_can_last
 a threshold that is not declared: depth_does_not_jump rates_jump_at_breaks_alone
 a name in the code, or the last body: bodies_may_have_any_names bodies_change_places_as_named
 what is left out, or a number in its place: what_is_declared_matters
-a name that is not in requires: only_declared_fields_are_asked_for
 problem.wear, or a part of it, left out: wear_compliance_adds_its_depth
 a part of one body alone: cap_acts_where_it_is_reached no_mode_is_stiffer_than_stated
 the zero of the approach, or a part of one body alone: more_load_goes_deeper
 a distance in place of a state, or wear that should feed it: state_is_all_that_remembers
 the contact of the start: warm_start_changes_nothing
-the end of a rest in place of its beginning: time_is_the_first_at_its_distance
 a name, a state or an end that a run need not have: any_run_is_survived
 """
 _LINES = [line.split(": ") for line in _OFTEN.strip().splitlines()]

@@ -29,6 +29,7 @@ from tribo.core.fields import (
 )
 from tribo.core.grid import Grid
 from tribo.core.material import Material, contact_modulus
+from tribo.core.state import Snapshot
 from tribo.effects.effect import Effect
 from tribo.evolution.local_fields import effect_fields
 from tribo.model.model import Model
@@ -262,6 +263,13 @@ def run(parts: Callable[[], dict[str, Any]]) -> None:
             require(where is None, lost)
         where = first_difference(before, process_state())
         require(where is None, f"{where} was changed in a run")
+
+
+def last(parts: Mapping[str, Any]) -> Snapshot:
+    """Return the last snapshot of a small run."""
+    model = _accepted(parts)
+    *_, end = march(model, begin(model))
+    return Watch(model).snapshot(end.state)
 
 
 def _accepted(parts: Mapping[str, Any]) -> Model:

@@ -258,4 +258,4 @@ class Spring(Effect):
         return 1 - self.relaxes * sum(b.max_wear_depth for b in snapshot.measures.bodies.values())
 
 
-EFFECTS = (Heating, Debris, Transfer, Spreading, Bath, Tribofilm, Flash, Slip, Stated)
+EFFECTS = (Heating, Debris, Transfer, Spreading, Bath, Tribofilm, Flash, Slip, Stated, Spring)

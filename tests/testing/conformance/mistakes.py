@@ -45,7 +45,7 @@ NAMES = {
     "NUMBERS": NUMBERS,
 }
 """What the code of a mistake may name."""
-MODELS = {model.__name__: model for model in (*HONEST, honest_effects.Spring)}
+MODELS = {model.__name__: model for model in HONEST}
 
 
 def replaced(model, old, new):

@@ -159,9 +159,9 @@ class Sloped(Heated):
 
 def test_a_field_follows_the_pressure_by_its_slope_alone():
     (sound,), (wrong,) = (suites(cls, [{}]) for cls in (Sloped, Heated))
-    sound.derivative_is_that_of_the_depth()
+    sound.slopes_are_derivatives()
     with pytest.raises(CheckFailed, match="follows the pressure, say how"):
-        wrong.derivative_is_that_of_the_depth()
+        wrong.slopes_are_derivatives()
 
 
 class Protected(Law):
