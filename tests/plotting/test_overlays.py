@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 from made_results import GRID, made
+from matplotlib import pyplot
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.plotting.overlays import comparison_picture, difference_map
 from tribo.result.export import profile
+from tribo.study.comparison import Comparison
 
 
 @pytest.fixture(scope="module")
@@ -69,3 +71,12 @@ def test_a_time_without_a_save_is_refused_and_different_grids_are_named(results)
     assert "50 × 40, 25 × 20 cells" in figure.axes[0].get_title("left")
     with pytest.raises(CaseError, match="7 s; saved times: 0, 200"):
         comparison_picture(results, 7.0)
+
+
+def test_a_comparison_is_drawn_on_the_axes_that_are_given(results):
+    figure, axes = pyplot.subplots(1, 2)
+    assert Comparison(results).picture(200, parts=["ball"], ax=axes) is figure
+    assert [line.get_label() for line in axes[0].lines] == list(results)
+    with pytest.raises(CaseError, match=r"6 panels, 2 axes.*subplots\(3, 2\)"):
+        Comparison(results).picture(200, ax=axes)
+    pyplot.close(figure)

@@ -10,6 +10,7 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -31,12 +32,14 @@ from tribo.result.read import Result
 Results = Mapping[str, Result]
 
 
-def comparison_picture(results: Results, time: float, parts: Sequence[str] | None = None) -> Figure:
+def comparison_picture(
+    results: Results, time: float, parts: Sequence[str] | None = None, ax: Any = None
+) -> Figure:
     """Draw several results as one figure: sections through the windows' centres, along and across.
 
     `parts` are the rows: the name of a body for its surface, ``""`` for the pressure; if left out,
     the pressure and all worn bodies. All rows show the same part of the windows; there is none
-    along an axis along which nothing varies.
+    along an axis along which nothing varies. `ax` are axes to draw on, one for each panel.
     """
     looks, labels = overlay_looks(len(results)), list(results)
     names = ["", *_worn_in_all(results, time)] if parts is None else list(parts)
@@ -63,7 +66,8 @@ def comparison_picture(results: Results, time: float, parts: Sequence[str] | Non
         return section.draw(panel_axes, size(unit), looks, labels, up)
 
     rows = [[partial(panel, name, column) for column in range(len(axes))] for name in names]
-    return Picture(rows, 45.0, WIDE if len(axes) > 1 else SINGLE_COLUMN, "y").figure()
+    picture = Picture(rows, 45.0, WIDE if len(axes) > 1 else SINGLE_COLUMN, "y")
+    return picture.figure() if ax is None else np.ravel(picture.draw(ax))[0].figure
 
 
 def _grids(results: Results) -> str:

@@ -93,9 +93,16 @@ class Comparison:
         }
         return pd.concat(rows, names=["result", ""]).reset_index("result").reset_index(drop=True)
 
-    def picture(self, time: float | None = None) -> Figure:
-        """Draw the results over each other at a time in common, in s, or at the last."""
-        figure: Figure = call("overlay", self.results, self.times[-1] if time is None else time)
+    def picture(
+        self, time: float | None = None, parts: Sequence[str] | None = None, ax: Any = None
+    ) -> Figure:
+        """Draw the results over each other at a time in common, in s, or at the last.
+
+        A row of panels for each of `parts`: the pressure, ``""``, and surfaces of bodies, by name;
+        all if left out. `ax` are axes to draw on, one for each panel.
+        """
+        at = self.times[-1] if time is None else time
+        figure: Figure = call("overlay", self.results, at, parts, ax)
         return figure
 
     def _repr_html_(self) -> str:
