@@ -89,7 +89,6 @@ def test_json_is_one_object_and_files_compare_alike(folder, compared):
         (["a.h5", "b.h5"], ["--force"], "--set and --force are for a case that varies"),
         (["a.h5", "b.h5"], [], "a.h5 is not a file"),
         (["a.h5", "b.h5"], ["--at", "1 mm"], "--at: '1 mm' is a length [m]; a time [s] is needed"),
-        (["a.h5", "b.h5"], ["--match", "ball"], "--match: 'ball' is not of the form NAME=NAME"),
     ],
 )
 def test_bad_input_is_told_before_anything_runs(folder, tmp_path, files, options, message):

@@ -93,6 +93,12 @@ def test_results_without_a_common_save_are_refused(saved_at):
         saved_at((0, 100, 150), (75, 200))
 
 
+def test_bodies_of_other_names_are_refused(tmp_path):
+    pin = written(tmp_path / "pin.h5", names=("pin", "disk"))
+    with pytest.raises(CaseError, match="bodies of pin are called pin and disk, of ball ball and"):
+        compare([written(tmp_path / "ball.h5"), pin])
+
+
 @pytest.mark.slow
 def test_a_folder_with_another_case_is_left_alone_unless_told(done):
     with pytest.raises(CaseError, match="is the result of another case; choose another folder"):

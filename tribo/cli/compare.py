@@ -26,7 +26,6 @@ _GAP = 3
 @PLUGIN
 @click.option("-o", "--output", type=PATH, help="Write to this folder, by default CASE-compare.")
 @click.option("--at", "at", multiple=True, metavar="TIME", help="Show this saved time, as '1 h'.")
-@click.option("--match", multiple=True, metavar="NAME=NAME", help="Match two bodies, as ball=pin.")
 @click.option("--force", is_flag=True, help="Run all again.")
 @JSON
 @click.option("--no-plots", is_flag=True, help="Write no pictures.")
@@ -36,7 +35,6 @@ def compare(
     overrides: tuple[str, ...],
     output: Path | None,
     at: tuple[str, ...],
-    match: tuple[str, ...],
     force: bool,
     as_json: bool,
     no_plots: bool,
@@ -47,8 +45,7 @@ def compare(
     between what takes turns, or it is a TOML list in brackets. Several --vary
     multiply. X.type=A,B replaces the table X by the defaults of each type that is
     not the case's own. What is done already in the folder is not run again. The
-    first variant or file is what the others are compared with. Bodies are matched
-    by name, else by role (swept or not); --match ball=pin says which is which.
+    first variant or file is what the others are compared with.
 
     \b
     Example:
@@ -64,15 +61,10 @@ def compare(
     folder = output or files[0].with_name("-".join([*stems, "compare"]))
     with located("--at"):
         times = [Quantity("s", at_least=0).read(parse_value(text)) for text in at]
-    pairs = [text.partition("=") for text in match]
-    for name, equals, own in pairs:
-        if not name or not own:
-            text = f"{name}{equals}{own}"
-            raise CaseError(f"{text!r} is not of the form NAME=NAME, as in ball=pin", "--match")
     what, options = _asked(files, vary, overrides, force)
     if vary:
         options |= {"folder": folder, "times": times}
-    with run(what, match={name: own for name, _, own in pairs}, **options) as comparison:
+    with run(what, **options) as comparison:
         chosen = comparison.chosen_times(times)
         if not as_json:
             print_comparison(comparison, chosen)

@@ -266,12 +266,6 @@ def other_grid(labels: Sequence[str], reference: str) -> Finding:
     )
 
 
-def paired(label: str, names: Sequence[tuple[str, str]]) -> Finding:
-    """Word the bodies of a result that are compared with bodies of other names."""
-    pairs = ", ".join(f"{own!r} with {name!r}" for own, name in names)
-    return Finding("bodies", f"{label}: compares {pairs}; --match NAME=NAME pairs them otherwise")
-
-
 def goes_on(label: str, end: float, last: float) -> Finding:
     """Word a result that has later saves than the last common one, both in s."""
     words = f"{label} continues to {end:g} s, beyond the last common saved time"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from io import BytesIO
@@ -110,25 +109,6 @@ def read_variables(datasets: Mapping[str, h5py.Dataset]) -> dict[str, Variable]:
         bodies = tuple(map(str, values.attrs["bodies"]))
         table[name] = Variable(dims, unit, meaning, kind, field, bodies)
     return table
-
-
-def renamed_image(image: BytesIO, names: Mapping[str, str]) -> BytesIO:
-    """Return a file in which the bodies have other names; `names` has the new by the old."""
-    with open_hdf5(image, "r+") as file:
-        case = json.loads(file.attrs["case"])
-        case["bodies"] = {names[name]: body for name, body in case["bodies"].items()}
-        file.attrs["case"] = json.dumps(case)
-        file["body"][...] = list(case["bodies"])
-        findings = json.loads(file.attrs["findings"])
-        for each in findings:
-            kind, *keys = each["place"].split(".")
-            if kind == "bodies":
-                each["place"] = ".".join([kind, *(names.get(key, key) for key in keys)])
-        file.attrs["findings"] = json.dumps(findings)
-        for dataset in file.values():
-            if "bodies" in dataset.attrs:
-                dataset.attrs["bodies"] = [names[name] for name in dataset.attrs["bodies"]]
-    return image
 
 
 def _create(file: h5py.File, name: str, variable: Variable, shape: list[int]) -> h5py.Dataset:

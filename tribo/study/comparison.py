@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -24,7 +23,6 @@ from tribo.registry.registry import Registry
 from tribo.result.read import Result
 from tribo.simulation.run import Simulation
 from tribo.study.differences import differences
-from tribo.study.matching import check_match, pairs, renamed
 from tribo.study.runs import run_variants
 from tribo.study.side_by_side import comparison_table
 from tribo.study.variation import grid, short_labels, variants
@@ -46,12 +44,9 @@ class Comparison:
     Parameters
     ----------
     results : Mapping
-        The open results by their labels; bodies have their names in the first.
+        The open results by their labels.
     settings : Mapping, optional
         The settings of each, by label: values by path.
-    own_names : Mapping, optional
-        Names of the bodies of each result in its file, by label and by their
-        names here. The same if left out.
 
     Examples
     --------
@@ -64,9 +59,15 @@ class Comparison:
 
     results: Mapping[str, Result]
     settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-    own_names: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        for label, result in self.results.items():
+            if {*result.body_names} != {*self.bodies}:
+                raise CaseError(
+                    f"the bodies of {label} are called {' and '.join(result.body_names)}, of "
+                    f"{self.reference} {' and '.join(self.bodies)}; call them alike in both cases, "
+                    "and run again"
+                )
         if not self.times:
             raise CaseError(
                 "the results have no time of a save in common: "
@@ -155,15 +156,12 @@ class Comparison:
 
     @property
     def findings(self) -> list[Finding]:
-        """Findings on other grids and matched bodies, and findings of the runs."""
+        """Findings on other grids, and findings of the runs."""
         first, last = self.results[self.reference], self.times[-1]
         apart = [label for label, result in self.results.items() if result.grid != first.grid]
         found = [findings.other_grid(apart, self.reference)] if apart else []
         of_runs: dict[str, tuple[Finding, list[str]]] = {}
         for label, result in self.results.items():
-            names = self.own_names.get(label, {}).items()
-            if paired := [(own, name) for name, own in names if own != name]:
-                found.append(findings.paired(label, paired))
             if result.save_at(last) != len(result.times) - 1:
                 found.append(findings.goes_on(label, result.times[-1], last))
             if result.status != "done":
@@ -218,7 +216,6 @@ class Comparison:
                     "file": result.name,
                     "settings": dict(self.settings.get(label, {})),
                     "status": result.status,
-                    "bodies": dict(self.own_names.get(label, {})),
                     "uncertainty": self.cell_error(label),
                     "totals": dict(result.totals()),
                     "quantities": {row.key: row.value for row in quantity_rows(result)},
@@ -253,7 +250,6 @@ def compare(
     *,
     labels: Sequence[str] | None = None,
     times: Sequence[float] = (),
-    match: Mapping[str, str] = MappingProxyType({}),
     registry: Registry | None = None,
     observers: Callable[[], Sequence[Observer]] = list,
     tell: Callable[[str], None] = lambda text: None,
@@ -278,9 +274,6 @@ def compare(
         that differ, or stems of files, or whole names where stems are alike.
     times : sequence of float, optional
         Times, in s, at which all variants must save, so that they can be shown.
-    match : Mapping, optional
-        Names of bodies in the others, by names in the first. Bodies without
-        one are matched by name, else by role (swept or not), else in order.
     registry : Registry, optional
         Where to look components up; the installed plugins if left out.
     observers : callable, optional
@@ -299,8 +292,8 @@ def compare(
     ------
     CaseError
         If a variant is not valid or does not save at `times`, before any is
-        run; if a file is not a result, or damaged, or the results have no save
-        in common; or if `match` names a body that does not exist.
+        run; if a file is not a result, or damaged; or if the results have no
+        save in common, or bodies of other names.
     TriboError
         If a run fails; the message names the variant.
 
@@ -314,7 +307,7 @@ def compare(
     if isinstance(what, Sequence) and not isinstance(what, str):
         if vary:
             raise CaseError("a list of results has nothing to vary; give one case")
-        return _of_list(what, labels, match, registry)
+        return _of_list(what, labels, registry)
     points = grid(vary) if isinstance(vary, Mapping) else [dict(point) for point in vary]
     _check_count(len(points), "variant")
     cases = variants(case_tables(what), points, registry)
@@ -331,9 +324,7 @@ def compare(
         tell=tell,
         overwrite=overwrite,
     )
-    return _matched(
-        dict(zip(names, results, strict=True)), match, dict(zip(names, points, strict=True))
-    )
+    return Comparison(dict(zip(names, results, strict=True)), dict(zip(names, points, strict=True)))
 
 
 def _check_count(count: int, what: str) -> None:
@@ -359,7 +350,6 @@ def _check_saved(label: str, case: Case, times: Sequence[float], registry: Regis
 def _of_list(
     given: Sequence[Case | Result | str | Path],
     labels: Sequence[str] | None,
-    match: Mapping[str, str],
     registry: Registry | None,
 ) -> Comparison:
     _check_count(len(given), "result")
@@ -384,26 +374,6 @@ def _of_list(
             elif not isinstance(each, Result):
                 each = Simulation(each, registry).run()
             results[name] = unless_kept.enter_context(each)
-        comparison = _matched(results, match)
+        comparison = Comparison(results)
         unless_kept.pop_all()
     return comparison
-
-
-def _matched(
-    results: Mapping[str, Result],
-    match: Mapping[str, str],
-    settings: Mapping[str, Mapping[str, Any]] = MappingProxyType({}),
-) -> Comparison:
-    """Return the comparison of results, whose bodies then have their names in the first."""
-    found, own_names = dict(results), {}
-    first, *others = results.values()
-    check_match(match, first, others)
-    for label, result in results.items():
-        names = {name: name for name in result.body_names}
-        if result is not first:
-            names = pairs(first, result, match)
-        if any(name != own for name, own in names.items()):
-            found[label] = renamed(result, names)
-            result.close()
-        own_names[label] = names
-    return Comparison(found, settings, own_names)
