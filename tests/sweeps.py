@@ -79,7 +79,7 @@ class Inline(Executor):
         if isinstance(given, Exception):
             future.set_exception(given)
         else:
-            future.set_result(given or fn(*args, **kwargs))
+            future.set_result(fn(*args, **kwargs) if given is None else given)
         return future
 
 

@@ -27,13 +27,8 @@ case = "case.toml"
 [settings]
 grid.cells = {cells}
 
-[sample]
-method = "latin_hypercube"
-count = {runs}
-
-[sample.ranges]
-load.normal = {{ low = "60 N", high = "100 N" }}
-"bodies.ball.wear.k" = {{ low = 1e-16, high = 3e-16, scale = "log" }}
+[grid]
+load.normal = {loads}
 """
 
 
@@ -57,7 +52,8 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         study = Path(folder) / "study.toml"
         study.with_name("case.toml").write_text(template("ball_on_disk"))
-        study.write_text(STUDY.format(runs=chosen.runs, cells=chosen.cells))
+        loads = [60.0 + 40.0 * run / chosen.runs for run in range(chosen.runs)]
+        study.write_text(STUDY.format(loads=loads, cells=chosen.cells))
         (one, _), (several, inside) = timed(study, 1), timed(study, chosen.jobs)
     found = {
         "runs": chosen.runs,

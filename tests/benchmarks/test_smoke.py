@@ -91,8 +91,8 @@ def test_the_efficiency_of_a_sweep_is_measured(module, monkeypatch, capsys):
     inline = partial(sweep, executor=Inline())
     measured = module("speed.sweep")
     monkeypatch.setattr(measured, "sweep", lambda *given, jobs: inline(*given))
-    short = "kinematics.duration = 20\noutput.save_times = [0]\n[sample]"
-    monkeypatch.setattr(measured, "STUDY", measured.STUDY.replace("[sample]", short))
+    short = "kinematics.duration = 20\noutput.save_times = [0]\n[grid]"
+    monkeypatch.setattr(measured, "STUDY", measured.STUDY.replace("[grid]", short))
     measured.main()
     found = json.loads(capsys.readouterr().out)
     assert (found["runs"], found["jobs"]) == (2, 2)

@@ -33,7 +33,7 @@ def test_it_ends_with_tables_and_a_folder_of_results(swept):
     files = {path.name for path in (folder / "study-sweep" / "results").iterdir()}
     assert files == set(runs["file"])
     left = {path.name for path in (folder / "study-sweep").iterdir()}
-    assert left == {"runs.csv", "saves.csv", "results", *pictures}
+    assert left == {"runs.csv", "saves.csv", "results", "sweep.lock", *pictures}
 
 
 @pytest.mark.slow

@@ -28,7 +28,6 @@ NAMED = 5
     help="Run this many cases at once, by default one a core.",
 )
 @click.option("--retry", is_flag=True, help="Repeat failed runs.")
-@click.option("--yes", is_flag=True, help="Allow more than 1000 runs.")
 @JSON
 @PLUGIN
 def sweep(
@@ -36,7 +35,6 @@ def sweep(
     output: Path | None,
     jobs: int | None,
     retry: bool,
-    yes: bool,
     as_json: bool,
 ) -> None:
     """Run the cases of STUDY, a TOML file with the values that vary, in parallel.
@@ -56,7 +54,7 @@ def sweep(
     from tribo.study.sweeping.sweep import sweep as run
 
     with _shown() as tell:
-        swept = run(study, output, jobs=jobs, retry=retry, many=yes, tell=tell)
+        swept = run(study, output, jobs=jobs, retry=retry, tell=tell)
     total, reasons = len(swept.runs), swept.failures()
     failed = sum(map(len, reasons.values()))
     if as_json:

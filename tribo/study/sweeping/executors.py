@@ -12,9 +12,8 @@ from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPool
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from functools import partial
-from multiprocessing import get_context
-from multiprocessing.connection import wait
-from typing import Any, ParamSpec, TypeVar
+from multiprocessing import get_context, parent_process
+from typing import ParamSpec, TypeVar
 
 from tribo.core.errors import TriboWarning
 from tribo.registry.plugin_file import add_files, added_files
@@ -34,27 +33,16 @@ THREADS = (
 
 @contextmanager
 def processes(count: int | None = None) -> Iterator[Executor]:
-    """Run calls in single-threaded processes, by default one per core.
-
-    They end at once if this process is killed, or the block raises.
-    """
-    # A worker ends when the other end of this pipe is closed.
-    lifeline, ours = get_context("spawn").Pipe(duplex=False)
-    with lifeline, ours, _environment(), _Processes(count or _cores(), lifeline) as executor:
-        try:
-            yield executor
-        except BaseException:
-            ours.close()
-            executor.shutdown(cancel_futures=True)
-            raise
+    """Run calls in single-threaded processes, by default one per core; they end with this one."""
+    with _environment(), _Processes(count or _cores()) as executor:
+        yield executor
 
 
 class _Processes(ThreadPoolExecutor):
     """Threads with one process each, so that a dying process loses only its own call."""
 
-    def __init__(self, count: int, lifeline: Any) -> None:
+    def __init__(self, count: int) -> None:
         super().__init__(count)
-        self._lifeline = lifeline
         self._mine = threading.local()
         self._pools: list[ProcessPoolExecutor] = []
 
@@ -69,7 +57,7 @@ class _Processes(ThreadPoolExecutor):
     def _in_process(self, call: Callable[[], R]) -> R:
         if getattr(self._mine, "pool", None) is None:
             spawned = get_context("spawn")
-            begin = _begin, (self._lifeline, added_files())
+            begin = _begin, (added_files(),)
             self._mine.pool = ProcessPoolExecutor(1, spawned, *begin)
             self._pools.append(self._mine.pool)
         try:
@@ -89,13 +77,10 @@ def _cores() -> int:
 def _environment() -> Iterator[None]:
     """Limit processes that start now to one thread each for linear algebra.
 
-    They import nothing from the folder that they start in. Also silences Python's resource
-    tracker, which would warn if this process is killed.
+    They import nothing from the folder that they start in.
     """
     before = dict(os.environ)
-    quiet = before.get("PYTHONWARNINGS"), "ignore:::multiprocessing.resource_tracker"
-    os.environ.update(dict.fromkeys(THREADS, "1"), PYTHONWARNINGS=",".join(filter(None, quiet)))
-    os.environ["PYTHONSAFEPATH"] = "1"
+    os.environ.update(dict.fromkeys(THREADS, "1"), PYTHONSAFEPATH="1")
     try:
         yield
     finally:
@@ -103,11 +88,13 @@ def _environment() -> Iterator[None]:
         os.environ.update(before)
 
 
-def _begin(lifeline: Any, files: Sequence[str]) -> None:
+def _begin(files: Sequence[str]) -> None:
     """Prepare a process: ignore Ctrl-C, end with the parent, and let plugins of files take part."""
+    parent = parent_process()
+    assert parent is not None
 
     def end() -> None:
-        wait([lifeline])
+        parent.join()
         os._exit(1)
 
     # The results hold the warnings of the runs.

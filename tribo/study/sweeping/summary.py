@@ -82,16 +82,12 @@ def sweep_pictures(
 def curves_by(done: pd.DataFrame, others: Sequence[str]) -> tuple[list[str], bool]:
     """Return the columns that part runs into curves, and whether a line joins runs of a curve.
 
-    Where other quantities vary too, as in a random sample, no line joins them, and only text parts
-    the runs.
+    None part them where that made too many curves, or curves of single runs.
     """
-    others = [name for name in others if done[name].nunique() > 1]
-    texts = [name for name in others if not pd.api.types.is_numeric_dtype(done[name])]
-    for names, joined in ((others, True), (texts, False)):
-        count = done.groupby(names).ngroups if names else 1
-        if count <= MOST_CURVES and len(done) >= (2 * count if joined else 1):
-            return names, joined
-    return [], False
+    names = [name for name in others if done[name].nunique() > 1]
+    count = done.groupby(names).ngroups if names else 1
+    joined = count <= min(MOST_CURVES, len(done) // 2)
+    return names if joined else [], joined
 
 
 def varied_paths(runs: pd.DataFrame) -> Sequence[str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
@@ -16,20 +15,15 @@ import pandas
 from tribo.core.errors import CaseError
 from tribo.core.locks import BusyError
 from tribo.core.writing import make_folder, remove, write_file, writing
-from tribo.result.checkpoint import fingerprint
+from tribo.result.checkpoint import fingerprint, hold
 from tribo.simulation.run import Simulation
 from tribo.study.runs import is_done
 from tribo.study.sweeping.carrying import carry
 from tribo.study.sweeping.executors import processes
 from tribo.study.sweeping.runs_table import Run, failed_before, tables
 from tribo.study.sweeping.study_file import load_study, points
-from tribo.study.sweeping.worker import locked
 from tribo.study.variation import variants
 
-MANY = 1000
-"""Most runs without confirmation."""
-PATIENCE = 30.0
-"""Time that runs on an executor given by the user may take to stop, in s."""
 RUNS, SAVES, STOP, LOCK = "runs.csv", "saves.csv", "sweep.stop", "sweep.lock"
 
 
@@ -84,7 +78,6 @@ def sweep(
     executor: Executor | None = None,
     jobs: int | None = None,
     retry: bool = False,
-    many: bool = False,
     tell: Callable[[int, int, int], None] = lambda total, done, failed: None,
 ) -> Sweep:
     """Run all cases of a study, in parallel.
@@ -108,8 +101,6 @@ def sweep(
         Number of processes if there is no `executor`; a core each if left out.
     retry : bool, optional
         Whether to repeat failed runs.
-    many : bool, optional
-        Whether more than 1000 runs are allowed.
     tell : callable, optional
         Gets the numbers of all, finished and failed runs, at the beginning and
         as each run ends.
@@ -145,7 +136,7 @@ def sweep(
             raise CaseError("tables of a study have no name; give the folder of its results")
         output = Path(study).with_name(f"{Path(study).stem}-sweep")
     folder = Path(output)
-    runs, paths = plan(study, folder, many=many)
+    runs, paths = plan(study, folder)
     with _holding(folder):
         names = {run.path.name for run in runs}
         before = {} if retry else failed_before(folder / RUNS)
@@ -170,7 +161,7 @@ def sweep(
         tell(len(runs), done, len(failures))
         try:
             with nullcontext(executor) if executor else processes(jobs) as workers:
-                carry(left, workers, folder / STOP, ended, PATIENCE if executor else None)
+                carry(left, workers, folder / STOP, ended)
         finally:
             table, saves = tables(runs, paths, failures)
             for name, rows in ((RUNS, table), (SAVES, saves)):
@@ -179,12 +170,10 @@ def sweep(
     return Sweep(folder, tuple(runs), table)
 
 
-def plan(
-    study: str | Path | Mapping[str, Any], folder: Path, *, many: bool = False
-) -> tuple[list[Run], list[str]]:
+def plan(study: str | Path | Mapping[str, Any], folder: Path) -> tuple[list[Run], list[str]]:
     """Return the runs of a study, all validated, and the paths that vary."""
     asked, data = load_study(study)
-    settings = points(asked, data, math.inf if many else MANY)
+    settings = points(asked)
     runs = []
     for i, (label, case) in enumerate(variants(data, settings).items(), start=1):
         # Named after the case, so that a study may grow and nothing runs twice.
@@ -201,7 +190,7 @@ def _holding(folder: Path) -> Iterator[None]:
             make_folder(folder / "results")
             # This raises if the folder cannot be entered.
             os.listdir(folder / "results")
-            with locked(folder / LOCK):
+            with hold(folder / LOCK):
                 remove(folder / STOP)
                 yield
     except BusyError:
