@@ -15,7 +15,6 @@ from tribo.cli.options import JSON, SET, echo_json
 
 if TYPE_CHECKING:
     from tribo.core.data_table import DataTable
-    from tribo.verification.convergence import Convergence
     from tribo.verification.refinement import Refinement
     from tribo.verification.validation import Row, ValidationCase
 
@@ -154,36 +153,25 @@ def _study_table(study: Refinement) -> DataTable:
     from tribo.lab.units import shown_in
 
     forms = {"quantity": "", "value": ".5g", "±": "", "%": ".2f"}
-    forms |= {"grid": "", "GCI %": ".2f", "steps": ""}
+    forms |= {"grid": ".2f", "GCI %": ".2f", "steps": ".2f"}
     headings = [Heading(label, form=form) for label, form in forms.items()]
     rows = []
     for each in study.estimates:
-        quoted, gci = each.uncertainty, each.grid.gci
-        percent = None if quoted is None or not each.value else 100 * quoted / abs(each.value)
-        orders = _order(each.grid), None if gci is None else 100 * gci, _order(each.steps)
+        gci = None if each.grid.gci is None else 100 * each.grid.gci
+        percent = 100 * each.uncertainty / abs(each.value) if each.value else None
         unit, size = shown_in(each.unit, np.array(each.value))
-        value = each.value / size
-        shown = (value, None) if quoted is None else plus_minus(value, quoted / size)
+        shown = plus_minus(each.value / size, each.uncertainty / size)
+        orders = each.grid.order, gci, each.steps.order
         rows.append(TableRow((_named(each.name, unit), *shown, percent, *orders)))
     cells = ", ".join(str(level.cells[0]) for level in study.grids)
     steps = ", ".join(str(level.steps) for level in study.steps)
     notes = [
         f"Grids of {cells} cells along x, and {steps} steps; under each, the observed order. "
         "±: the uncertainty to quote, of grid and steps together. GCI: grid convergence index of "
-        "the finest grid (Celik et al. 2008)."
+        "the finest grid (Celik et al. 2008). Without an order the values do not converge, and ± "
+        "has three times their range."
     ]
-    if any(estimate.uncertainty is None for estimate in study.estimates):
-        notes.append(
-            "Where values diverge no uncertainty can be quoted: use more cells, or shorter steps."
-        )
     return DataTable("", headings, rows, notes, dense=True)
-
-
-def _order(found: Convergence) -> str:
-    if found.order is None:
-        return found.behaviour
-    order = f"{found.order:.2f}"
-    return order if found.behaviour == "converges" else f"{order}, {found.behaviour}"
 
 
 def _named(name: str, unit: str) -> str:

@@ -16,15 +16,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 from scipy.optimize import brentq
-
-from tribo.core.rounding import ROUND_OFF
-
-Behaviour = Literal[
-    "exact", "converges", "not asymptotic", "oscillates", "scatters", "diverges", "unrefined"
-]
 
 SAFETY, DOUBTFUL_SAFETY = 1.25, 3.0
 
@@ -35,28 +28,18 @@ class Convergence:
 
     values: tuple[float, float, float]
     """From coarse to fine."""
-    behaviour: Behaviour
-    """`exact` if the values agree to round-off; `converges` if their differences shrink and keep
-    their sign; `not asymptotic` if they do so at an order far from the formal one; `oscillates` if
-    the sign changes; `diverges` if they do not shrink, and `scatters` if nor do they exceed the
-    scatter of such values; `unrefined` if the sizes do not fall, whatever the values do."""
+    uncertainty: float
+    """Of the value at the case's own level, in its unit."""
     order: float | None = None
-    """Observed order; only of what converges, or is not asymptotic."""
+    """Observed order; None, as are limit and gci, where the values do not converge."""
     limit: float | None = None
-    """Value extrapolated with it; only of what converges."""
+    """Value extrapolated with it."""
     gci: float | None = None
-    """Grid convergence index of the finest level, relative to its value; of what converges."""
-    uncertainty: float | None = None
-    """Of the value at the case's own level, in its unit; None of what diverges."""
+    """Grid convergence index of the finest level, relative to its value."""
 
 
 def convergence(
-    values: Sequence[float],
-    sizes: Sequence[float],
-    *,
-    formal_order: float,
-    own: int = -1,
-    scatter: float = 0.0,
+    values: Sequence[float], sizes: Sequence[float], *, formal_order: float, own: int = -1
 ) -> Convergence:
     """Estimate the error of discretisation.
 
@@ -70,12 +53,9 @@ def convergence(
     The factor F is 1.25 if p is within 10 % of the formal order, and 3
     otherwise; of a p above the formal order, the formal one is used
     (Oberkampf & Roy). The uncertainty is F |φ − φ_limit| at the case's own
-    level, which is GCI times φ₁ at the finest. A p below half of the formal
-    order, or more than 1 above it, says that the levels are not in the
-    asymptotic range, and that nothing can be extrapolated: the uncertainty is
-    three times the range of the values, as of those that oscillate or scatter,
-    and of levels that are no refinement (Eça & Hoekstra). Of values that
-    diverge no range bounds the error, and there is none.
+    level, which is GCI times φ₁ at the finest. Without a p between half of the
+    formal order and 1 above it the values do not converge, and the uncertainty
+    is three times their range (Eça & Hoekstra).
 
     Parameters
     ----------
@@ -87,48 +67,28 @@ def convergence(
         Order of the method.
     own : int, optional
         Index of the level whose uncertainty is wanted; the finest if left out.
-    scatter : float, optional
-        Range of the values, in their unit, that is no sign of divergence; 1 %
-        of the largest if that is more.
     """
     coarse, middle, fine = three = values[0], values[1], values[2]
-    spread = max(values) - min(values)
-
-    def doubtful(behaviour: Behaviour, order: float | None = None) -> Convergence:
-        return Convergence(three, behaviour, order, uncertainty=DOUBTFUL_SAFETY * spread)
-
-    if not sizes[0] > sizes[1] > sizes[2]:
-        return doubtful("unrefined")
-    if spread <= ROUND_OFF * max(map(abs, values)):
-        return Convergence(three, "exact", gci=0.0, uncertainty=0.0)
-    rough, close = coarse - middle, middle - fine
-    if rough * close < 0 or close == 0:
-        return doubtful("oscillates")
-    order = _observed_order(rough, close, sizes)
-    if order is None:
-        if spread <= max(scatter, 0.01 * max(map(abs, values))):
-            return doubtful("scatters")
-        return Convergence(three, "diverges")
-    if not 0.5 * formal_order <= order <= formal_order + 1:
-        return doubtful("not asymptotic", order)
+    close = middle - fine
+    order = _observed_order(coarse - middle, close, sizes)
+    if order is None or not 0.5 * formal_order <= order <= formal_order + 1:
+        return Convergence(three, DOUBTFUL_SAFETY * (max(values) - min(values)))
     safety = SAFETY if abs(order - formal_order) <= 0.1 * formal_order else DOUBTFUL_SAFETY
     gain = (sizes[1] / sizes[2]) ** min(order, formal_order) - 1
     limit = fine - close / gain
     gci = safety * abs(close) / gain / abs(fine) if fine != 0 else None
-    uncertainty = safety * abs(values[own] - limit)
-    return Convergence(three, "converges", order, limit, gci, uncertainty)
+    return Convergence(three, safety * abs(values[own] - limit), order, limit, gci)
 
 
 def _observed_order(rough: float, close: float, sizes: Sequence[float]) -> float | None:
     """Return p of ε₃₂/ε₂₁ = r₂₁ᵖ (r₃₂ᵖ − 1)/(r₂₁ᵖ − 1), or None if there is no positive one."""
-    r32, r21 = sizes[0] / sizes[1], sizes[1] / sizes[2]
-    if rough == 0:
+    if not (sizes[0] > sizes[1] > sizes[2] and rough * close > 0):
         return None
+    r32, r21 = sizes[0] / sizes[1], sizes[1] / sizes[2]
 
     def excess(p: float) -> float:
         return math.log(rough / close) - p * math.log(r21) - math.log((r32**p - 1) / (r21**p - 1))
 
     low, high = 1e-3, 50.0
-    if excess(low) <= 0:
-        return None
-    return high if excess(high) >= 0 else float(brentq(excess, low, high))
+    found = excess(low) > 0 > excess(high)
+    return float(brentq(excess, low, high)) if found else None

@@ -2,33 +2,36 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from tribo.case import Output
-from tribo.core.errors import CaseError, NumericalError
+from tribo.core.errors import CaseError, NumericalError, TriboWarning
 from tribo.core.grid import Grid
-from tribo.core.measures import Measures
+from tribo.lab.scar import scar
 from tribo.model.model import Model
+from tribo.result.read import Result
 from tribo.simulation.assembly import assemble, varied
-from tribo.simulation.march import begin, march
+from tribo.simulation.run import Simulation
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.measure import measure
 from tribo.verification.convergence import Convergence, convergence
 
 # Above the 1.3 that Celik et al. (2008) ask for, and mild on cases that are coarse already.
 RATIO = 1.5
 FEWEST_CELLS = 20
+UNITS = {"pressure": "Pa", "volume": "m^3"}
+"""SI units of quantities, by a word in their names; of the others m."""
 
 
 @dataclass(frozen=True)
 class Level:
-    """A run of the study: its cells and the steps it took."""
+    """A run of the study: its cells, its steps, and its quantities at the end, in SI units."""
 
     cells: tuple[int, int]
     steps: int
-    end: Measures
+    end: dict[str, float]
 
 
 @dataclass(frozen=True)
@@ -46,9 +49,9 @@ class UncertainValue:
     """Over three lengths of step."""
     floor: float
     """Least uncertainty on these cells: a counted width is good to half a cell."""
-    uncertainty: float | None
+    uncertainty: float
     """To quote with `value`: the errors of grid and steps added, at least `floor`. They are not
-    added as squares, as they are not random. None where one of the two diverges."""
+    added as squares, as they are not random."""
 
 
 @dataclass(frozen=True)
@@ -122,10 +125,10 @@ def _changed(config: Implicit | Explicit, factor: float) -> Implicit | Explicit:
 def _run(model: Model, cells: tuple[int, int], config: Implicit | Explicit) -> Level:
     grid = Grid(model.grid.size, cells, model.grid.ends_at_window)
     level = assemble(varied(model.case, grid=grid, stepping=config, output=Output()))
-    state = begin(level)
-    for accepted in march(level, state):
-        state = accepted.state
-    return Level(cells, state.steps, measure(level, state))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TriboWarning)
+        result = Simulation(level).run()
+    return Level(cells, result.totals()["steps"], _quantities(result))
 
 
 def _estimates(
@@ -133,39 +136,39 @@ def _estimates(
 ) -> Iterator[UncertainValue]:
     dx, dy = model.grid.spacing
     floors = {"contact width along": dx, "contact width across": dy}
-    own = next(i for i, level in enumerate(steps) if level is grids[-1])
-    by_grid, by_step = (
-        [_quantities(model, level.end) for level in levels] for levels in (grids, steps)
-    )
-    for name, (unit, value) in by_step[own].items():
-        floor = floors.get(name, 0.0)
-        of_grids, of_steps = ([found[name][1] for found in by] for by in (by_grid, by_step))
+    own = steps.index(grids[-1])
+    for name, value in grids[-1].end.items():
+        of_grids, of_steps = ([level.end[name] for level in each] for each in (grids, steps))
         if not any(of_grids + of_steps):
             continue
         sizes = [1 / level.cells[0] for level in grids], [1 / level.steps for level in steps]
-        rough = 2 * RATIO**2 * floor
-        grid = convergence(of_grids, sizes[0], formal_order=2.0, scatter=rough)
-        step = convergence(of_steps, sizes[1], formal_order=1.0, own=own, scatter=2 * floor)
-        uncertainty = None
-        if grid.uncertainty is not None and step.uncertainty is not None:
-            uncertainty = max(grid.uncertainty + step.uncertainty, floor)
+        grid = convergence(of_grids, sizes[0], formal_order=2.0)
+        step = convergence(of_steps, sizes[1], formal_order=1.0, own=own)
+        floor = floors.get(name, 0.0)
+        uncertainty = max(grid.uncertainty + step.uncertainty, floor)
+        unit = next((unit for word, unit in UNITS.items() if word in name), "m")
         yield UncertainValue(name, unit, value, grid, step, floor, uncertainty)
 
 
-def _quantities(model: Model, end: Measures) -> dict[str, tuple[str, float]]:
+def _quantities(result: Result) -> dict[str, float]:
+    last = result.saves()[-1]
     found = {
-        "peak pressure": ("Pa", end.max_pressure),
-        "pressure at the centre": ("Pa", end.centre_pressure),
-        "contact width along": ("m", 2 * end.half_width_x),
-        "contact width across": ("m", 2 * end.half_width_y),
+        "peak pressure": last["max_pressure_Pa"],
+        "pressure at the centre": last["centre_pressure_Pa"],
+        "contact width along": 2 * last["contact_half_width_x_m"],
+        "contact width across": 2 * last["contact_half_width_y_m"],
     }
-    if model.case.stop.depth is not None:
-        found["path slid"] = ("m", end.distance)
-    for name, body in end.bodies.items():
+    if result.case_tables["stop"]["depth"] is not None:
+        found["path slid"] = last["distance_m"]
+    for name, body in last["bodies"].items():
+        worn = result.body(name)
+        marks = scar(worn.wear_depth[-1], result.grid)
         found |= {
-            f"{name}: largest depth": ("m", body.max_wear_depth),
-            f"{name}: depth at the centre": ("m", body.centre_wear_depth),
-            f"{name}: volume": ("m^3", body.wear_volume),
-            f"{name}: largest plastic depth": ("m", body.max_plastic_depth),
+            f"{name}: largest depth": body["max_wear_depth_m"],
+            f"{name}: depth at the centre": body["centre_wear_depth_m"],
+            f"{name}: scar across": marks.across,
+            f"{name}: scar along sliding": 0.0 if worn.swept else marks.along,
+            f"{name}: volume": body["wear_volume_m3"],
+            f"{name}: largest plastic depth": body["max_plastic_depth_m"],
         }
     return found
