@@ -143,7 +143,7 @@ from tribo.simulation.march import DEPTH_ACCURACY as DEPTH_ACCURACY
 from tribo.simulation.march import begin as begin
 from tribo.simulation.march import march as march
 from tribo.simulation.positions import chosen as chosen
-from tribo.simulation.predict import MARGINS as MARGINS
+from tribo.simulation.predict import WIDER as WIDER
 from tribo.simulation.predict import coarsened as coarsened
 from tribo.simulation.validity import findings_of as findings_of
 from tribo.study.runs import file_names as file_names

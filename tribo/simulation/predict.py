@@ -42,8 +42,8 @@ from tribo.stepping.measure import measure
 from tribo.stepping.step import start_sliding
 from tribo.wear.law import WearLaw
 
-MARGINS = (1.5, 1.0)
-"""Edges of the windows to try, relative to the case's: the contact may outgrow its window."""
+WIDER = 1.5
+"""Edges of the window to try, relative to the case's: the contact may outgrow its window."""
 LOOSE = Implicit(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
 COARSE = 72
 
@@ -162,20 +162,6 @@ def _stopping(
     return stopping
 
 
-def _worn(model: Model, coarse: Model, state: State, watch: Watch) -> tuple[State, float | None]:
-    """Return the end of a coarse run, and when its contact outgrew the window of `model`, in s."""
-    when = None
-    try:
-        for accepted in march(coarse, state, watch):
-            state = accepted.state
-            if when is None and not _inside(model, measure(coarse, state)):
-                when = state.time
-    except OverTime as error:
-        slid = f"{state.steps} steps slid {state.distance:.3g} of {coarse.end_distance:.4g} m"
-        raise OverTime(f"{error}, in which {slid}") from None
-    return state, when
-
-
 def _inside(model: Model, measures: Measures) -> bool:
     (lx, ly), (dx, dy) = model.grid.size, model.grid.spacing
     return measures.half_width_x < lx / 2 - dx and measures.half_width_y < ly / 2 - dy
@@ -185,38 +171,34 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
     # The wear on one grid is unknown on another.
     if not model.case.contact.accepts_wear_compliance or model.case.begin is not None:
         return CoarseRun(None)
-    failed: CaseError | NumericalError | None = None
     # Contacts that repeat keep their positions however long the path: for the average they end.
     half_width = np.inf if model.case.contact.periodic else first.half_width_x
     # A body or a period that ends at the window has no more to give in a wider one.
-    for margin in (1.0,) if model.contact.may_reach_edge else MARGINS:
-        try:
-            coarse = coarsened(model.case, COARSE, margin, half_width)
-            state = begin(coarse)
-        except (CaseError, NumericalError) as error:
-            failed = failed or error
-            continue
-        try:
-            # The trial's case has no observers, which may end a run too.
-            watch = Watch(coarse, model.case.observers)
-            state, when = _worn(model, coarse, state, watch)
-        except (CaseError, TooWorn) as error:
-            # Refused on its way: that does not hang on the cells.
-            return CoarseRun(None, error=error, on_any_cells=True)
-        except NumericalError as error:
-            failed = failed or error
-            continue
-        return CoarseRun(
-            measure(coarse, state),
-            when,
-            limitation(replace(coarse, motion=model.motion), state),
-            tuple(worn_through(state.findings)),
-            (
-                *(finding for finding, _ in implausible(coarse, state)),
-                *(replace(each, words=f"at {each.time:.3g} s {each.words}") for each in watch.said),
-            ),
-        )
-    return CoarseRun(None, error=failed, on_any_cells=isinstance(failed, PluginError))
+    margin = 1.0 if model.contact.may_reach_edge else WIDER
+    state, when = None, None
+    try:
+        coarse = coarsened(model.case, COARSE, margin, half_width)
+        state = begin(coarse)
+        # The trial's case has no observers, which may end a run too.
+        watch = Watch(coarse, model.case.observers)
+        for accepted in march(coarse, state, watch):
+            state = accepted.state
+            if when is None and not _inside(model, measure(coarse, state)):
+                when = state.time
+    except (CaseError, NumericalError) as error:
+        # What is refused on its way does not hang on the cells.
+        refused = state is not None and isinstance(error, CaseError | TooWorn)
+        return CoarseRun(None, error=error, on_any_cells=refused or isinstance(error, PluginError))
+    return CoarseRun(
+        measure(coarse, state),
+        when,
+        limitation(replace(coarse, motion=model.motion), state),
+        tuple(worn_through(state.findings)),
+        (
+            *(finding for finding, _ in implausible(coarse, state)),
+            *(replace(each, words=f"at {each.time:.3g} s {each.words}") for each in watch.said),
+        ),
+    )
 
 
 def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) -> Model:

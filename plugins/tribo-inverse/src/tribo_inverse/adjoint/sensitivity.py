@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 from tribo import CaseError, Finding, NumericalError
-from tribo.kernel_api import MARGINS, Model, OverTime, coarsened, leaves, limited
+from tribo.kernel_api import WIDER, Model, OverTime, coarsened, leaves, limited
 
 from tribo_inverse.adjoint.gradient import gradient
 from tribo_inverse.adjoint.objective import Deepest, EndTime
@@ -80,7 +80,7 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
     if model.case.begin is not None:
         raise CaseError("the wear that a run begins with is left out on a coarse grid", "begin")
     resolved = np.inf if model.case.contact.periodic else half_width_x
-    wide = 1.0 if model.contact.may_reach_edge else MARGINS[0]
+    wide = 1.0 if model.contact.may_reach_edge else WIDER
     failed: CaseError | NumericalError | None = None
     trials = (
         # The average of the stroke is the cheapest, but has not all surfaces.
