@@ -71,7 +71,7 @@ def solve():
 @pytest.mark.parametrize(
     ("made", "known"),
     [
-        (solve, 69),
+        (solve, 65),
         (lambda: step(model()), 448),
         (lambda: step(model(positions=33)), 4085),
     ],

@@ -28,7 +28,6 @@ from tribo.core.data_table import DataTable as DataTable
 from tribo.core.data_table import Heading as Heading
 from tribo.core.data_table import TableRow as TableRow
 from tribo.core.errors import OutOfWindow as OutOfWindow
-from tribo.core.errors import OverTime as OverTime
 from tribo.core.errors import about as about
 from tribo.core.errors import located as located
 from tribo.core.explain import case_error as case_error
@@ -69,7 +68,6 @@ from tribo.evolution.states import own as own
 from tribo.evolution.states import place as place
 from tribo.guards.parts import GuardedEffect as GuardedEffect
 from tribo.guards.parts import GuardedLaw as GuardedLaw
-from tribo.guards.trial_time import limited as limited
 from tribo.integration.division import Division as Division
 from tribo.integration.integrator import Part as Part
 from tribo.integration.integrator import retraced as retraced

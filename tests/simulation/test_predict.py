@@ -1,14 +1,11 @@
 """What check foresees is what the run then does."""
 
 import re
-import time
 
 import pytest
 from paper_models import K, archard, half_space, pair, small
-from tribo_inverse.adjoint.sensitivity import sensitivity
 
 from tribo import CaseError, Effect, Field, Grid, NumericalError, Simulation
-from tribo.guards import trial_time
 from tribo.simulation.predict import predict
 from tribo.stepping import plastic_groove
 from tribo.stepping.explicit import Explicit
@@ -94,31 +91,6 @@ def test_a_trial_that_fails_on_coarse_cells_is_told_and_does_not_stop_the_run(mo
     assert problem.words.endswith(": too coarse")
     assert found.exit_code == 0
     assert found.stops is None
-
-
-class Slow(Effect):
-    """Takes 2 ms whenever it is asked."""
-
-    type = "test.slow"
-    provides = (Field("slow", "1", "Nothing but 0."),)
-
-    def fields(self, contact):
-        time.sleep(0.002)
-        return {"slow": dict.fromkeys(contact.materials, 0.0)}
-
-
-def test_trials_that_take_too_long_are_given_up(monkeypatch):
-    monkeypatch.setattr(trial_time, "TRIAL_TIME", 0.05)
-    model = small(effects=[Slow()])
-    found = predict(model)
-    (problem,) = found.problems
-    assert "0.05 s" in problem.words
-    assert found.last is None
-    assert found.exit_code == 0
-    with pytest.raises(NumericalError, match=r"0\.05 s"):
-        sensitivity(model, found.first.half_width_x)
-    # The run itself has no limit.
-    Simulation(model.case).run().close()
 
 
 class Asks(Effect):

@@ -95,12 +95,6 @@ class BadValues(PluginError):
     """
 
 
-class OverTime(TriboError):
-    """A trial beside a run took too long."""
-
-    exit_code: ClassVar[int] = 3
-
-
 class OutputError(TriboError):
     """A file, or standard output, could not be written.
 

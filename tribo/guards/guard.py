@@ -16,7 +16,6 @@ from tribo.core.arrays import Array
 from tribo.core.errors import BadValues, NumericalError, PluginError, TriboError
 from tribo.core.words import said
 from tribo.guards.answers import Answer, answers_of
-from tribo.guards.trial_time import check_time
 
 REAL = "fiub"
 """Kinds of a dtype that are real numbers."""
@@ -47,7 +46,6 @@ class Guard(Generic[C]):
 
     def ask(self, method: Callable[P, T], *given: P.args, **named: P.kwargs) -> T:
         """Call a method of the component; unexpected errors become a `PluginError`."""
-        check_time()
         try:
             return method(*given, **named)
         except (KeyboardInterrupt, PluginError):

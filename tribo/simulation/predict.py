@@ -10,14 +10,13 @@ import numpy as np
 
 from tribo.case import Case, Output
 from tribo.component import components
-from tribo.core.errors import CaseError, NumericalError, OverTime, PluginError, TooWorn, TriboError
+from tribo.core.errors import CaseError, NumericalError, PluginError, TooWorn, TriboError
 from tribo.core.findings import Finding, outgrown, trial_failed, worn_through, would_stop
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.core.state import State
 from tribo.evolution.local_fields import effect_fields
 from tribo.guards.guard import Guard
-from tribo.guards.trial_time import limited
 from tribo.lab.against_hertz import HertzContact, hertz_contact, softer_known
 from tribo.model.model import Model
 from tribo.result.provenance import stated_facts
@@ -101,11 +100,7 @@ def predict(model: Model) -> Prediction:
     system = softer_known(model.contact.system, at_surface(model.case.bodies))
     hertz = None if model.case.begin else hertz_contact(system)
     dx, dy = model.grid.spacing
-    try:
-        with limited():
-            coarse = _coarse_run(model, first)
-    except OverTime as error:
-        coarse = CoarseRun(None, error=error)
+    coarse = _coarse_run(model, first)
     last = coarse.last
     holds = None if last is None else _inside(model, last) or model.contact.may_reach_edge
     across = None if hertz is None else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)

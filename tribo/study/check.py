@@ -15,7 +15,6 @@ from tribo.core.errors import CaseError
 from tribo.core.findings import Finding
 from tribo.core.material import Material, in_words, materials, typical
 from tribo.core.words import readable
-from tribo.guards.trial_time import TRIAL_TIME
 from tribo.lab.against_hertz import (
     HertzContact,
     computed_pressure,
@@ -119,10 +118,9 @@ def check_case(case: Case, waiting: Waiting = lambda what: nullcontext()) -> Che
     """
     with waiting("composing the case"):
         model = Simulation(case).model
-    limit = f"{TRIAL_TIME:g} s of CPU time at most"
-    with waiting(f"first contact, then a trial run on a coarse grid: {limit}"):
+    with waiting("first contact, then a trial run on a coarse grid"):
         prediction = predict(model)
-    with waiting(f"sensitivities and other findings of packages: {limit}"):
+    with waiting("sensitivities and other findings of packages"):
         found = findings_of(model, prediction.first.half_width_x)
     # What has a limit is beyond it; else a finding is a fact.
     facts = tuple(each for each in found if each.limit is None)

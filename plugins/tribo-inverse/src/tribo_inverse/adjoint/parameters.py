@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 from tribo import Array, CaseError, Mask, Operator, TriboError
-from tribo.kernel_api import Interval, Memory, Model, OverTime, assemble
+from tribo.kernel_api import Interval, Memory, Model, assemble
 
 from tribo_inverse.adjoint.numbers import ANY, changed
 from tribo_inverse.adjoint.view import Seeds
@@ -219,8 +219,6 @@ def chain(
                 _varied(base, places, value + by * step, factors) if by else base
                 for by, _ in scheme
             ]
-        except OverTime:
-            raise
         except (TriboError, ValidationError) as failed:
             error = error or failed
             continue
