@@ -52,9 +52,6 @@ AT_REST, FEW = 1e-9, 3
 rejected in a row, while the load changes, after which such a step is tried."""
 LEFT_OVER = 0.02
 """Change of the gap that passes may leave, in pressure tolerances times the deformation."""
-ROUND, ALIKE = 3, 1e-3
-"""Mismatches in a row, each as large as two passes before to this relative difference, after
-which passes circle and will not converge."""
 
 
 class StepRejected(NumericalError):
@@ -192,7 +189,6 @@ class Implicit(Scheme):
         forward = {name: heavier * depth for name, depth in guess.worn.items()}
         contacts = extrapolated(state)
         solved, passes = state, 0
-        mismatches: list[float] = []
         while True:
             rates = sloped(model, before, guess.contacts, interval, guess.course)
             wear = linear_wear(model, rates, guess.contacts, increment)
@@ -214,8 +210,7 @@ class Implicit(Scheme):
             deepest = max(_largest(guess.depths), _largest(guess.filled))
             if mismatch <= tolerance * deepest:
                 break
-            mismatches.append(mismatch)
-            if passes == self.max_passes or _circles(mismatches):
+            if passes == self.max_passes:
                 raise StepRejected(
                     f"the implicit step of {increment:.3g} m at {state.distance:.6g} m did not "
                     f"converge in {passes} passes: wear depth still off by {mismatch:.2g} m; "
@@ -300,13 +295,6 @@ def _deformed(contacts: Sequence[ContactSolution], gaps: Array) -> float:
         np.where(contact.pressure > 0, contact.approach - gap, 0.0)
         for contact, gap in zip(contacts, gaps, strict=True)
     )
-
-
-def _circles(mismatches: Sequence[float]) -> bool:
-    """Whether passes alternate between two guesses, as at kinks of the wear over pressure."""
-    latest, before = mismatches[-ROUND:], mismatches[-ROUND - 2 : -2]
-    pairs = list(zip(before, latest, strict=False))
-    return len(pairs) == ROUND and all(abs(b - a) <= ALIKE * a for a, b in pairs)
 
 
 def _fitted(natural: float, remaining: float, last: float) -> float:
