@@ -140,7 +140,6 @@ from tribo.simulation.assembly import varied as varied
 from tribo.simulation.march import DEPTH_ACCURACY as DEPTH_ACCURACY
 from tribo.simulation.march import begin as begin
 from tribo.simulation.march import march as march
-from tribo.simulation.positions import chosen as chosen
 from tribo.simulation.predict import WIDER as WIDER
 from tribo.simulation.predict import coarsened as coarsened
 from tribo.simulation.validity import findings_of as findings_of

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import replace
-from typing import Any
 
 from tribo.case import Begin, Case
 from tribo.core.errors import CaseError
@@ -64,14 +63,6 @@ def composed(case: Case) -> Model:
     if not must and motion.stroke >= LENGTHS * 2 * half_width:
         return averaged
     return _resolved(case, max(FEWEST, least_positions(motion.stroke, SPARE * half_width)))
-
-
-def chosen(case: Case, model: Model) -> dict[str, Any]:
-    """Return the choice that a model has made for a case, as settings; none if it had none."""
-    motion = case.kinematics
-    if not isinstance(motion, Reciprocating) or motion.positions != "auto":
-        return {}
-    return {"kinematics.positions": model.data["kinematics"]["positions"]}
 
 
 def _resolved(case: Case, positions: int | str) -> Model:

@@ -30,8 +30,8 @@ from tribo.simulation.validity import (
     check_stroke,
     doubting,
     few_cells,
-    implausible,
     limitation,
+    too_deep,
     too_wide,
     unusual,
 )
@@ -86,7 +86,7 @@ class CoarseRun:
     outgrown: float | None = None
     limitation: Finding | None = None
     worn_through: tuple[Mapping[str, Any], ...] = ()
-    implausible: tuple[Finding, ...] = ()
+    said: tuple[Finding, ...] = ()
     error: TriboError | None = None
     on_any_cells: bool = False
 
@@ -110,7 +110,7 @@ def predict(model: Model) -> Prediction:
         *(found for _, found in stopping),
         few_cells(model, state.contact),
         *(too_wide(model, first) or too_wide(model, last or first)),
-        *coarse.implausible,
+        *coarse.said,
         coarse.limitation,
     )
     facts = {place: Guard(c).ask(stated_facts, c) for place, c in components(model.case)}
@@ -190,7 +190,7 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
         limitation(replace(coarse, motion=model.motion), state),
         tuple(worn_through(state.findings)),
         (
-            *(finding for finding, _ in implausible(coarse, state)),
+            *(finding for finding, _ in too_deep(coarse, state)),
             *(replace(each, words=f"at {each.time:.3g} s {each.words}") for each in watch.said),
         ),
     )

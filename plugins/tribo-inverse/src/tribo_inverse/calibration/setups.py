@@ -16,7 +16,6 @@ from tribo.kernel_api import (
     Model,
     about,
     apply_settings,
-    chosen,
     unknown_body,
     valid_case,
     validate_case,
@@ -105,8 +104,11 @@ def _setup(
     # An observer that may end a run belongs to it.
     ending = [type(each).findings is not Observer.findings for each in case.observers]
     observers = list(compress(changed.get("observers", ()), ending))
-    kept = {"output.save_times": times, "observers": observers}
-    ready = apply_settings(changed, {**kept, **chosen(case, model)})
+    kept: dict[str, Any] = {"output.save_times": times, "observers": observers}
+    if model.case.kinematics != case.kinematics:
+        # Its positions were chosen.
+        kept["kinematics.positions"] = model.data["kinematics"]["positions"]
+    ready = apply_settings(changed, kept)
     return Setup(tests[0].name, changed, ready, model)
 
 
