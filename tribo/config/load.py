@@ -14,7 +14,6 @@ from tribo.case import Case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError
 from tribo.core.explain import case_error
-from tribo.core.grid import FEWEST, MOST, out_of_range
 from tribo.core.hdf5 import MARK
 from tribo.core.words import shown, similar_file
 from tribo.registry.registry import Registry, default_registry
@@ -70,15 +69,11 @@ def validate_case(data: Mapping[str, Any], *, registry: Registry | None = None) 
     line for each error, if anything is wrong.
     """
     try:
-        case = Case.model_validate(data, context={"registry": registry or default_registry()})
+        return Case.model_validate(data, context={"registry": registry or default_registry()})
     except ValidationError as error:
         raise case_error(error) from None
     except RecursionError:
         raise CaseError("tables or lists of the case are nested too deeply") from None
-    for cells in case.grid.cells:
-        if not FEWEST <= cells <= MOST:
-            raise CaseError(out_of_range(cells), "grid.cells")
-    return case
 
 
 def changed_case(case: Case, settings: Mapping[str, Any]) -> Case:

@@ -5,30 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
-from pydantic import AfterValidator, field_validator
+from pydantic import Field, field_validator
 
 from tribo.core.arrays import Array
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 
 Length = Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
-FEWEST, MOST = 4, 16384
-"""Cells along an axis of a case."""
-
-
-def out_of_range(cells: int) -> str:
-    """Return the message for a number of cells that a case cannot have."""
-    return f"{cells}: must be from {FEWEST} to {MOST}, as in 128"
-
-
-def _some(cells: int) -> int:
-    if cells < 1:
-        raise ValueError(out_of_range(cells))
-    return cells
-
-
-# A closed form needs fewer than a case.
-Cells = Annotated[int, AfterValidator(_some)]
+Cells = Annotated[int, Field(ge=1, le=16384)]
+"""Cells along an axis."""
 
 
 class Grid(Table):
