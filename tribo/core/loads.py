@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from math import inf
+from operator import itemgetter
 from pathlib import Path
 from typing import Annotated, Any, Self
 
@@ -218,15 +219,29 @@ class Load(Table):
         """Places along the stroke, in m, and the shares there."""
         return tuple(p.at for p in self.along), tuple(p.share for p in self.along)
 
+    @property
+    def points(self) -> tuple[tuple[float, float], ...]:
+        """Times, in s, and loads, in N, with lines in between; two of one time at a jump."""
+        if isinstance(self.normal, float):
+            return (0.0, self.normal), (inf, self.normal)
+        found: list[tuple[float, float]] = []
+        for stage in self.normal:
+            if stage.until is not None:
+                found.append((found[-1][0] if found else 0.0, stage.normal))
+            found.append((stage.time, stage.normal))
+        return tuple(found)
+
     def thinned(self) -> Load:
         """Return the load in a few stages, each held at the mean of the stages that it replaces."""
         if isinstance(self.normal, float) or len(self.normal) <= FEW:
             return self
-        pieces = pieces_of(self)
-        ends = np.array([0.0, *(piece.end for piece in pieces)])
-        carried = np.diff(ends) * [0.5 * (piece.first + piece.last) for piece in pieces]
+        times, loads = np.array(self.points).T
+        ends, lasted = times[1:], np.diff(times)
+        carried = lasted * (0.5 * (loads[:-1] + loads[1:]))
+        # At a jump no time passes.
+        ends, carried = ends[lasted > 0], carried[lasted > 0]
         firsts = np.arange(0, len(carried), -(-len(carried) // FEW))
-        until = ends[[*firsts[1:], -1]]
+        until = ends[[*(firsts[1:] - 1), -1]]
         normal = np.add.reduceat(carried, firsts) / np.diff([0.0, *until])
         stages = zip(until.tolist(), normal.tolist(), strict=True)
         return self.model_copy(
@@ -235,80 +250,54 @@ class Load(Table):
 
 
 @dataclass(frozen=True)
-class Piece:
-    """A stretch of time, to `end` (s), with a load straight from `first` to `last` (N)."""
-
-    end: float
-    first: float
-    last: float
-
-
-def pieces_of(load: Load) -> tuple[Piece, ...]:
-    """Return a load over time, piece by piece."""
-    if isinstance(load.normal, float):
-        return (Piece(inf, load.normal, load.normal),)
-    befores = (load.normal[0], *load.normal)
-    return tuple(
-        Piece(stage.time, before.normal if stage.until is None else stage.normal, stage.normal)
-        for before, stage in zip(befores, load.normal, strict=False)
-        if stage.time > 0
-    )
-
-
-@dataclass(frozen=True)
 class Loads:
     """The normal load over time, at each position of a cycle.
 
-    Its pieces follow one another from t = 0; the load jumps where the end of a piece differs from
-    the beginning of the next. `shares` has the load factor at each position, relative to the load
-    of the piece, `weights` the part of the path of a cycle there.
+    Its `points` are as in `Load.points`. `shares` has the load factor at each position, relative to
+    the load at a point, `weights` the part of the path of a cycle there.
     """
 
-    pieces: tuple[Piece, ...]
+    points: tuple[tuple[float, float], ...]
     shares: tuple[float, ...]
     weights: tuple[float, ...]
 
     @property
     def edges(self) -> tuple[float, ...]:
-        """Times at which a piece ends and another begins, in s."""
-        return tuple(piece.end for piece in self.pieces[:-1])
+        """Times between its beginning and end at which it jumps or bends, in s."""
+        return tuple(dict.fromkeys(time for time, _ in self.points if 0 < time < self.end))
 
     @property
     def end(self) -> float:
-        """When the last piece ends, in s."""
-        return self.pieces[-1].end
+        """When it ends, in s."""
+        return self.points[-1][0]
 
     @property
     def largest(self) -> float:
         """The largest load at any time and position, in N."""
-        return max(self.shares) * max(max(piece.first, piece.last) for piece in self.pieces)
+        return max(self.shares) * max(load for _, load in self.points)
 
     @property
     def least(self) -> float:
         """The least load at any time and position, in N."""
-        return min(self.shares) * min(min(piece.first, piece.last) for piece in self.pieces)
+        return min(self.shares) * min(load for _, load in self.points)
 
     @cached_property
     def _constant(self) -> ByPosition | None:
         """The loads where they never change."""
-        (piece, *others), shares = self.pieces, self.shares
-        steady = not others and piece.first == piece.last
-        return tuple(share * piece.last for share in shares) if steady else None
+        load = self.points[0][1]
+        steady = all(other == load for _, other in self.points)
+        return tuple(share * load for share in self.shares) if steady else None
 
     def before(self, time: float) -> ByPosition:
         """Return the loads as `time` (s) is reached: at a jump, the loads before it."""
-        return self._constant or self._at(
-            time, bisect_left(self.pieces, time, key=lambda piece: piece.end)
-        )
+        return self._constant or self._at(time, bisect_left(self.points, time, key=itemgetter(0)))
 
     def after(self, time: float) -> ByPosition:
         """Return the loads from `time` (s) on: at a jump, the loads after it."""
-        return self._constant or self._at(
-            time, bisect_right(self.pieces, time, key=lambda piece: piece.end)
-        )
+        return self._constant or self._at(time, bisect_right(self.points, time, key=itemgetter(0)))
 
     def mean(self, begin: float, end: float) -> ByPosition:
-        """Return the mean loads between two times (s) of one piece."""
+        """Return the mean loads between two times (s) with no edge between them."""
         if self._constant:
             return self._constant
         pairs = zip(self.after(begin), self.before(end), strict=True)
@@ -321,13 +310,12 @@ class Loads:
         return sum(weight * load for weight, load in zip(self.weights, loads, strict=True))
 
     def _at(self, time: float, index: int) -> ByPosition:
-        index = min(index, len(self.pieces) - 1)
-        piece = self.pieces[index]
-        load = piece.last
-        if time < piece.end and piece.first != piece.last:
-            start = self.pieces[index - 1].end if index else 0.0
-            part = (time - start) / (piece.end - start)
-            load = piece.first + part * (piece.last - piece.first)
+        """Return the loads at a time on the line that leads to a point."""
+        index = min(max(index, 1), len(self.points) - 1)
+        (begin, first), (end, last) = self.points[index - 1 : index + 1]
+        load = last
+        if time < end and first != last:
+            load = first + (time - begin) / (end - begin) * (last - first)
         return tuple(share * load for share in self.shares)
 
 

@@ -17,7 +17,7 @@ from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, located
 from tribo.core.fields import PLACE_X
 from tribo.core.grid import Grid, RepeatingGrid
-from tribo.core.loads import Loads, pieces_of
+from tribo.core.loads import Loads
 from tribo.core.material import contact_modulus
 from tribo.core.rounding import ROUND_OFF
 from tribo.guards.layered_law import LayeredLaw
@@ -76,7 +76,7 @@ def assemble(case: Case) -> Model:
             )
         dx = grid.spacing[0]
         shares = case.load.shares_at(dx * cycle.offsets[:, 0], dx)
-    loads = Loads(pieces_of(case.load), shares, tuple(position.share for position in cycle))
+    loads = Loads(case.load.points, shares, tuple(position.share for position in cycle))
     known = [each.curvature for each in surfaces.values() if each.curvature is not None]
     system = ContactSystem(
         grid=grid,
