@@ -6,25 +6,13 @@ COMMANDS = {
     "scar": ("tribo-scar", "Measure a scar between two height maps."),
 }
 """Package and summary of each command."""
+_OF_INVERSE = """
+Calibration Choice Plan calibrate choose_case plan_tests Gradient View Seeds gradient
+value_and_gradient Deepest Depth EndDistance EndTime Misfit Pressure Volume Width
+"""
 NAMES = {
     "write_report": "tribo-report",
-    **dict.fromkeys(
-        (
-            *("Calibration", "Choice", "Plan", "calibrate", "choose_case", "plan_tests"),
-            *("Gradient", "View", "Seeds", "gradient", "value_and_gradient"),
-            *(
-                "Deepest",
-                "Depth",
-                "EndDistance",
-                "EndTime",
-                "Misfit",
-                "Pressure",
-                "Volume",
-                "Width",
-            ),
-        ),
-        "tribo-inverse",
-    ),
+    **dict.fromkeys(_OF_INVERSE.split(), "tribo-inverse"),
     **dict.fromkeys(("MeasuredScar", "measured_scar"), "tribo-scar"),
 }
 """Package of each name that was one of `tribo`."""

@@ -63,31 +63,21 @@ def part_from(field: Array, first: Cell, count: Cell) -> Array:
 
     The field is periodic: its first row follows its last, and so do its columns.
     """
-    rows, columns = field.shape
-    row, column = first[0] % rows, first[1] % columns
-    if row + count[0] <= rows and column + count[1] <= columns:
-        return field[row : row + count[0], column : column + count[1]]
-    along = np.arange(row, row + count[0])
-    return field.take(along, 0, mode="wrap").take(
-        np.arange(column, column + count[1]), 1, mode="wrap"
-    )
+    return np.asarray(field[_region(field, first, count)])
 
 
 def add_from(field: Array, part: Array, first: Cell) -> None:
     """Add `part` to a field in place, from the cell `first` on, as `part_from` counts them."""
-    (rows, columns), (along, across) = field.shape, part.shape
+    field[_region(field, first, part.shape)] += part
+
+
+def _region(field: Array, first: Cell, count: tuple[int, ...]) -> Any:
+    """Return the index of rows and columns from a cell on; slices, unless they go round."""
+    (rows, columns), (along, across) = field.shape, count
     row, column = first[0] % rows, first[1] % columns
     if row + along <= rows and column + across <= columns:
-        field[row : row + along, column : column + across] += part
-        return
-    # What goes beyond an end begins at the other.
-    right, below = min(across, columns - column), min(along, rows - row)
-    for own, given in (
-        (slice(row, row + below), slice(0, below)),
-        (slice(0, along - below), slice(below, along)),
-    ):
-        field[own, column : column + right] += part[given, :right]
-        field[own, : across - right] += part[given, right:]
+        return slice(row, row + along), slice(column, column + across)
+    return np.ix_(np.arange(row, row + along) % rows, np.arange(column, column + across) % columns)
 
 
 def middle_rows(field: Array, count: int) -> Array:
