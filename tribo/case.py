@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
-from pydantic import Field, ValidationInfo, field_validator, model_validator
+from pydantic import BaseModel, Field, ValidationInfo, field_validator, model_validator
 
 from tribo.component import components
 from tribo.contact.dcfft import DcFft
@@ -31,6 +31,10 @@ from tribo.wear.law import WearLaw
 if TYPE_CHECKING:
     from tribo.result.read import Result
     from tribo.study.check import Check
+
+
+SHORT = {"load": "normal", "friction": "coefficient", "begin": "result"}
+"""Tables of a case for which the value of one key is short."""
 
 
 class Layer(Table):
@@ -243,15 +247,12 @@ class Case(Table):
     output: Output = Output()
     stop: Stop = Stop()
 
-    @field_validator("load", mode="before")
+    @field_validator(*SHORT, mode="before")
     @classmethod
-    def _normal_load(cls, load: Any) -> Any:
-        return {"normal": load} if isinstance(load, int | float | str | list | tuple) else load
-
-    @field_validator("begin", mode="before")
-    @classmethod
-    def _result(cls, begin: Any) -> Any:
-        return {"result": str(begin)} if isinstance(begin, str | Path) else begin
+    def _short(cls, value: Any, info: ValidationInfo) -> Any:
+        if value is None or isinstance(value, Mapping | BaseModel):
+            return value
+        return {SHORT[str(info.field_name)]: str(value) if isinstance(value, Path) else value}
 
     @field_validator("contact", "stepping", mode="before")
     @classmethod
@@ -260,11 +261,6 @@ class Case(Table):
             default = cls.model_fields[str(info.field_name)].default
             return {"type": default.type, **table}
         return table
-
-    @field_validator("friction", mode="before")
-    @classmethod
-    def _coefficient(cls, friction: Any) -> Any:
-        return {"coefficient": friction} if isinstance(friction, int | float) else friction
 
     @field_validator("bodies", mode="before")
     @classmethod

@@ -9,14 +9,12 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from tribo.case import SHORT
 from tribo.component import Component
 from tribo.core.errors import CaseError, located
 from tribo.core.toml import inline
 from tribo.core.units import Quantity, quantities
 from tribo.core.words import shown
-
-SHORT = {"load": "normal", "friction": "coefficient", "begin": "result"}
-"""Tables of a case for which the value of one key is short."""
 
 
 def apply_settings(

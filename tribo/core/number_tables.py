@@ -72,10 +72,7 @@ def table_of_numbers(file: Path) -> Array:
         reason = "it is no NumPy array and no text" if other else " ".join(str(error).split())
         raise ValueError(f"{file} cannot be read as a table of numbers: {reason}") from None
     if numbers.dtype.kind not in "fiu":
-        words = {"c": "complex numbers", "U": "text", "S": "text"}
-        what = words.get(numbers.dtype.kind, f"values of type {numbers.dtype}")
-        how = "real" if numbers.dtype.kind == "c" else "astype(float)"
-        raise ValueError(f"{file} has {what}, not real numbers; save a.{how} of its array a")
+        raise ValueError(f"{file} has values of type {numbers.dtype}; save real numbers, as floats")
     return np.asarray(numbers, dtype=np.float64)
 
 
