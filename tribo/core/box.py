@@ -10,6 +10,7 @@ import numpy as np
 from tribo.core.arrays import Array, Mask, Region, bounds
 
 _SMALLEST = 8
+"""Cells along the edge of a box: a transform of half as many takes three quarters of the time."""
 
 
 @dataclass(frozen=True)
