@@ -18,8 +18,6 @@ DEEP = 0.1
 """Part of the window's edge or of a radius that wear may reach, as slopes are small."""
 COARSE, FINE = 0.05, 0.01
 """Error of the depth by too few positions that is reported, and the error at the number advised."""
-UNLIKE = 0.01
-"""Relative difference of a track from the period that is reported."""
 
 
 @dataclass(frozen=True)
@@ -151,7 +149,7 @@ def unlike_the_period(body: str, length: float, period: float) -> Finding:
         "averaging",
         f"the contact repeats every {1e3 * period:.4g} mm without an end, but the wear of "
         f"{body} by one period is averaged over a track of {1e3 * length:.4g} mm: "
-        f"{body} wears {period / length:.2g} times as much as it would; make the track "
+        f"{body} wears {period / length:.3g} times as much as it would; make the track "
         'as long as the window, or resolve it by kinematics.positions = "cells"',
         value=length,
         limit=period,

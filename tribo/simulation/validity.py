@@ -168,7 +168,7 @@ def _unlike_the_period(model: Model) -> Finding | None:
     for name in model.changing:
         exposure = model.cycle.maps[name]
         length = exposure.track(model.grid)
-        unlike = exposure.averaged and abs(length - period) > findings.UNLIKE * period
+        unlike = exposure.averaged and abs(length - period) > ROUND_OFF * period
         if unlike and name in model.laws.wear:
             return findings.unlike_the_period(name, length, period)
     return None
