@@ -6,7 +6,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tribo.core.toml import to_toml
-from tribo.templates import TEMPLATES, template
 
 KEYS = st.text(st.characters(codec="utf-8"), max_size=6)
 NUMBERS = st.integers(-(2**63), 2**63 - 1) | st.floats(allow_nan=False)
@@ -20,14 +19,6 @@ VALUES = st.recursive(
 @given(st.dictionaries(KEYS, VALUES, max_size=4))
 def test_what_is_written_is_read_back(tables):
     assert tomllib.loads(to_toml(tables)) == tables
-
-
-def test_templates_are_written_with_their_tables():
-    for name in TEMPLATES:
-        tables = tomllib.loads(template(name))
-        assert tomllib.loads(to_toml(tables)) == tables
-    text = to_toml(tomllib.loads(template("ball_on_disk")))
-    assert "[bodies.ball.material]" in text.splitlines()
 
 
 def test_what_is_not_given_is_left_out():
