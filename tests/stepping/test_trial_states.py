@@ -57,7 +57,7 @@ class Worn(WearLaw):
 
 def test_a_law_that_is_bad_from_a_state_on_ends_the_run_there_by_name(tmp_path):
     with pytest.raises(
-        PluginError, match=r"wear law 'test\.worn' .*'depth_rate' that is -\S+ somewhere at 1 m"
+        PluginError, match=r"wear law 'test\.worn' .*'depth_rate' that is -\S+ somewhere at 0.9999"
     ):
         Simulation(model(Worn())).run(tmp_path / "run.h5")
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 NUDGE = 1e-4
 """Part of the pressure by which it is varied to determine the slope of a wear rate."""
-COARSE = Division(((0.25, True), (0.75, True)), np.inf)
+COARSE = Division((0.25, 0.75), np.inf)
 """Division to determine slopes, where an increment has more parts than these."""
 
 

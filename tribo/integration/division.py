@@ -14,23 +14,15 @@ from tribo.integration.integrator import Part, apart, part_of, solved
 from tribo.integration.kept import Kept, Rates, Sum, Values
 from tribo.integration.step_to_break import places_passing
 
-ACCURACY = 3e-5
+ACCURACY = 2e-5
 """Error of an increment, summed over the cells, relative to what it integrates."""
-LOOSER, LOOSEST = 10.0, 3e-3
-"""Factor on the accuracy of rates that jump, and the least accuracy that it may lead to."""
-MOST_PARTS = 32
-"""Parts of an increment after which the accuracy is loosened."""
-ROUGHEST = 0.05
-"""Largest error, as the mean over those parts and in each part of the whole."""
-MOST_LEAVING = 64
-"""Parts of an increment after which a state that leaves its limits is not followed further."""
+MOST_PARTS = 128
+"""Parts of an increment after which it is refused: to 1e-5 of it, a jump takes 40."""
 JUMP = 0.1
 """Relative difference from a smooth rate at which a rate is taken to jump."""
 SAFETY, LEAST = 0.9, 1 / 8
 """Length of the next part over the length of the accuracy asked for; and the least part cut off
 at once."""
-FINEST = 2.0**-30
-"""The smallest part, where a state keeps leaving its limits."""
 FADED = 0.01
 """Part of the largest value of a state, below which its error is relative to that part."""
 
@@ -41,13 +33,13 @@ class Division:
 
     Parameters
     ----------
-    parts : tuple of (float, bool)
-        Parts of it, which add up to 1, each with whether its states relax within it.
+    parts : tuple of float
+        Parts of it, which add up to 1.
     accuracy : float
         Of the integration; infinite to take the parts as they are.
     """
 
-    parts: tuple[tuple[float, bool], ...] = ((1.0, False),)
+    parts: tuple[float, ...] = (1.0,)
     accuracy: float = ACCURACY
 
 
@@ -75,11 +67,10 @@ def integrated(
 ) -> Integral:
     """Integrate states and sums over an increment.
 
-    Each part is solved by Euler steps, extrapolated; where that is not accurate, by exponential
-    ones, exact for a state that relaxes linearly; and where that is not either, or leaves the
-    limits of a state, in two halves. States that relax over far less than a part reach equilibrium
-    there. Steps end at breaks that a state declares; rates that jump elsewhere would need endless
-    parts, and are integrated less accurately.
+    Each part is solved by exponential Euler steps, exact for a state that relaxes linearly, which
+    are extrapolated; where that is not accurate, or leaves the limits of a state, in two halves.
+    States that relax over far less than a part reach equilibrium there. Steps end at breaks that a
+    state declares; towards a jump elsewhere parts are halved, and many jumps are refused.
 
     Parameters
     ----------
@@ -103,7 +94,7 @@ def integrated(
     PluginError
         If a state leaves its limits however short the part.
     BadValues
-        If the increment is too long for the parts that it may have.
+        If states change too often for the parts that it may have.
 
     References
     ----------
@@ -114,42 +105,30 @@ def integrated(
     """
     plan = plan or Division()
     problem = _Problem(rates, length, kept, sums, math.isinf(plan.accuracy))
-    here = begin = problem.begin(start)
-    waiting, done, missed = list(plan.parts), list[tuple[float, bool]](), 0.0
-    worst = [0.0] * len(begin.rates)
+    here = problem.begin(start)
+    waiting, done = list(plan.parts), list[float]()
     while waiting:
-        part, relaxes = waiting[0]
-        trial = problem.tried(here, part, relaxes, plan.accuracy, is_last=len(waiting) == 1)
+        part = waiting[0]
+        trial = problem.tried(here, part, plan.accuracy, is_last=len(waiting) == 1)
         left = max(trial.beyond, default=0.0) > ACCURACY
         if trial.off <= plan.accuracy and not left:
-            here, missed = trial.end, missed + part * trial.off
-            worst = [max(each) for each in zip(worst, trial.errors, strict=True)]
+            here = trial.end
             done.append(waiting.pop(0))
             if waiting and trial.off > 0:
                 _cut(waiting, SAFETY * part * (plan.accuracy / trial.off) ** (1 / 3))
-        elif not relaxes:
-            waiting[0] = part, True
-        elif left and (part <= FINEST or len(waiting) + len(done) > MOST_LEAVING):
+        elif len(waiting) + len(done) < MOST_PARTS:
+            waiting[:1] = [0.5 * part] * 2
+        elif left:
             of = kept[int(np.argmax(trial.beyond))]
             raise PluginError(
                 f"{of} leaves its limits of {of.least:g} to {of.most:g}: let its rate vanish there"
             )
-        elif left or (part > FINEST and len(waiting) + len(done) < MOST_PARTS):
-            waiting[:1] = [(0.5 * part, True)] * 2
         else:
-            # Rates that jump, at one point after the other.
-            plan = _looser(plan)
-            here, waiting, done, missed = begin, list(plan.parts), [], 0.0
-            worst = [0.0] * len(worst)
-    if math.isinf(plan.accuracy) and not problem.repeated:
-        amounts = [*here.peaks, *map(np.abs, here.sums)]
-        missed = max(missed, *map(part_of, worst, amounts))
-    if not missed <= ROUGHEST:
-        names = ", ".join(map(str, kept))
-        raise BadValues(
-            f"states ({names}) change too often to be integrated over {length:g} (m, or s of a "
-            "rest): shorten the steps"
-        )
+            names = ", ".join(map(str, kept))
+            raise BadValues(
+                f"states ({names}) change too often to be integrated over {length:g} (m, or s of "
+                "a rest): shorten the steps, or declare the breaks where rates jump"
+            )
     return Integral(here.values, here.sums, replace(plan, parts=tuple(done)), here.breaks)
 
 
@@ -157,7 +136,7 @@ def integrated(
 class _Place:
     """A place along an increment: the part passed, states and sums there, and all rates.
 
-    `peaks` are the largest values of the states until there; `breaks` is as `Integral.passed`.
+    `peaks` are the largest states and sums until there; `breaks` is as `Integral.passed`.
     """
 
     passed: float
@@ -172,13 +151,11 @@ class _Place:
 class _Trial:
     """Where a part of an increment ends, its error, and how far each state leaves its limits.
 
-    The largest error `off` and the distances beyond limits are relative to the integral so far;
-    `errors` are summed over the cells.
+    The largest error `off` and the distances beyond limits are relative to the integral so far.
     """
 
     end: _Place
     off: float
-    errors: Sequence[float]
     beyond: Sequence[float]
 
 
@@ -196,11 +173,9 @@ class _Problem:
         """Return the place where the increment begins."""
         values, first = list(start), self.rates(start, 0.0)
         sums = [np.zeros_like(rate) for rate in first[len(values) :]]
-        return _Place(0.0, values, [np.abs(value) for value in values], sums, first, {})
+        return _Place(0.0, values, [*map(np.abs, values), *sums], sums, first, {})
 
-    def tried(
-        self, here: _Place, part: float, relaxes: bool, accuracy: float, *, is_last: bool
-    ) -> _Trial:
+    def tried(self, here: _Place, part: float, accuracy: float, *, is_last: bool) -> _Trial:
         """Return the trial of a part of the increment."""
         values, kept, count = here.values, self.kept, len(here.values)
         span = part * self.length
@@ -209,114 +184,75 @@ class _Problem:
             held = [of.hold(state) for state, of in zip(states, kept, strict=True)]
             return self.rates(held, here.passed + share * part)
 
-        taken = solved(along, values, here.rates, span, kept, self.sums, relaxes=relaxes)
-        best, rough = taken.end, taken.rough
+        taken = solved(along, values, here.rates, span, kept, self.sums)
+        best = taken.end
+        totals = [old + new for old, new in zip(here.sums, best[count:], strict=True)]
+        amounts = [np.abs(each) for each in (*best[:count], *totals)]
+        peaks = [*map(np.maximum, here.peaks, amounts)]
         sizes = [
-            np.maximum.reduce([np.abs(old), np.abs(new), FADED * peak])
-            for old, new, peak in zip(values, best, here.peaks, strict=False)
-        ]
-        sizes += [
-            np.maximum(np.abs(new), part * np.abs(old))
-            for old, new in zip(here.sums, best[count:], strict=True)
+            np.maximum.reduce([np.abs(old), new, FADED * peak])
+            for old, new, peak in zip((*values, *here.sums), amounts, peaks, strict=True)
         ]
         held = [of.hold(value) for value, of in zip(best, kept, strict=False)]
-        at_end = is_last and math.isinf(accuracy)
-        last = taken.last or (here.rates if at_end else along(held, 1.0))
-        errors = [apart(*each) for each in zip(best, rough, strict=True)]
-        off = max(map(part_of, errors, sizes), default=0.0)
-        passing = places_passing(kept, taken.pieces)
-        if not self.repeated:
-            # Trials held to a limit agree with each other, whatever the state goes to.
-            off = max(off, *map(part_of, taken.beyond, sizes), 0.0)
-            if passing:
-                off = max(off, *map(part_of, _unseen(taken, self.sums, along, last), sizes))
-        passed = taken.passed()
-        if off <= accuracy < math.inf and taken.last is None:
-            # At a place where points pass breaks, rates jump as is known; elsewhere all may then.
-            amounts = [*sizes[:count], *map(np.abs, here.sums)]
-            places = [*(of.place for of in kept), *(of.place for of in self.sums)]
-            for at, place in enumerate(places):
-                if place not in passing and (passing or at >= count):
-                    rates = [each[at] for each in (*_samples(taken), last)]
-                    off = max(off, _jump(rates, span, amounts[at]))
-        totals = [old + new for old, new in zip(here.sums, best[count:], strict=True)]
+        last, off = here.rates, 0.0
+        if not (is_last and math.isinf(accuracy)):
+            last = along(held, 1.0)
+            errors = self._errors(taken, along, last, span)
+            off = max(map(part_of, errors, sizes), default=0.0)
         beyond = [
-            _beyond(value, np.maximum(size, peak), of)
-            for value, size, peak, of in zip(best, sizes, here.peaks, kept, strict=False)
+            _beyond(value, peak, of) for value, peak, of in zip(best, peaks, kept, strict=False)
         ]
-        peaks = [np.maximum(old, np.abs(new)) for old, new in zip(here.peaks, held, strict=True)]
-        first = {at: here.passed + share * part for at, share in passed.items()}
+        first = {at: here.passed + share * part for at, share in taken.passed().items()}
         end = _Place(here.passed + part, held, peaks, totals, last, {**first, **here.breaks})
-        return _Trial(end, off, errors, beyond)
+        return _Trial(end, off, beyond)
+
+    def _errors(self, part: Part, rates: Rates, last: Values, span: float) -> list[float]:
+        """Return the error of states and sums after a part, summed over the cells.
+
+        It is the change by the last row of the extrapolation. Where a point passes a break it is
+        half the change of its rates up to the break, and from there on; a rate that jumps elsewhere
+        is in error by its jump. `last` are the rates at the end.
+        """
+        # States lie at their places.
+        every = [*(Sum(of.place) for of in self.kept), *self.sums]
+        passing, row = places_passing(self.kept, part.pieces), part.rows[-1]
+        errors = [apart(*each) for each in zip(part.end, part.rough, strict=True)]
+        for taken, pieces in enumerate(row):
+            for piece in pieces if pieces[0].ended else ():
+                found = rates(piece.nearly(self.kept, part.relaxing), taken / len(row))
+                for at, of in enumerate(every):
+                    lasts = np.asarray(of.span(piece.spans, 0.0))
+                    change = np.abs(found[at] - piece.rates[at])
+                    passed = np.where(lasts < piece.step, lasts, 0.0)
+                    errors[at] += 0.5 * float(np.sum(change * passed))
+        for at, of in enumerate(every):
+            if of.place is None and passing:
+                # Rows may agree by chance.
+                errors[at] = apart(part.ends[-1][at], part.ends[0][at])
+            if of.place not in passing:
+                samples = np.array([*(step[0].rates[at] for step in row), last[at]])
+                errors[at] = max(errors[at], span * _jump(samples))
+        return errors
 
 
-def _cut(waiting: list[tuple[float, bool]], accurate: float) -> None:
+def _cut(waiting: list[float], accurate: float) -> None:
     """Divide the next part where it is more than twice as long as would be accurate.
 
     A half, a quarter or an eighth is cut off, so that parts do not follow the rates' last digits.
     """
-    whole = waiting[0][0]
+    whole = waiting[0]
     if whole > 2 * accurate:
         cut = max(2.0 ** math.floor(math.log2(accurate / whole)), LEAST) * whole
-        waiting[:1] = [(cut, True), (whole - cut, True)]
+        waiting[:1] = [cut, whole - cut]
 
 
-def _looser(plan: Division) -> Division:
-    if LOOSER * plan.accuracy <= LOOSEST:
-        return replace(plan, accuracy=LOOSER * plan.accuracy)
-    return Division(((1 / MOST_PARTS, False),) * MOST_PARTS, math.inf)
+def _jump(rates: Array) -> float:
+    """Return the jump of a rate before or after evenly spaced samples, summed over the cells.
 
-
-def _unseen(part: Part, sums: Sequence[Sum], rates: Rates, last: Values) -> list[float]:
-    """Return the error of states and sums where a break is passed, summed over the cells.
-
-    Rates change before and after the break, while a step evaluates them only before the break and
-    at its end. `last` are the rates at the end of the increment.
+    It is their highest difference, which is small where a rate is smooth.
     """
-    # States lie at their places.
-    every = [*(Sum(of.place) for of in part.kept), *sums]
-    off, row = [0.0] * len(every), part.rows[-1]
-    for taken, pieces in enumerate(row):
-        if not pieces[0].ended:
-            continue
-        end = last if taken + 1 == len(row) else row[taken + 1][0].rates
-        for piece in pieces:
-            after = piece.rates if piece is pieces[0] else end
-            change = [np.abs(a - b) for a, b in zip(after, piece.rates, strict=True)]
-            states = piece.stepped(part.kept, part.relaxing)
-            for at, (here, number) in piece.ended.items():
-                near = np.nextafter(part.kept[at].end(number), piece.states[at])
-                states[at] = np.where(here, near, states[at])
-            found = rates(states, taken / len(row)) if piece.ended else []
-            for at, (here, _) in piece.ended.items():
-                for other, of in enumerate(every):
-                    if of.place == part.kept[at].place:
-                        own = np.abs(found[other] - piece.rates[other])
-                        change[other] = np.where(of.seen(here), own, change[other])
-            for at, of in enumerate(every):
-                off[at] += 0.5 * float(np.sum(change[at] * of.span(piece.spans, 0.0)))
-    for at, of in enumerate(every):
-        # Rows of a sum over all of a step may agree by chance.
-        if of.place is None:
-            off[at] = apart(part.ends[-1][at], part.ends[0][at])
-    return off
-
-
-def _samples(part: Part) -> list[Values]:
-    """Return the rates at 0, 1/2, 1/3 and 2/3 of a part."""
-    first, half, thirds = ([step[0].rates for step in row] for row in part.rows[:3])
-    return [first[0], half[1], *thirds[1:]]
-
-
-def _jump(rates: Sequence[Array], span: float, so_far: Array) -> float:
-    """Return the error of a rate that jumps before or after all samples, relative to all so far.
-
-    It is the difference of the last sample, at the end of a part, from a cubic through the others.
-    """
-    first, half, third, two_thirds, last = rates
-    off = float(np.sum(np.abs(9 * third - 16 * half + 9 * two_thirds - first - last)))
-    size = float(np.sum(np.max(np.abs(rates), axis=0)))
-    return off * span / (float(np.sum(so_far)) + size * span) if off > JUMP * size else 0.0
+    jump = float(np.sum(np.abs(np.diff(rates, len(rates) - 1, axis=0))))
+    return jump if jump > JUMP * float(np.sum(np.max(np.abs(rates), axis=0))) else 0.0
 
 
 def _beyond(values: Array, size: Array, kept: Kept) -> float:

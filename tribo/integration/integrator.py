@@ -17,8 +17,8 @@ EXACT = 1e-12
 """Relative difference, summed over the cells, below which arrays are equal but for rounding."""
 NUDGE = 3e-5
 """Part of a state by which it is moved to determine its relaxation rate."""
-PLAIN, RELAXING = (1, 2, 3), (1, 2, 3, 4)
-"""Euler steps of the rows of the extrapolation, without and with the relaxation of the states."""
+ROWS = (1, 2, 3, 4)
+"""Euler steps of the rows of the extrapolation."""
 
 Row = Sequence[Sequence[Stretch]]
 """Euler steps of a part, each in pieces."""
@@ -38,12 +38,6 @@ class Part:
         The Euler steps of each row of the extrapolation.
     ends : sequence of Values
         States and sums at the end of each row.
-    rough : Values
-        Less accurate states and sums at the end.
-    beyond : sequence of float
-        By how much trials of each state exceeded its limits, summed over the cells.
-    last : Values or None
-        Rates at its end, where they are known to hold over the whole part.
     turned : sequence of (int, Values, ndarray)
         For each state that relaxes, its number, the rates with it moved, and the displacement.
     """
@@ -52,9 +46,6 @@ class Part:
     relaxing: Sequence[Field]
     rows: Sequence[Row]
     ends: Sequence[Values]
-    rough: Values
-    beyond: Sequence[float]
-    last: Values | None = None
     turned: Sequence[tuple[int, Values, Array]] = ()
 
     @property
@@ -75,7 +66,12 @@ class Part:
     @property
     def end(self) -> Values:
         """States and sums at its end."""
-        return _extrapolated(self.ends, [len(row) for row in self.rows])
+        return _extrapolated(self.ends, ROWS)
+
+    @property
+    def rough(self) -> Values:
+        """States and sums at its end, less accurate."""
+        return _extrapolated(self.ends[1:], ROWS[1:])
 
     def passed(self) -> dict[tuple[int, int], float]:
         """Return by state and break the first share of it at which a point rises to the break."""
@@ -104,31 +100,21 @@ def solved(
     kept: Sequence[Kept],
     sums: Sequence[Sum],
     *,
-    relaxes: bool,
     shortens: bool = True,
 ) -> Part:
     """Return a part of an increment, solved from its first rates on.
 
     Rates are evaluated at states that may exceed their limits. Where rates change at breaks alone,
-    one or two steps are enough if it `shortens`.
+    two rows are enough if it `shortens`.
     """
-    slopes: Sequence[Field] = [0.0] * len(start)
-    if relaxes:
-        slopes = relaxation(rates, start, first, length, kept)
+    slopes = relaxation(rates, start, first, length, kept)
     rows, ends = list[Row](), list[Values]()
-    beyond = [0.0] * len(start)
-    stages = RELAXING if relaxes else PLAIN
-    for steps in stages:
-        step, row = length / steps, list[list[Stretch]]()
-        states = list(start)
+    for steps in ROWS:
+        step, row, states = length / steps, list[list[Stretch]](), list(start)
         totals = [np.zeros_like(rate) for rate in first[len(start) :]]
         for taken in range(steps):
-            share = taken / steps
-            if taken:
-                trials = zip(beyond, states, kept, strict=True)
-                beyond = [max(by, apart(of.hold(state), state)) for by, state, of in trials]
 
-            def along(values: Sequence[Array], share: float = share) -> Values:
+            def along(values: Sequence[Array], share: float = taken / steps) -> Values:
                 return rates(values, share)
 
             found = along(states) if taken else first
@@ -139,26 +125,9 @@ def solved(
         ends.append([*states, *totals])
         if shortens and steps == 2 and all(map(_same, *ends)):
             last = rates(states, 1.0)
-            passes = bool(places_passing(kept, chain.from_iterable(chain(*rows))))
-            constant = zip(sums, first[len(kept) :], last[len(kept) :], strict=True)
-            # A sum at the place of a state is as that is.
-            if all(map(_same, _ending(kept, row[-1]), last)) and all(
-                _same(one, other) for of, one, other in constant if not (passes and of.place)
-            ):
-                rows, ends = (rows, ends) if passes else (rows[:1], ends[:1])
-                return Part(kept, slopes, rows, ends, ends[-1], beyond, last)
-    return Part(kept, slopes, rows, ends, _extrapolated(ends[1:], stages[1:]), beyond)
-
-
-def _ending(kept: Sequence[Kept], pieces: Sequence[Stretch]) -> Values:
-    """Return the rates of states at the end of a step."""
-    ending = pieces[0].rates[: len(kept)]
-    for piece in pieces[1:]:
-        ending = [
-            np.where(np.asarray(piece.spans[of.place]) > 0, rate, before)
-            for of, rate, before in zip(kept, piece.rates, ending, strict=False)
-        ]
-    return ending
+            if all(map(_same, row[-1][-1].rates, last)):
+                break
+    return Part(kept, slopes, rows, ends)
 
 
 def _same(one: Array, other: Array) -> bool:
@@ -173,15 +142,14 @@ def retraced(
     length: float,
     kept: Sequence[Kept],
     sums: Sequence[Sum],
-    parts: Sequence[tuple[float, bool]],
+    parts: Sequence[float],
 ) -> list[Part]:
     """Return the parts of an increment as it was divided, with the input of `transposed`.
 
-    `parts` are shares of it, each with whether states relax within. Rates are evaluated at shares
-    of the increment.
+    `parts` are shares of it. Rates are evaluated at shares of the increment.
     """
     passed, states, done = 0.0, list(start), list[Part]()
-    for share, relaxes in parts:
+    for share in parts:
 
         def along(
             values: Sequence[Array], at: float, passed: float = passed, share: float = share
@@ -192,7 +160,7 @@ def retraced(
             first = along(states, 0.0)
         span = share * length
         # Rates that stay as they are need not do so with another number.
-        part = solved(along, states, first, span, kept, sums, relaxes=relaxes, shortens=False)
+        part = solved(along, states, first, span, kept, sums, shortens=False)
         turned = []
         for at, slope in enumerate(part.relaxing):
             if np.any(np.asarray(slope) < 0):
@@ -328,6 +296,8 @@ def part_of(amount: float, size: Array) -> float:
 
 def _extrapolated(ends: Sequence[Values], rows: Sequence[int]) -> Values:
     """Return the ends of rows of Euler steps, extrapolated to infinitely many steps."""
+    # Fewer where rates are constant.
+    rows = rows[: len(ends)]
     counts = [weight(steps, rows) for steps in rows]
     *rough, last = ends
     total = list(last)

@@ -36,6 +36,14 @@ class Stretch:
             for state, rate, slope, of in zip(self.states, self.rates, slopes, kept, strict=False)
         ]
 
+    def nearly(self, kept: Sequence[Kept], slopes: Sequence[Field]) -> Values:
+        """Return the states just before its end, on this side of a break."""
+        states = self.stepped(kept, slopes)
+        for at, (here, number) in self.ended.items():
+            near = np.nextafter(kept[at].end(number), self.states[at])
+            states[at] = np.where(here, near, states[at])
+        return states
+
 
 def stepped(
     rates: Callable[[Sequence[Array]], Values],
