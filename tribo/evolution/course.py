@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -41,7 +41,7 @@ class Course:
     plan : Division
         Its division for accurate states.
     friction_work : float or None
-        Work of friction, in J, where points slip less than the motion and there are states.
+        Work of friction, in J, where it differs from point to point and there are states.
     passed : Mapping[str, Mapping[int, float]]
         The first share of it at which a point reaches a break of a body's depth, by body and break.
     """
@@ -75,7 +75,7 @@ def course(
         for position in range(len(contacts))
         for name in model.laws.wear
     ]
-    if model.laws.slips_locally:
+    if model.laws.friction_by_point:
         sums.append(Sum())
     kept = kept_in(model, before)
     found = integrated(rates, before.values, interval.length, kept, sums, plan)
@@ -89,32 +89,8 @@ def course(
         body = before.bodies[state]
         if body and kept[state].name == WORN_DEPTH.name:
             passed.setdefault(body, {})[layer] = share
-    work = float(next(each)) if model.laws.slips_locally else None
+    work = float(next(each)) if model.laws.friction_by_point else None
     return Course(mean, before.with_values(iter(found.values)), found.plan, work, passed)
-
-
-def accumulated(
-    model: Model,
-    before: Memory,
-    contacts: Sequence[ContactSolution],
-    interval: Interval,
-    plan: Division,
-    rate: Callable[[Memory, float], float],
-) -> float:
-    """Return the integral over a course of a rate per metre that depends on the states.
-
-    `plan` is the division of the course. The rate is evaluated at the states and the part of the
-    interval that has passed.
-    """
-    states = len(before.values)
-
-    def rates(values: Sequence[Array], passed: float) -> Values:
-        found = _rates(model, before, contacts, interval, values, passed)
-        return [*found[:states], np.array(rate(before.with_values(iter(values)), passed))]
-
-    kept = kept_in(model, before)
-    found = integrated(rates, before.values, interval.length, kept, [Sum()], Division(plan.parts))
-    return float(found.sums[0])
 
 
 def in_stripes(
@@ -195,7 +171,7 @@ def _rates(
         pairs = zip(total, (*laws, *effects), strict=True)
         total = [value + share * rate for value, rate in pairs]
     total += [rate.depth_rate for rates in found for rate in rates.wear.values()]
-    if model.laws.slips_locally:
+    if model.laws.friction_by_point:
         force = sum(
             place.share * float(np.sum(rates.friction))
             for place, rates in zip(model.cycle, found, strict=True)

@@ -12,11 +12,11 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import FRICTION_COEFFICIENT, LOCAL_SLIP
 from tribo.core.state import State
-from tribo.evolution.course import Course, accumulated
+from tribo.evolution.course import Course
 from tribo.evolution.interval import Moment, interval_from
 from tribo.evolution.local_fields import local_fields, weighed
 from tribo.evolution.states import Memory, remembered, under
-from tribo.integration.division import Division, integrated
+from tribo.integration.division import integrated
 from tribo.integration.kept import Sum
 
 if TYPE_CHECKING:
@@ -71,10 +71,9 @@ def with_friction_work(
 ) -> State:
     """Return `after`, the end of a step, with the work of friction over it.
 
-    Load and pressure change linearly from one end of the step to the other: from after a jump of
-    the load at its beginning to before a jump at its end. States evolve under `contacts`, under
-    which the bodies wear, in the parts of their `course`. Where points slip less than the motion
-    the work is done by the pressures that wear: V = (k/μ) W.
+    With states it is integrated with the wear, under the same pressures: V = (k/μ) W. Else load and
+    pressure change linearly from one end of the step to the other: from after a jump of the load at
+    its beginning to before a jump at its end.
     """
     carried = after.load_distance - before.load_distance
     if course.friction_work is not None:
@@ -84,38 +83,26 @@ def with_friction_work(
         pressures = [contact.pressure for contact in contacts]
         work = carried * _mean(model, pressures, remembered(model, before), interval.end)
     elif model.laws.friction_varies:
-        work = _varying_work(model, before, after, contacts, course.plan)
+        work = _varying_work(model, before, after)
     else:
         work = (model.laws.friction_coefficient or 0.0) * carried
     return replace(after, friction_energy=before.friction_energy + work)
 
 
-def _varying_work(
-    model: Model, before: State, after: State, contacts: Sequence[ContactSolution], plan: Division
-) -> float:
+def _varying_work(model: Model, before: State, after: State) -> float:
     """Return the integral of the friction coefficient of effects times the load, in J."""
     interval = interval_from(before, after.distance - before.distance, after.time)
-    first, last = (
-        model.contact.loads.over_cycle(loads)
-        for loads in (
-            model.loads(before).after(before.time),
-            model.loads(before).before(after.time),
-        )
-    )
+    memory, over_cycle = remembered(model, before), model.contact.loads.over_cycle
+    first = over_cycle(model.loads(before).after(before.time))
+    last = over_cycle(model.loads(before).before(after.time))
 
-    def force(memory: Memory, passed: float) -> float:
+    def rates(_: Sequence[Array], passed: float) -> list[Array]:
         between = [
             readonly((1 - passed) * one.pressure + passed * other.pressure)
             for one, other in zip(before.contacts, after.contacts, strict=True)
         ]
         now = replace(interval.at(passed), speed=after.speed)
-        return _mean(model, between, memory, now) * ((1 - passed) * first + passed * last)
-
-    memory = remembered(model, before)
-    if model.laws.friction_remembers:
-        return accumulated(model, memory, contacts, interval, plan, force)
-
-    def rates(_: Sequence[Array], passed: float) -> list[Array]:
-        return [np.array(force(memory, passed))]
+        load = (1 - passed) * first + passed * last
+        return [np.array(_mean(model, between, memory, now) * load)]
 
     return float(integrated(rates, [], interval.slides, [], [Sum()]).sums[0])

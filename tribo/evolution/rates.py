@@ -48,8 +48,8 @@ CycleRates = Sequence[Mapping[str, WearRate]]
 class Rates:
     """Rates per metre in the contact frame, at a position: of wear by body, of effects by key.
 
-    At rest they are per second. Where points slip less than the motion, `friction` is the energy
-    that they dissipate per area and metre of the motion, in Pa.
+    At rest they are per second. Where friction differs from point to point, `friction` is the
+    energy dissipated per area and metre of the motion, in Pa.
     """
 
     wear: Mapping[str, WearRate]
@@ -194,9 +194,9 @@ def _rates_of(
         zip(contacts, memories, moments, strict=True)
     ):
         rates, friction = {name: rate.at(position) for name, rate in wear.items()}, None
-        if model.laws.slips_locally and FRICTION_COEFFICIENT.name in fields[position]:
-            names = FRICTION_COEFFICIENT.name, LOCAL_SLIP.name
-            friction = weighed(contact.pressure, fields[position], names)
+        if model.laws.friction_by_point and FRICTION_COEFFICIENT.name in fields[position]:
+            names = {FRICTION_COEFFICIENT.name, LOCAL_SLIP.name} & fields[position].keys()
+            friction = weighed(contact.pressure, fields[position], sorted(names))
         between: Mapping[str, Array] = {}
         if memory.between:
             depths = {

@@ -73,12 +73,6 @@ class Laws:
         return frozenset(field.name for effect in self.effects for field in effect.provides)
 
     @cached_property
-    def friction_remembers(self) -> bool:
-        """Whether the coefficient of friction depends on states of laws or effects."""
-        following = {field.name for law in self.wear.values() for field in law.state_fields}
-        following.update(field.name for _, field in self.between.values())
-        # In the order in which they are asked.
-        for effect in self.effects:
-            if effect.state_fields or following & set(effect.requires):
-                following.update(field.name for field in effect.provides)
-        return FRICTION_COEFFICIENT.name in following
+    def friction_by_point(self) -> bool:
+        """Whether friction differs from point to point, by the coefficient or the slip."""
+        return self.friction_varies or self.slips_locally
