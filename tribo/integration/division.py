@@ -16,7 +16,7 @@ from tribo.integration.step_to_break import places_passing
 
 ACCURACY = 2e-5
 """Error of an increment, summed over the cells, relative to what it integrates."""
-MOST_PARTS = 128
+MOST_PARTS = 100
 """Parts of an increment after which it is refused: to 1e-5 of it, a jump takes 40."""
 JUMP = 0.1
 """Relative difference from a smooth rate at which a rate is taken to jump."""
@@ -104,22 +104,48 @@ def integrated(
     Exponential integrators, Acta Numerica 19, 209-286.
     """
     plan = plan or Division()
-    problem = _Problem(rates, length, kept, sums, math.isinf(plan.accuracy))
-    here = problem.begin(start)
+    adapts, count = math.isfinite(plan.accuracy), len(start)
+    first = rates(start, 0.0)
+    values = [*start, *(np.zeros_like(rate) for rate in first[count:])]
+    peaks, passed, breaks = [*map(np.abs, values)], 0.0, dict[tuple[int, int], float]()
     waiting, done = list(plan.parts), list[float]()
     while waiting:
         part = waiting[0]
-        trial = problem.tried(here, part, plan.accuracy, is_last=len(waiting) == 1)
-        left = max(trial.beyond, default=0.0) > ACCURACY
-        if trial.off <= plan.accuracy and not left:
-            here = trial.end
+
+        def along(
+            states: Sequence[Array], share: float, passed: float = passed, part: float = part
+        ) -> Values:
+            held = [of.hold(state) for state, of in zip(states, kept, strict=True)]
+            return rates(held, passed + share * part)
+
+        taken = solved(along, values[:count], first, part * length, kept, sums)
+        begun = [0.0] * count + values[count:]
+        end = [old + new for old, new in zip(begun, taken.end, strict=True)]
+        largest = [np.maximum(peak, np.abs(value)) for peak, value in zip(peaks, end, strict=True)]
+        beyond = [*map(_beyond, end, largest, kept)]
+        left = max(beyond, default=0.0) > ACCURACY
+        held = [of.hold(value) for value, of in zip(end, kept, strict=False)]
+        last = along(held, 1.0) if adapts or len(waiting) > 1 else first
+        off = 0.0
+        if adapts:
+            sizes = [
+                np.maximum.reduce([np.abs(old), np.abs(new), FADED * peak])
+                for old, new, peak in zip(values, end, largest, strict=True)
+            ]
+            errors = _errors(taken, sums, along, last, part * length)
+            off = max(map(part_of, errors, sizes), default=0.0)
+        if off <= plan.accuracy and not left:
+            # Later parts pass later.
+            later = {at: passed + share * part for at, share in taken.passed().items()}
+            breaks, values, peaks, first = {**later, **breaks}, held + end[count:], largest, last
+            passed += part
             done.append(waiting.pop(0))
-            if waiting and trial.off > 0:
-                _cut(waiting, SAFETY * part * (plan.accuracy / trial.off) ** (1 / 3))
+            if waiting and off > 0:
+                _cut(waiting, SAFETY * part * (plan.accuracy / off) ** (1 / 3))
         elif len(waiting) + len(done) < MOST_PARTS:
             waiting[:1] = [0.5 * part] * 2
         elif left:
-            of = kept[int(np.argmax(trial.beyond))]
+            of = kept[int(np.argmax(beyond))]
             raise PluginError(
                 f"{of} leaves its limits of {of.least:g} to {of.most:g}: let its rate vanish there"
             )
@@ -129,110 +155,38 @@ def integrated(
                 f"states ({names}) change too often to be integrated over {length:g} (m, or s of "
                 "a rest): shorten the steps, or declare the breaks where rates jump"
             )
-    return Integral(here.values, here.sums, replace(plan, parts=tuple(done)), here.breaks)
+    return Integral(values[:count], values[count:], replace(plan, parts=tuple(done)), breaks)
 
 
-@dataclass(frozen=True)
-class _Place:
-    """A place along an increment: the part passed, states and sums there, and all rates.
+def _errors(
+    part: Part, sums: Sequence[Sum], rates: Rates, last: Values, span: float
+) -> list[float]:
+    """Return the error of states and sums after a part, summed over the cells.
 
-    `peaks` are the largest states and sums until there; `breaks` is as `Integral.passed`.
+    It is the change by the last row of the extrapolation. Where a point passes a break it is half
+    the change of its rates up to the break, and from there on; a rate that jumps elsewhere is in
+    error by its jump. `last` are the rates at the end.
     """
-
-    passed: float
-    values: Values
-    peaks: Values
-    sums: Values
-    rates: Values
-    breaks: Mapping[tuple[int, int], float]
-
-
-@dataclass(frozen=True)
-class _Trial:
-    """Where a part of an increment ends, its error, and how far each state leaves its limits.
-
-    The largest error `off` and the distances beyond limits are relative to the integral so far.
-    """
-
-    end: _Place
-    off: float
-    beyond: Sequence[float]
-
-
-@dataclass(frozen=True)
-class _Problem:
-    """What `integrated` integrates; `repeated` where its parts are taken as they are."""
-
-    rates: Rates
-    length: float
-    kept: Sequence[Kept]
-    sums: Sequence[Sum]
-    repeated: bool
-
-    def begin(self, start: Sequence[Array]) -> _Place:
-        """Return the place where the increment begins."""
-        values, first = list(start), self.rates(start, 0.0)
-        sums = [np.zeros_like(rate) for rate in first[len(values) :]]
-        return _Place(0.0, values, [*map(np.abs, values), *sums], sums, first, {})
-
-    def tried(self, here: _Place, part: float, accuracy: float, *, is_last: bool) -> _Trial:
-        """Return the trial of a part of the increment."""
-        values, kept, count = here.values, self.kept, len(here.values)
-        span = part * self.length
-
-        def along(states: Sequence[Array], share: float) -> Values:
-            held = [of.hold(state) for state, of in zip(states, kept, strict=True)]
-            return self.rates(held, here.passed + share * part)
-
-        taken = solved(along, values, here.rates, span, kept, self.sums)
-        best = taken.end
-        totals = [old + new for old, new in zip(here.sums, best[count:], strict=True)]
-        amounts = [np.abs(each) for each in (*best[:count], *totals)]
-        peaks = [*map(np.maximum, here.peaks, amounts)]
-        sizes = [
-            np.maximum.reduce([np.abs(old), new, FADED * peak])
-            for old, new, peak in zip((*values, *here.sums), amounts, peaks, strict=True)
-        ]
-        held = [of.hold(value) for value, of in zip(best, kept, strict=False)]
-        last, off = here.rates, 0.0
-        if not (is_last and math.isinf(accuracy)):
-            last = along(held, 1.0)
-            errors = self._errors(taken, along, last, span)
-            off = max(map(part_of, errors, sizes), default=0.0)
-        beyond = [
-            _beyond(value, peak, of) for value, peak, of in zip(best, peaks, kept, strict=False)
-        ]
-        first = {at: here.passed + share * part for at, share in taken.passed().items()}
-        end = _Place(here.passed + part, held, peaks, totals, last, {**first, **here.breaks})
-        return _Trial(end, off, beyond)
-
-    def _errors(self, part: Part, rates: Rates, last: Values, span: float) -> list[float]:
-        """Return the error of states and sums after a part, summed over the cells.
-
-        It is the change by the last row of the extrapolation. Where a point passes a break it is
-        half the change of its rates up to the break, and from there on; a rate that jumps elsewhere
-        is in error by its jump. `last` are the rates at the end.
-        """
-        # States lie at their places.
-        every = [*(Sum(of.place) for of in self.kept), *self.sums]
-        passing, row = places_passing(self.kept, part.pieces), part.rows[-1]
-        errors = [apart(*each) for each in zip(part.end, part.rough, strict=True)]
-        for taken, pieces in enumerate(row):
-            for piece in pieces if pieces[0].ended else ():
-                found = rates(piece.nearly(self.kept, part.relaxing), taken / len(row))
-                for at, of in enumerate(every):
-                    lasts = np.asarray(of.span(piece.spans, 0.0))
-                    change = np.abs(found[at] - piece.rates[at])
-                    passed = np.where(lasts < piece.step, lasts, 0.0)
-                    errors[at] += 0.5 * float(np.sum(change * passed))
-        for at, of in enumerate(every):
-            if of.place is None and passing:
-                # Rows may agree by chance.
-                errors[at] = apart(part.ends[-1][at], part.ends[0][at])
-            if of.place not in passing:
-                samples = np.array([*(step[0].rates[at] for step in row), last[at]])
-                errors[at] = max(errors[at], span * _jump(samples))
-        return errors
+    # States lie at their places.
+    every = [*(Sum(of.place) for of in part.kept), *sums]
+    passing, row = places_passing(part.kept, part.pieces), part.rows[-1]
+    errors = [apart(*each) for each in zip(part.end, part.rough, strict=True)]
+    for taken, pieces in enumerate(row):
+        for piece in pieces if pieces[0].ended else ():
+            found = rates(piece.nearly(part.kept, part.relaxing), taken / len(row))
+            for at, of in enumerate(every):
+                lasts = np.asarray(of.span(piece.spans, 0.0))
+                change = np.abs(found[at] - piece.rates[at])
+                passed = np.where(lasts < piece.step, lasts, 0.0)
+                errors[at] += 0.5 * float(np.sum(change * passed))
+    for at, of in enumerate(every):
+        if of.place is None and passing:
+            # Rows may agree by chance.
+            errors[at] = apart(part.ends[-1][at], part.ends[0][at])
+        if of.place not in passing:
+            samples = np.array([*(step[0].rates[at] for step in row), last[at]])
+            errors[at] = max(errors[at], span * _jump(samples))
+    return errors
 
 
 def _cut(waiting: list[float], accurate: float) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import chain
 
 import numpy as np
@@ -13,8 +13,6 @@ from tribo.core.arrays import Array
 from tribo.integration.kept import Field, Kept, Rates, Sum, Values
 from tribo.integration.step_to_break import Stretch, places_passing, stepped, stepped_back
 
-EXACT = 1e-12
-"""Relative difference, summed over the cells, below which arrays are equal but for rounding."""
 NUDGE = 3e-5
 """Part of a state by which it is moved to determine its relaxation rate."""
 ROWS = (1, 2, 3, 4)
@@ -46,7 +44,7 @@ class Part:
     relaxing: Sequence[Field]
     rows: Sequence[Row]
     ends: Sequence[Values]
-    turned: Sequence[tuple[int, Values, Array]] = ()
+    turned: Sequence[tuple[int, Values, Array]]
 
     @property
     def first(self) -> Values:
@@ -99,15 +97,12 @@ def solved(
     length: float,
     kept: Sequence[Kept],
     sums: Sequence[Sum],
-    *,
-    shortens: bool = True,
 ) -> Part:
     """Return a part of an increment, solved from its first rates on.
 
-    Rates are evaluated at states that may exceed their limits. Where rates change at breaks alone,
-    two rows are enough if it `shortens`.
+    Rates are evaluated at states that may exceed their limits.
     """
-    slopes = relaxation(rates, start, first, length, kept)
+    slopes, turned = relaxation(rates, start, first, length, kept)
     rows, ends = list[Row](), list[Values]()
     for steps in ROWS:
         step, row, states = length / steps, list[list[Stretch]](), list(start)
@@ -123,16 +118,7 @@ def solved(
             row.append(pieces)
         rows.append(row)
         ends.append([*states, *totals])
-        if shortens and steps == 2 and all(map(_same, *ends)):
-            last = rates(states, 1.0)
-            if all(map(_same, row[-1][-1].rates, last)):
-                break
-    return Part(kept, slopes, rows, ends)
-
-
-def _same(one: Array, other: Array) -> bool:
-    """Whether two arrays are the same but for rounding."""
-    return part_of(apart(one, other), np.abs(other)) <= EXACT
+    return Part(kept, slopes, rows, ends, turned)
 
 
 def retraced(
@@ -144,7 +130,7 @@ def retraced(
     sums: Sequence[Sum],
     parts: Sequence[float],
 ) -> list[Part]:
-    """Return the parts of an increment as it was divided, with the input of `transposed`.
+    """Return the parts of an increment as it was divided, for `transposed`.
 
     `parts` are shares of it. Rates are evaluated at shares of the increment.
     """
@@ -158,17 +144,8 @@ def retraced(
 
         if passed:
             first = along(states, 0.0)
-        span = share * length
-        # Rates that stay as they are need not do so with another number.
-        part = solved(along, states, first, span, kept, sums, shortens=False)
-        turned = []
-        for at, slope in enumerate(part.relaxing):
-            if np.any(np.asarray(slope) < 0):
-                other = moved(states[at], first[at], span, kept[at])
-                asked = along([*states[:at], other, *states[at + 1 :]], 0.0)
-                turned.append((at, asked, other - states[at]))
-        done.append(replace(part, turned=turned))
-        held = zip(part.end, kept, strict=False)
+        done.append(solved(along, states, first, share * length, kept, sums))
+        held = zip(done[-1].end, kept, strict=False)
         passed, states = passed + share, [of.hold(state) for state, of in held]
     return done
 
@@ -256,23 +233,24 @@ def relaxation(
     first: Sequence[Array],
     length: float,
     kept: Sequence[Kept],
-) -> list[Field]:
-    """Return the derivative of the rate of each state in the state, where negative."""
-    found: list[Field] = []
-    for index, (state, rate, of) in enumerate(zip(states, first, kept, strict=False)):
-        other = moved(state, rate, length, of)
-        if other is state:
-            found.append(0.0)
+) -> tuple[list[Field], list[tuple[int, Values, Array]]]:
+    """Return the derivative of the rate of each state in the state, where negative.
+
+    With it come `Part.turned`. States are moved by a part of their largest value, past no break or
+    limit.
+    """
+    found: list[Field] = [0.0] * len(states)
+    turned = []
+    for at, (state, rate, of) in enumerate(zip(states, first, kept, strict=False)):
+        largest = max(float(np.max(np.abs(state))), length * float(np.max(np.abs(rate))))
+        if largest == 0:
             continue
-        nudged = rates([*states[:index], other, *states[index + 1 :]], 0.0)[index]
-        found.append(np.minimum((nudged - rate) / (other - state), 0.0))
-    return found
-
-
-def moved(state: Array, rate: Array, length: float, kept: Kept) -> Array:
-    """Return a state moved by a part of its largest value, past no break or limit."""
-    largest = max(float(np.max(np.abs(state))), length * float(np.max(np.abs(rate))))
-    return state if largest == 0 else kept.aside(state, NUDGE * largest)
+        other = of.aside(state, NUDGE * largest)
+        asked = rates([*states[:at], other, *states[at + 1 :]], 0.0)
+        found[at] = np.minimum((asked[at] - rate) / (other - state), 0.0)
+        if np.any(np.asarray(found[at]) < 0):
+            turned.append((at, asked, other - state))
+    return found, turned
 
 
 def weight(steps: int, rows: Sequence[int]) -> float:
@@ -296,8 +274,6 @@ def part_of(amount: float, size: Array) -> float:
 
 def _extrapolated(ends: Sequence[Values], rows: Sequence[int]) -> Values:
     """Return the ends of rows of Euler steps, extrapolated to infinitely many steps."""
-    # Fewer where rates are constant.
-    rows = rows[: len(ends)]
     counts = [weight(steps, rows) for steps in rows]
     *rough, last = ends
     total = list(last)

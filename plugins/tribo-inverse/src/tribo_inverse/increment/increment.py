@@ -219,7 +219,7 @@ class Increment:
             )
         else:
             spans = dict.fromkeys(increment.model.laws.wear, length)
-            done = [Part([], [], [[[Stretch([], first, length, spans, {})]]], [])]
+            done = [Part([], [], [[[Stretch([], first, length, spans, {})]]], [], [])]
         used = {id(rates): asked[id(rates)][1] for part in done for rates in part.stages}
         return done, dict(zip(used, increment.sloped([*used.values()]), strict=True))
 
