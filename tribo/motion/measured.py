@@ -134,20 +134,6 @@ class Measured(Kinematics):
         rest = np.interp(time - whole * self._period, times, slid)
         return float(whole * slid[-1] + rest)
 
-    def time_at(self, distance: float) -> float:
-        """Return the first time at which `distance` is reached, in s."""
-        times, _, slid = self._samples
-        if distance <= 0:
-            return 0.0
-        # The end of a pass, but for rounding, comes before the rest with which the next may begin.
-        whole = max(0, math.ceil(distance / slid[-1] * (1 - 1e-12)) - 1)
-        rest = min(distance - whole * slid[-1], slid[-1])
-        # The first sample by which it has come so far, but for rounding, so that it moves on to it.
-        after = max(1, int(np.searchsorted(slid, rest - 1e-12 * distance)))
-        to_go = slid[after] - rest
-        pace = (times[after] - times[after - 1]) / (slid[after] - slid[after - 1])
-        return float(whole * self._period + times[after] - to_go * pace)
-
     def cycle(self, grid: Grid) -> Sequence[Position]:
         """Return the positions along the path, with the mean speed and the rests about each."""
         times, places, _ = self._samples

@@ -80,32 +80,23 @@ class Planar(Steady):
             raise ValueError("the path never leaves its first point; give more than one point")
         return self
 
-    def _place(self, mark: Array) -> Array:
-        """Return the point of the path at a mark, shape (…, 2), in m.
-
-        Marks go from 0 to 2π, or count the points of a path that is given by them.
-        """
-        if not isinstance(self.path, str):
-            closed = np.array([*self.path, self.path[0]])
-            return np.stack([np.interp(mark, self._marks, part) for part in closed.T], axis=-1)
-        assert self.extent is not None
-        if self.path == "square":
-            x, y = (np.interp(mark, self._marks, corner) for corner in np.array(SQUARE).T)
-        else:
-            x, y = np.sin(mark), -np.cos(mark) if self.path == "circle" else np.sin(2 * mark)
-        return np.stack([0.5 * self.extent[0] * x, 0.5 * self.extent[1] * y], axis=-1)
-
     @cached_property
-    def _marks(self) -> Array:
-        """Marks of the path between which it is straight, or nearly."""
-        if self.path in ("circle", "eight"):
-            return np.linspace(0.0, 2 * math.pi, SAMPLES + 1)
-        return np.arange(float(len(SQUARE) if self.path == "square" else len(self.path) + 1))
+    def _points(self) -> Array:
+        """The points of the closed path, shape (points, 2), in m."""
+        if not isinstance(self.path, str):
+            return np.array([*self.path, self.path[0]])
+        turn = np.linspace(0.0, 2 * math.pi, SAMPLES + 1)
+        shapes = {
+            "circle": np.array([np.sin(turn), -np.cos(turn)]).T,
+            "square": np.array(SQUARE),
+            "eight": np.array([np.sin(turn), np.sin(2 * turn)]).T,
+        }
+        return np.asarray(0.5 * np.array(self.extent) * shapes[self.path])
 
     @cached_property
     def _slid(self) -> Array:
-        """Distance slid up to each mark, in m."""
-        steps = np.hypot(*np.diff(self._place(self._marks), axis=0).T)
+        """Distance slid up to each point, in m."""
+        steps = np.hypot(*np.diff(self._points, axis=0).T)
         return np.concatenate([[0.0], np.cumsum(steps)])
 
     @property
@@ -148,7 +139,7 @@ class Planar(Steady):
 
     def _at(self, slid: Array) -> Array:
         """Return the point of the path at a sliding distance (m), shape (…, 2), in m."""
-        return self._place(np.interp(slid, self._slid, self._marks))
+        return np.stack([np.interp(slid, self._slid, part) for part in self._points.T], axis=-1)
 
     def _middles(self, ends: Array) -> Array:
         """Return the middle of each stretch, shape (stretches, 2), in m."""
