@@ -1,9 +1,7 @@
 """What check and the run say where a case leaves what its models hold for."""
 
-import re
-
 import pytest
-from paper_models import archard, flat, named, pair, pin, small, steel
+from paper_models import archard, flat, named, pin, small, steel
 
 from tribo import Grid, Result, Simulation, TriboWarning
 from tribo.contact.periodic import Periodic
@@ -51,33 +49,6 @@ def test_a_part_of_a_lap_is_told_by_check_and_by_the_run():
 @pytest.mark.parametrize("revolutions", [1, 10])
 def test_a_whole_lap_is_not(revolutions):
     assert tribo_findings(circle(revolutions)) == []
-
-
-@pytest.mark.parametrize(
-    ("radius", "said", "wears"),
-    [
-        ("4 mm", None, True),
-        (
-            "0.8 mm",
-            r'mm is 0\.[23]\d* of track_radius = 0\.8 mm.*kinematics\.type = "rotating"',
-            False,
-        ),
-    ],
-)
-def test_a_contact_not_small_beside_its_circle_is_told_by_check_and_by_the_run(radius, said, wears):
-    bodies = pair(archard(), archard() if wears else None)
-    circle = Unidirectional(speed="0.1 m/s", track_radius=radius, distance="20 m")
-    model = small(bodies=bodies, kinematics=circle)
-    problems = predict(model).problems
-    if said is None:
-        assert problems == ()
-        assert not Simulation(model.case).run().findings
-        return
-    (found,) = problems
-    assert found.kind == "averaging"
-    assert re.search(said, found.words)
-    with pytest.warns(TriboWarning, match=said):
-        Simulation(model.case).run()
 
 
 def sliding(metres, k, **changes):

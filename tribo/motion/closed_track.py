@@ -120,17 +120,12 @@ class Steady(Kinematics):
 class ClosedTrack(Steady):
     """Steady sliding that is averaged over a closed track."""
 
-    allow_short_track: bool = False
-    """Whether a track shorter than the first contact's half-width is accepted."""
-
     @property
     def _given(self) -> str:
         """Key that the length of the track was given by."""
         return "track_radius"
 
-    def limitation(
-        self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
-    ) -> str | None:
+    def limitation(self, half_width_x: float) -> str | None:
         """Return a warning once the contact is longer than the track."""
         if 2 * half_width_x <= self.track_extent:
             return None
@@ -141,26 +136,22 @@ class ClosedTrack(Steady):
         )
 
     def check_contact(self, half_width_x: float) -> None:
-        """Refuse a track that is shorter than the half-width, unless the case allows it."""
-        if self.track_extent >= half_width_x or self.allow_short_track:
+        """Refuse a track that is shorter than the half-width."""
+        if self.track_extent >= half_width_x:
             return
         raise CaseError(
             f"the track is {1e3 * self.track_extent:.3g} mm long, less than the half-width of the "
             f"first contact, {1e3 * half_width_x:.3g} mm: give one of at least the contact's "
-            f"length, {2e3 * half_width_x:.3g} mm, or set kinematics.allow_short_track = true",
+            f"length, {2e3 * half_width_x:.3g} mm",
             f"kinematics.{self._given}",
         )
-
-
-NEAR_AXIS = 0.1
-"""Half-width of a contact over the track's radius, above which a run warns of its curvature."""
 
 
 class Unidirectional(ClosedTrack):
     """Speed v round a track of length ℓ; one body swept over the track.
 
-    The curvature of the track inside the contact is neglected: valid for
-    contacts small beside the track radius. A run warns above a tenth of it.
+    The curvature of the track inside the contact is neglected: valid for contacts of less than a
+    tenth of the track radius; `Rotating` has it.
 
     For two bodies that repeat with the window, such as nominally flat rough ones, the path may be
     resolved into `positions`: positions over the window's length represent the whole track.
@@ -220,20 +211,6 @@ class Unidirectional(ClosedTrack):
             return one_swept_body(grid, bodies, self.swept, track)
         passing = Passing(grid, self._stroke(grid).starts, self.track_extent)
         return one_swept_body(grid, bodies, self.swept, passing)
-
-    def limitation(
-        self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
-    ) -> str | None:
-        """Return a warning once the contact is not small beside the track radius."""
-        radius, width = self.track_radius, f"{2e3 * half_width_x:.3g} mm"
-        beyond = super().limitation(half_width_x, depth, approach, volume_ratio, line)
-        if beyond or radius is None or self.turns or half_width_x <= NEAR_AXIS * radius:
-            return beyond
-        return (
-            f"half of the contact's {width} is {half_width_x / radius:.2g} of track_radius = "
-            f"{1e3 * radius:.3g} mm: its outer edge slides by as much further and the inner one "
-            'less, which is left out here; use kinematics.type = "rotating"'
-        )
 
     def _stroke(self, grid: Grid) -> Stroke:
         if grid.period is None:
