@@ -1,4 +1,6 @@
-r"""How fast a flat punch on an elastic half-space wears to uniform pressure.
+r"""Rates at which a flat punch on an elastic half-space wears to an even pressure.
+
+    python -m benchmarks.studies.punch_rates
 
 Worn by Archard's law and held level, the punch keeps u + w = δ(s), with
 u = Kp/E* and dw/ds = kp. What is left of the first pressure beside the mean
@@ -20,8 +22,6 @@ K. L. Johnson (1985), Contact Mechanics, section 2.7 (strip), and G. Ya. Popov
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 import scipy.linalg
 import scipy.special
@@ -33,7 +33,6 @@ _SERIES = 200
 _SHAPES = 24
 
 
-@lru_cache
 def strip_rates(*, odd: bool = False) -> tuple[float, ...]:
     """Decay rates of an infinitely long strip of half-width a.
 
@@ -60,7 +59,6 @@ def strip_rates(*, odd: bool = False) -> tuple[float, ...]:
     return _rates(kernel, 2 / (2 * shapes + 1))
 
 
-@lru_cache
 def disc_rates() -> tuple[float, ...]:
     """Decay rates of a disc of radius a, under pressures symmetric about its axis.
 
@@ -88,3 +86,9 @@ def disc_rates() -> tuple[float, ...]:
 def _rates(kernel: Array, mass: Array) -> tuple[float, ...]:
     compliance = scipy.linalg.eigh(kernel, np.diag(mass), eigvals_only=True)
     return tuple(float(1.0 / value) for value in compliance[::-1])
+
+
+if __name__ == "__main__":
+    print("disc", *disc_rates()[:3])
+    print("strip, even", *strip_rates()[:2])
+    print("strip, odd", *strip_rates(odd=True)[:2])
