@@ -101,15 +101,16 @@ def members(cls: type) -> Iterator[str]:
         for base in reversed(cls.__mro__)
         if base is cls or (base.__module__.startswith("tribo.") and base.__name__ not in NAMES)
     ]
-    for base in bases:
+    for number, base in enumerate(bases):
+        later = {name for each in bases[number + 1 :] for name in _own_names(each)}
         texts = (
             {} if dataclasses.is_dataclass(base) or issubclass(base, tuple) else _docstrings(base)
         )
         for name, text in texts.items():
-            if not name.startswith("_") and text:
+            if not name.startswith("_") and text and name not in later:
                 yield f"{name}: {base.__annotations__[name]}{_default(base, name)}\n{_body(text)}"
         for name, member in vars(base).items():
-            if name.startswith("_") and name not in SPECIAL:
+            if (name.startswith("_") and name not in SPECIAL) or name in later:
                 continue
             if isinstance(member, property | cached_property):
                 get = member.fget if isinstance(member, property) else member.func
@@ -119,6 +120,10 @@ def members(cls: type) -> Iterator[str]:
             kernel = "Model" in getattr(function, "__annotations__", {}).values()
             if inspect.isfunction(function) and _doc(function) and not kernel:
                 yield f"{name}{signature(function)}\n{_body(_doc(function))}"
+
+
+def _own_names(cls: type) -> set[str]:
+    return {*vars(cls), *inspect.get_annotations(cls)}
 
 
 NAMES = frozenset(tribo.__all__)

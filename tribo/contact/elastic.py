@@ -1,17 +1,22 @@
-"""What the solvers of two elastic half-spaces have in common."""
+"""What the contact solvers by conjugate gradients with bounds have in common."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Annotated, ClassVar
 
 import numpy as np
 from pydantic import Field
 
+from tribo.contact.bounded_cg import solve_together
+from tribo.contact.operator import Operator, WornOperator
+from tribo.contact.projection import CELLS, over
 from tribo.contact.residuals import check_bearable
 from tribo.contact.solver import ContactSolver
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, Mask
+from tribo.core.box import Box, around, whole
 from tribo.core.contact import (
     ContactProblem,
     ContactSolution,
@@ -21,9 +26,16 @@ from tribo.core.contact import (
 )
 from tribo.core.units import Quantity
 
+_MARGIN = 2
+"""Cells of the first box on each side of the contact."""
+
 
 class ElasticSolver(ContactSolver):
-    """Contact of two elastic half-spaces, coated or not, yielding at the hardness."""
+    """Contact of elastic bodies, coated or not, yielding at the hardness.
+
+    The solve runs on a box around the contact. In free space that is exact as long as no cell
+    outside the box overlaps, which is checked.
+    """
 
     tolerance: Annotated[float, Quantity("1", above=1e-14, below=1e-2)] = 1e-8
     """Largest residual of the contact conditions, relative to load and displacement."""
@@ -72,6 +84,22 @@ class ElasticSolver(ContactSolver):
         return None
 
     @abstractmethod
+    def _operator(self, system: ContactSystem, shape: tuple[int, int]) -> Operator:
+        """Return K on a box of cells."""
+
+    def _around(self, touching: Mask) -> Box:
+        """Return a box to solve on, around the cells that touch."""
+        return around(touching, _MARGIN)
+
+    def smallest_compliance(self, system: ContactSystem) -> float:
+        """Return the smallest estimate of an eigenvalue on the window, in m/Pa."""
+        return float(np.min(self._operator(system, system.grid.cells).symbol()))
+
+    def operator(self, system: ContactSystem, touching: Mask) -> tuple[Box, Operator]:
+        """Return K on a box around what touches; see `ContactSolver.operator`."""
+        box = self._around(touching)
+        return box, self._operator(system, box.shape)
+
     def _solve(
         self,
         system: ContactSystem,
@@ -81,4 +109,82 @@ class ElasticSolver(ContactSolver):
         cap: Array | float | None,
         guess: Array | None,
     ) -> list[ContactSolution]:
-        """Solve one position, or several whose gaps, loads and starts are stacked."""
+        """Solve one position or several on a box that grows until nothing overlaps beyond it."""
+        load = np.asarray(load)
+        box = whole(system.grid.cells)
+        if guess is not None:
+            softest = np.inf if cap is None else float(np.min(cap))
+            needed = float(load.max()) / softest / system.grid.cell_area
+            box = _wide_enough(self._around(_anywhere(guess > 0)), needed)
+        iterations = 0
+        while True:
+            here = (..., *box.slices)
+            solutions = solve_together(
+                self._operator(system, box.shape),
+                gap[here],
+                load,
+                cap[here] if isinstance(cap, np.ndarray) else cap,
+                None if wear is None else wear.on(box),
+                start=None if guess is None else guess[here],
+                tolerance=self.tolerance,
+                max_iterations=self.max_iterations,
+            )
+            iterations += solutions[0].iterations
+            solutions = [
+                replace(
+                    each,
+                    pressure=box.embed(each.pressure),
+                    overlap=box.embed(each.overlap),
+                    iterations=iterations,
+                )
+                for each in solutions
+            ]
+            guess = np.reshape([each.pressure for each in solutions], gap.shape)
+            approach = over(np.reshape([each.approach for each in solutions], load.shape))
+            missed = self._overlapping_outside(system, gap, wear, box, guess, approach)
+            if not missed.any():
+                return solutions
+            box = _grown(box, self._around(missed | _anywhere(guess > 0)))
+
+    def _overlapping_outside(
+        self,
+        system: ContactSystem,
+        gap: Array,
+        wear: WearCompliance | CycleCompliance | None,
+        box: Box,
+        pressure: Array,
+        approach: Array,
+    ) -> Mask:
+        """Find cells of the window, outside `box`, at which the bodies overlap at any position."""
+        # All displacements are positive: an undeformed gap above the approach stays open. Beside a
+        # contact a soft layer may rise, but by less than it sinks below it.
+        highest = 2 * approach - over(gap.min(CELLS)) if system.coatings else approach
+        doubtful: Mask = gap < highest
+        doubtful[(..., *box.slices)] = False
+        if doubtful.any():
+            near = _grown(box, around(_anywhere(doubtful), 0))
+            here = (..., *near.slices)
+            operator: Operator = self._operator(system, near.shape)
+            if wear is not None:
+                operator = WornOperator(operator, wear.on(near))
+            doubtful[here] &= gap[here] + operator.apply(pressure[here]) < approach
+        return _anywhere(doubtful)
+
+
+def _anywhere(cells: Mask) -> Mask:
+    return np.asarray(cells.reshape(-1, *cells.shape[-2:]).any(axis=0))
+
+
+def _wide_enough(box: Box, cells: float) -> Box:
+    # A box that bears the load at the cap, with a quarter to spare to distribute it.
+    while not box.is_window and box.shape[0] * box.shape[1] < 1.25 * cells:
+        box = _grown(box, box)
+    return box
+
+
+def _grown(box: Box, wanted: Box) -> Box:
+    lines = np.zeros(box.window, dtype=bool)
+    lines[box.slices] = True
+    lines[wanted.slices] = True
+    larger = around(lines, 0)
+    return larger if larger.shape != box.shape else around(lines, 1)

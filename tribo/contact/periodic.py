@@ -4,24 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import scipy
 
-from tribo.contact.bounded_cg import solve_together
 from tribo.contact.elastic import ElasticSolver
 from tribo.contact.operator import Operator
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array, Mask
 from tribo.core.box import Box, whole
 from tribo.core.coating import Coating
-from tribo.core.contact import (
-    ContactSolution,
-    ContactSystem,
-    CycleCompliance,
-    WearCompliance,
-)
+from tribo.core.contact import ContactSolution, ContactSystem
 
 
 class PeriodicHalfSpace:
@@ -89,46 +83,22 @@ class Periodic(ElasticSolver):
     periodic: ClassVar[bool] = True
 
     def _solve(
-        self,
-        system: ContactSystem,
-        gap: Array,
-        load: Array | float,
-        wear: WearCompliance | CycleCompliance | None,
-        cap: Array | float | None,
-        guess: Array | None,
+        self, system: ContactSystem, gap: Array, *given: Any, **named: Any
     ) -> list[ContactSolution]:
         # The digits of a deep uniform wear would be lost to a contact that hardly displaces.
         lowest = gap.min(CELLS)
-        solutions = solve_together(
-            _half_space(system),
-            gap - over(lowest),
-            np.asarray(load),
-            cap,
-            wear,
-            start=guess,
-            tolerance=self.tolerance,
-            max_iterations=self.max_iterations,
-        )
+        solutions = super()._solve(system, gap - over(lowest), *given, **named)
         return [
             replace(solution, approach=solution.approach + float(low))
             for solution, low in zip(solutions, np.ravel(lowest), strict=True)
         ]
 
-    def smallest_compliance(self, system: ContactSystem) -> float:
-        """Return the compliance of the chequerboard mode, or the least on coatings, in m/Pa."""
-        if system.coatings:
-            return float(np.min(_half_space(system).symbol()))
-        dx, dy = system.grid.spacing
-        return 2.0 / (system.modulus * np.pi * float(np.hypot(1 / dx, 1 / dy)))
+    def _operator(self, system: ContactSystem, shape: tuple[int, int]) -> Operator:
+        coatings = tuple(system.coatings.values())
+        return _cached(shape, system.grid.spacing, system.surface_modulus, coatings)
 
-    def operator(self, system: ContactSystem, touching: Mask) -> tuple[Box, Operator]:
-        """Return the half-spaces on the whole window; see `ContactSolver.operator`."""
-        return whole(system.grid.cells), _half_space(system)
-
-
-def _half_space(system: ContactSystem) -> PeriodicHalfSpace:
-    grid, coatings = system.grid, tuple(system.coatings.values())
-    return _cached(grid.cells, grid.spacing, system.surface_modulus, coatings)
+    def _around(self, touching: Mask) -> Box:
+        return whole((touching.shape[0], touching.shape[1]))
 
 
 _cached = lru_cache(maxsize=32)(PeriodicHalfSpace)

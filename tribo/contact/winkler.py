@@ -1,136 +1,23 @@
-"""The `winkler` contact solver: a foundation of independent springs, solved to round-off."""
+"""The `winkler` contact solver: a foundation of independent springs."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from math import inf, pi, sqrt
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import model_validator
 
 from tribo.closed_forms import hertz
+from tribo.contact.elastic import ElasticSolver
 from tribo.contact.operator import Operator
-from tribo.contact.projection import balance
-from tribo.contact.residuals import check_bearable, check_finite, residuals
-from tribo.contact.solver import ContactSolver
-from tribo.core.arrays import Array, Mask
-from tribo.core.box import Box, around
-from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
-from tribo.core.errors import CaseError, NumericalError
+from tribo.core.arrays import Array
+from tribo.core.contact import ContactSystem
+from tribo.core.errors import CaseError
 from tribo.core.material import Poisson
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-
-_ROUND_OFF = 4 * float(np.finfo(np.float64).eps)
-_MOST_PASSES = 200
-
-
-def solve_foundation(
-    problem: ContactProblem, modulus: float, cap: float | None, guess: float | None = None
-) -> ContactSolution:
-    """Solve contact on a foundation whose pressure is `modulus` times the depth.
-
-    With C = 1/K_w + local the pressure is clip((δ − gap − swept P)/C, 0, cap), where P(y) is the
-    line load of its row. P at a given δ, and δ at a given load, are roots of increasing piecewise
-    linear functions; Newton's method within a bracket finds them in finitely many passes.
-
-    Exact to round-off. `modulus` is K_w, in Pa/m, `cap` the largest pressure, in Pa, and `guess` an
-    approach to start from, in m. It raises as `tribo.contact.bounded_cg.solve_together`.
-    """
-    gap, grid = problem.gap, problem.system.grid
-    limit = np.inf if cap is None else cap
-    total = problem.load / grid.cell_area
-    check_bearable(problem.load, grid.cell_area * gap.size, limit)
-    check_finite(gap)
-
-    springs = _Rows(problem, modulus, limit)
-    low = float(np.min(gap))
-    # Where the lowest cell alone would carry the load, or all cells reach the limit.
-    alone, full = low + total * springs.softest, float(np.max(gap)) + limit * springs.softest
-    bound = alone if total < limit else full
-    # Somewhat beyond, for Newton's method may land on the bound itself.
-    high = low + 1.01 * (bound - low)
-    approach = guess if guess is not None and low < guess < high else 0.5 * (low + high)
-    for passes in range(1, _MOST_PASSES + 1):
-        line_loads, slopes = springs.line_loads(approach)
-        excess = float(np.sum(line_loads)) * grid.spacing[1] / problem.load - 1.0
-        if abs(excess) <= _ROUND_OFF:
-            return springs.solution(approach, line_loads, total, passes)
-        if excess > 0:
-            high = approach
-        else:
-            low = approach
-        slope = float(np.sum(slopes)) * grid.spacing[1] / problem.load
-        following = approach - excess / slope if slope > 0 else np.inf
-        # The approach itself has a last bit; `balance` spreads what is left over.
-        if abs(following - approach) <= 2 * np.spacing(abs(approach)):
-            return springs.solution(approach, line_loads, total, passes)
-        if not low < following < high:
-            following = 0.5 * (low + high)
-        approach = following
-    raise NumericalError(
-        f"the load of the foundation is still off by {excess:.1e} after {_MOST_PASSES} passes; "
-        "check the gap and the wear of the step for extreme values"
-    )
-
-
-class _Rows:
-    """Rows of springs, one for each y, coupled along x by the swept wear."""
-
-    def __init__(self, problem: ContactProblem, modulus: float, limit: float) -> None:
-        gap = problem.gap
-        self.gap = gap
-        self.limit = limit
-        self.dx = problem.system.grid.spacing[0]
-        self.softness = np.full(gap.shape, 1.0 / modulus)
-        self.swept = np.zeros(gap.shape[1])
-        if problem.wear is not None:
-            self.softness += problem.wear.local
-            self.swept = problem.wear.swept
-        self.softest = float(np.max(self.softness)) + self.dx * gap.shape[0] * float(
-            np.max(self.swept)
-        )
-
-    def pressure(self, approach: float, line_loads: Array) -> Array:
-        depth = approach - self.gap - self.swept * line_loads
-        return np.asarray(np.clip(depth / self.softness, 0.0, self.limit))
-
-    def line_loads(self, approach: float) -> tuple[Array, Array]:
-        """Return the line load per row, in N/m, and its derivative by the approach."""
-        loads = np.zeros(self.gap.shape[1])
-        low, high = loads, self.dx * np.sum(self.pressure(approach, loads), axis=0)
-        loads = high
-        for _ in range(_MOST_PASSES):
-            pressure = self.pressure(approach, loads)
-            stiffness = np.where((pressure > 0) & (pressure < self.limit), 1 / self.softness, 0.0)
-            width = self.dx * np.sum(stiffness, axis=0)
-            excess = loads - self.dx * np.sum(pressure, axis=0)
-            settled = np.abs(excess) <= _ROUND_OFF * high
-            low, high = np.where(excess < 0, loads, low), np.where(excess > 0, loads, high)
-            following = loads - excess / (1.0 + self.swept * width)
-            inside = (low < following) & (following < high)
-            following = np.where(inside, following, 0.5 * (low + high))
-            following = np.where(settled, loads, following)
-            if np.array_equal(following, loads):
-                break
-            loads = following
-        return loads, width / (1.0 + self.swept * width)
-
-    def solution(
-        self, approach: float, line_loads: Array, total: float, passes: int
-    ) -> ContactSolution:
-        p = balance(self.pressure(approach, line_loads), np.asarray(total), self.limit)
-        displacement = self.softness * p + self.swept * self.dx * np.sum(p, axis=0)
-        deepest = np.maximum(approach - self.gap - displacement, 0.0)
-        return ContactSolution(
-            pressure=p,
-            approach=approach,
-            overlap=np.where(p >= self.limit, deepest, 0.0),
-            iterations=passes,
-            residuals=residuals(p, self.gap, displacement, approach, total, self.limit),
-        )
-
 
 Match = Literal["contact_radius", "peak_pressure", "approach"]
 
@@ -181,7 +68,7 @@ class FoundationLayer(Table):
         return self.young * (1 - nu) / ((1 + nu) * (1 - 2 * nu) * self.thickness)
 
 
-class Winkler(ContactSolver):
+class Winkler(ElasticSolver):
     """p = K_w times the local overlap, at most the hardness: independent springs.
 
     Valid for a thin compliant layer on a stiff base (`layer`). For a half-space
@@ -199,6 +86,10 @@ class Winkler(ContactSolver):
     """
 
     type = "winkler"
+
+    tolerance: Annotated[float, Quantity("1", above=1e-14, below=1e-2)] = 1e-12
+    """Largest residual of the contact conditions, relative to load and displacement; springs reach
+    a small one in a few iterations."""
 
     modulus: Annotated[float, Quantity("Pa/m", above=0, usual=(1e6, 1e20))] | None = None
     """Foundation modulus K_w, pressure per depth."""
@@ -225,12 +116,9 @@ class Winkler(ContactSolver):
         """Thickness of the `layer`, in m; infinite without one."""
         return inf if self.layer is None else self.layer.thickness
 
-    accepts_wear_compliance: ClassVar[bool] = True
-    honours_cap: ClassVar[bool] = True
-    takes_coatings: ClassVar[bool] = True
-
     def check(self, system: ContactSystem) -> None:
-        """Raise `CaseError` if the foundation modulus cannot be found from `system`."""
+        """Raise `CaseError` if the window is too small, or the foundation modulus unknown."""
+        super().check(system)
         if system.coatings and self.modulus is None and self.layer is None:
             raise CaseError(
                 "Hertz's contact, to which the foundation modulus is matched, knows no elastic "
@@ -246,25 +134,8 @@ class Winkler(ContactSolver):
             return self.layer.foundation_modulus
         return matched_modulus(system, self.match or "contact_radius")
 
-    def solve(
-        self, problem: ContactProblem, start: ContactSolution | None = None
-    ) -> ContactSolution:
-        """Solve one contact problem to round-off; see `ContactSolver.solve`."""
-        return solve_foundation(
-            problem,
-            self.foundation_modulus(problem.system),
-            problem.system.cap,
-            None if start is None else start.approach,
-        )
-
-    def smallest_compliance(self, system: ContactSystem) -> float:
-        """Return 1/K_w, in m/Pa."""
-        return 1.0 / self.foundation_modulus(system)
-
-    def operator(self, system: ContactSystem, touching: Mask) -> tuple[Box, Operator]:
-        """Return the springs on a box around what touches; see `ContactSolver.operator`."""
-        box = around(touching, 0)
-        return box, Springs(box.shape, system.grid.spacing, self.foundation_modulus(system))
+    def _operator(self, system: ContactSystem, shape: tuple[int, int]) -> Operator:
+        return Springs(shape, system.grid.spacing, self.foundation_modulus(system))
 
 
 def matched_modulus(system: ContactSystem, match: Match) -> float:
