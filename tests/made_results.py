@@ -8,7 +8,6 @@ from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.core.measures import BodyMeasures, Measures, centre, contact_area, half_widths
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
-from tribo.lab.running_in import contact_roughness
 from tribo.observers.recorder import Recorder
 from tribo.plotting import figures
 from tribo.result.provenance import provenance
@@ -70,7 +69,6 @@ def made(
                     density,
                     _height(grid, i, relief),
                     grid.cells[0],
-                    rough=relief > 0 and i == 0,
                 )
                 for i, (name, is_swept, _, density) in enumerate(bodies)
             ),
@@ -156,11 +154,8 @@ def _snapshot(time, bodies, plastic, power, shape, grid, texture, cap, relief, f
         wear = 0.1 * field.mean(axis=0, keepdims=True) if swept else field
         states[name] = BodyState(wear, plastic * inside, {})
         volume = 3.11e-14 * 0.1 * time if wears else 0.0
-        rough = {}
-        if relief > 0 and name == bodies[0][0]:
-            rough = contact_roughness(_height(grid, 0, relief) - wear, pressure)._asdict()
         deepest = plastic * inside.max()
-        measures[name] = BodyMeasures(wear.max(), centre(wear), volume, deepest, rough)
+        measures[name] = BodyMeasures(wear.max(), centre(wear), volume, deepest)
     state = State(
         time=time,
         distance=0.1 * time,

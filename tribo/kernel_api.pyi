@@ -93,7 +93,6 @@ from tribo.lab.report import lab_sentences as lab_sentences
 from tribo.lab.report import quantity_rows as quantity_rows
 from tribo.lab.report import run_sentences as run_sentences
 from tribo.lab.rests import with_rests as with_rests
-from tribo.lab.roughness import without_form as without_form
 from tribo.lab.scar import Scar as Scar
 from tribo.lab.scar import crown as crown
 from tribo.lab.scar import diameter as diameter
@@ -119,6 +118,8 @@ from tribo.plotting.maps import Layout as Layout
 from tribo.plotting.maps import Scale as Scale
 from tribo.plotting.maps import field_picture as field_picture
 from tribo.plotting.overlays import comparison_picture as comparison_picture
+from tribo.plotting.picture import Picture as Picture
+from tribo.plotting.picture import below_each_other as below_each_other
 from tribo.plotting.sections import limits as limits
 from tribo.plotting.style import DIFFERENCES as DIFFERENCES
 from tribo.plotting.style import SIGNIFICANT as SIGNIFICANT

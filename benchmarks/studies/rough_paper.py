@@ -14,12 +14,12 @@ from collections.abc import Iterator
 from importlib.resources import files
 
 import numpy as np
+from tribo_topography.running_in import worn_roughness
 
 import tribo
 from benchmarks.lib.common import Row, Tables, main
 from tribo import Result, Simulation, TriboWarning, load_case
 from tribo.core.measures import centre
-from tribo.lab.running_in import worn_roughness
 
 SQ = 11e-9
 """Sq of Gaussian heights with an Ra of 9 nm; the paper measured 6.7 to 10.8 nm."""

@@ -15,9 +15,10 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from tribo_topography.roughness import parameters
+
 from benchmarks.lib.common import Row, Tables, main
 from tribo import Simulation
-from tribo.lab.roughness import parameters
 
 sys.path.append(str(Path(__file__).parents[2] / "plugins/tribo-roughening/examples"))
 STARTS = (100e-9, 20e-9)

@@ -36,7 +36,7 @@ from tribo.packages import COMMANDS
 from tribo.registry import hookspecs
 from tribo.registry.kinds import KINDS
 from tribo.registry.registry import Registry
-from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
+from tribo.result.columns import BODY_COLUMNS, COLUMNS
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 
@@ -165,8 +165,6 @@ def columns_table() -> Iterator[str]:
         yield f"| `{column.name}` | {column.unit} | {column.description}. |"
     for part in BODY_COLUMNS:
         yield f"| `{part.name}` of a body | {part.unit} | {part.description}. |"
-    for part in ROUGHNESS_COLUMNS:
-        yield f"| `{part.name}` of a rough body, at each step | {part.unit} | {part.description}. |"
 
 
 def hooks_table() -> Iterator[str]:

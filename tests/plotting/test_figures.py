@@ -15,12 +15,10 @@ from tribo.plotting.pressure import pressure_map, pressure_sections
 
 CONTACT = ["pressure_map", "pressure_map_early", "pressure_sections"]
 OVER_TIME = ["wear_history", "contact_history"]
-RUNNING_IN = ["roughness_history"]
 SCARS = ["ball_scar", "disk_scar"]
 PROFILES = ["ball_profiles", "disk_profiles"]
 WORN = [*SCARS, *PROFILES, "worn_section"]
 BALL = ["ball_scar", "ball_profiles", "worn_section"]
-RELIEF = ["ball_height_map", "ball_material_ratio"]
 KEPT = ["fields_history", "film_map", "load_share_map"]
 ROUGH = {"relief": 2e-7, "cap": 4e8}
 COARSE = {**ROUGH, "grid": Grid((2e-3, 1.6e-3), (10, 8)), "times": (0.0, 200.0)}
@@ -51,7 +49,7 @@ INDENTED = {"worn": (False, False), "plastic": 2e-7, "cap": 2e9, "times": (0.0,)
         (EVEN, ["contact_history"]),
         ({"film": 1e-11, "worn": (False, False)}, [*CONTACT, "contact_history", *KEPT]),
         (COARSE, [*EARLY, *WORN, *OVER_TIME]),
-        (ROUGH, [*CONTACT, *SCARS, *PROFILES, *RELIEF, WORN[-1], *OVER_TIME, *RUNNING_IN]),
+        (ROUGH, [*CONTACT, *WORN, *OVER_TIME]),
     ],
 )
 def test_each_result_gets_the_pictures_that_make_sense(changes, expected, monkeypatch, tmp_path):

@@ -23,16 +23,12 @@ def show(output: Path, as_json: bool) -> None:
     """
     from tribo.cli.lab_report import print_provenance, print_report
     from tribo.lab.report import lab_report
-    from tribo.lab.running_in import worn_surfaces
     from tribo.result.read import Result
     from tribo.result.summary import summary
 
     with Result.open(output) as result:
         if as_json:
             printed = summary(result)
-            for name in result.body_names:
-                for save, more in zip(printed["saves"], worn_surfaces(result, name), strict=True):
-                    save["bodies"][name] |= more
             lab = lab_report(result)
             found = [asdict(each) for each in lab.findings]
             echo_json({**printed, "findings": found, "lab": lab.as_json()})

@@ -17,8 +17,7 @@ from tribo.core.grid import Grid
 class BodyMeasures:
     """Depths in m and the worn volume in m³ of one body.
 
-    The volume belongs to the whole scar, or to the whole track. `roughness` has the parameters of
-    `tribo.lab.roughness.Roughness` within the contact, for a rough body.
+    The volume belongs to the whole scar, or to the whole track.
 
     Examples
     --------
@@ -32,7 +31,6 @@ class BodyMeasures:
     centre_wear_depth: float
     wear_volume: float
     max_plastic_depth: float
-    roughness: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -170,8 +170,6 @@ class BodyInfo:
         Cells along x on its own surface.
     state_fields : tuple of Field, optional
         States of its wear law per material point, and states of effects on it.
-    rough : bool, optional
-        Whether it is more than a smooth form at first.
     straight : bool, optional
         Whether its points pass along x alone, if they do.
 
@@ -189,7 +187,6 @@ class BodyInfo:
     height: Array
     rows: int
     state_fields: tuple[Field, ...] = ()
-    rough: bool = False
     straight: bool = True
 
 

@@ -8,7 +8,7 @@ from tribo.core.data_table import DataTable, Heading, TableRow, Value
 from tribo.core.words import readable
 from tribo.lab.inferred import InferredVolume
 from tribo.lab.report import MEASURES, BodyReport, LabReport
-from tribo.lab.running_in import groove_length, rough_bodies, worn_roughness
+from tribo.lab.scar import groove_length
 from tribo.result.read import Result
 
 COLUMNS = (
@@ -22,25 +22,12 @@ COLUMNS = (
     (Heading("area", "mm²", ".3f", whole=True, spare=1), "contact_area_m2", 1e6),
 )
 """Heading, key in a save, and factor to the unit of each column."""
-ROUGHNESS = (
-    (Heading("Sa", form=".3g"), "Sa_m", 1e9),
-    (Heading("Sq", form=".3g"), "Sq_m", 1e9),
-    (Heading("Sz", form=".3g", spare=5), "Sz_m", 1e9),
-    (Heading("Ssk", form="z.2f", spare=4), "Ssk", 1),
-    (Heading("Sku", form="z.2f", spare=3), "Sku", 1),
-    (Heading("Ra along", form=".3g", spare=2), "Ra_along_m", 1e9),
-    (Heading("Ra across", form=".3g", spare=1), "Ra_across_m", 1e9),
-)
-"""Heading, key, and factor to nm of each column."""
-WHERE = {"scar": "scar", "unworn": "at first", "beside": "beside"}
 
 
 def lab_tables(result: Result, lab: LabReport) -> Iterator[DataTable]:
     """Yield the saves, and a lab's measurements and inferred volumes of the worn bodies."""
     yield saves_table(result)
     yield wear_table(result, lab.bodies)
-    if rough := rough_bodies(result):
-        yield roughness_table(result, rough)
     if lab.inferred:
         yield inferred_table(lab.inferred)
 
@@ -104,19 +91,6 @@ def _marks(result: Result, name: str, body: BodyReport) -> dict[str, Value]:
         length = groove_length(result, name)
         marks["scar_along_m"] = "whole track" if length is None else length
     return marks
-
-
-def roughness_table(result: Result, bodies: Sequence[str]) -> DataTable:
-    """Compare the roughness of rough bodies in their scars with the first, and beside the scars."""
-    rows = []
-    for body in bodies:
-        for where, values in worn_roughness(result, result.body(body), -1)._asdict().items():
-            # Less than a hundredth of a moment is noise.
-            values = values._replace(Ssk=round(values.Ssk, 2), Sku=round(values.Sku, 2))
-            cells = (factor * getattr(values, key) for _, key, factor in ROUGHNESS)
-            rows.append(TableRow((f"{body}: {WHERE[where]}", *cells)))
-    headings = (Heading(""), *(heading for heading, _, _ in ROUGHNESS))
-    return DataTable("Roughness in nm, form removed", headings, rows)
 
 
 def inferred_table(volumes: Sequence[InferredVolume]) -> DataTable:

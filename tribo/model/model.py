@@ -19,7 +19,6 @@ from tribo.core.state import State
 from tribo.guards.guard import Guard
 from tribo.guards.motion import GuardedMotion
 from tribo.guards.parts import GuardedLaw, GuardedSurface
-from tribo.lab.roughness import is_rough
 from tribo.model.contact_setup import ContactSetup
 from tribo.model.cycle import Cycle
 from tribo.model.events import Listener
@@ -79,11 +78,11 @@ class Model:
             return True
         return not self.contact.may_reach_edge and reaches_border(contact.pressure)
 
-    @cached_property
-    def rough(self) -> frozenset[str]:
-        """Names of the bodies that are more than a smooth form at first."""
-        unsure = [name for name, body in self.case.bodies.items() if not body.surface.smooth]
-        return frozenset(name for name in unsure if is_rough(self.height(name)))
+    @property
+    def rough(self) -> bool:
+        """Whether a surface has relief that a coarse grid cannot show."""
+        surfaces = [body.surface for body in self.case.bodies.values()]
+        return any(surface.smoothed() is not surface for surface in surfaces)
 
     def with_laws(self, wear: Mapping[str, GuardedLaw]) -> Model:
         """Return the same with other wear laws, by body."""

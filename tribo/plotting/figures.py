@@ -20,7 +20,6 @@ from tribo.core.units import Quantity
 from tribo.core.words import did_you_mean, suggestion
 from tribo.core.writing import make_folder, write_file
 from tribo.lab.kept import kept_fields
-from tribo.lab.running_in import reliefs, rough_bodies
 from tribo.lab.scar import removed
 from tribo.plotting.history import history, history_names
 from tribo.plotting.picture import NothingToDraw, Picture
@@ -28,8 +27,6 @@ from tribo.plotting.pressure import pressure_map, pressure_sections
 from tribo.plotting.profiles import (
     body_profiles,
     field_map,
-    height_map,
-    material_ratio_curves,
     scar_map,
     worn_section,
 )
@@ -45,12 +42,6 @@ _LOG = logging.getLogger("tribo.plotting")
 
 def _worn(result: Result) -> list[str]:
     return [name for name in result.body_names if np.any(removed(result, name) > 0)]
-
-
-def _with_relief(result: Result) -> list[str]:
-    """Return the rough bodies with a scar of more than a few cells."""
-    rough = rough_bodies(result) if len(result.times) > 1 else []
-    return [n for n in rough if np.isfinite(reliefs(result, result.body(n), -1).scar).any()]
 
 
 def _fields(result: Result) -> list[str]:
@@ -79,8 +70,6 @@ KINDS: Mapping[str, PictureKind] = {
     "sections": PictureKind(pressure_sections, "pressure_sections"),
     "scar": PictureKind(scar_map, "{}_scar", _worn),
     "profiles": PictureKind(body_profiles, "{}_profiles", _worn),
-    "height_map": PictureKind(height_map, "{}_height_map", _with_relief),
-    "material_ratio": PictureKind(material_ratio_curves, "{}_material_ratio", _with_relief),
     "worn_section": PictureKind(worn_section, "worn_section", there=_worn),
     "history": PictureKind(history, "{}_history", history_names, "history"),
     "field": PictureKind(field_map, "{}_map", _fields, "field"),

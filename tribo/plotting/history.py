@@ -1,4 +1,4 @@
-"""Pictures of what changes with time: wear, the contact, friction, roughness, fields of models."""
+"""Pictures of what changes with time: wear, the contact, friction, fields of models."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ from tribo.core.arrays import Array
 from tribo.core.rounding import ROUND_OFF
 from tribo.lab.kept import kept_fields, steady
 from tribo.lab.rests import with_rests
-from tribo.lab.running_in import rough_bodies
 from tribo.lab.units import shown_in, size, time_unit
 from tribo.plotting.picture import Picture
 from tribo.plotting.style import OVER, UNDER, Look, ticks
@@ -182,14 +181,6 @@ def _friction(result: Result) -> list[TimePanel]:
     ]
 
 
-def _roughness(result: Result) -> list[TimePanel]:
-    table = result.table("history")
-    columns = {name: f"bodies.{name}.Sq_m" for name in rough_bodies(result)}
-    if len(table["time_s"]) < 2 or not columns:
-        return []
-    return [_columns(table, "Sq in the contact", "m", columns)]
-
-
 def _fields(result: Result) -> list[TimePanel]:
     """Return the largest value of each field of the models and its mean in the contact."""
     looks = [
@@ -223,7 +214,6 @@ HISTORIES: Mapping[str, Callable[[Result], list[TimePanel]]] = {
     "wear": _wear,
     "contact": _contact,
     "friction": _friction,
-    "roughness": _roughness,
     "fields": _fields,
 }
 """The panels of each history by its name; none where it says nothing."""

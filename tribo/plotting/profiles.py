@@ -1,4 +1,4 @@
-"""Pictures of worn surfaces: from above, in section, both bodies together, and of their relief.
+"""Pictures of worn surfaces: from above, in section, and both bodies together.
 
 Each raises CaseError if the result holds no such body.
 """
@@ -16,20 +16,17 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.lab.kept import kept_fields
-from tribo.lab.roughness import material_ratio
-from tribo.lab.running_in import reliefs
 from tribo.lab.scar import layer_ends, removed, scar_mask
 from tribo.lab.units import height_unit, shown_in, size, time_labels
 from tribo.plotting.maps import Scale, field_picture
-from tribo.plotting.picture import NothingToDraw, Picture, below_each_other
+from tribo.plotting.picture import NothingToDraw, Picture
 from tribo.plotting.sections import (
-    MOST_CELLS,
     bodies_end,
     profiles_picture,
     through_centre,
     varying,
 )
-from tribo.plotting.style import OVER, PRESSURES, UNDER, Look, save_looks, ticks
+from tribo.plotting.style import Look, save_looks
 from tribo.result.read import Result
 
 WORN: Look = {"color": "black", "linewidth": 1.0}
@@ -169,44 +166,3 @@ def field_map(result: Result, name: str, save: int = -1) -> Picture:
     scale = Scale(kept.name.capitalize(), *shown_in(kept.unit, values), least=None)
     title = f"t = {time_labels(result.times)[save]}"
     return field_picture(values, result.field("pressure", save) > 0, result.grid, scale, title)
-
-
-def height_map(result: Result, name: str, save: int = -1) -> Picture:
-    """Draw the heights of a body in its scar, unworn and at a save, form removed."""
-    scar, unworn, _ = reliefs(result, result.body(name), save % len(result.times))
-    known = np.isfinite(scar)
-    low, high = np.percentile(unworn[np.isfinite(unworn)], (100.0 - MOST_CELLS, MOST_CELLS))
-    unit = height_unit(max(abs(low), abs(high)))
-    scale = Scale("Height", unit, size(unit), PRESSURES, low, high)
-    moments = {"unworn": unworn, f"t = {time_labels(result.times)[save]}": scar}
-    pictures = [
-        field_picture(relief, known, result.grid, scale, f"{name}, {moment}", vary=(0, 1))
-        for moment, relief in moments.items()
-    ]
-    return below_each_other(pictures)
-
-
-def material_ratio_curves(result: Result, name: str, save: int = -1) -> Picture:
-    """Draw the material ratio (Abbott) curves of a body, form removed.
-
-    The curves are for its scar at a save, the first surface there, and the surface beside.
-    """
-    worn = reliefs(result, result.body(name), save % len(result.times))
-    labels = f"scar, {time_labels(result.times)[save]}", "unworn", "beside"
-    looks = OVER, UNDER, BESIDE
-    unit = height_unit(max(float(np.nanmax(np.abs(part))) for part in (worn.scar, worn.unworn)))
-
-    def panel(axes: Axes) -> Sequence[Artist]:
-        curves: list[Artist] = []
-        for relief, label, look in zip(worn, labels, looks, strict=True):
-            ratio, height = material_ratio(relief)
-            if ratio.size:
-                curves += axes.plot(100 * ratio, height / size(unit), label=label, **look)
-        axes.set_xlim(0.0, 100.0)
-        axes.set_xlabel("Material ratio (%)")
-        axes.set_ylabel(f"Height ({unit})")
-        axes.set_title(f"{name}, form removed", loc="left")
-        axes.yaxis.set_major_locator(ticks(6))
-        return curves
-
-    return Picture([[panel]], 60.0)

@@ -2,28 +2,22 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
-from tribo.core.column import Column, labelled
+from tribo.core.column import Column
 from tribo.core.state import Snapshot
 
 
 def _measured(
     name: str, unit: str, description: str, path: str = "", *, of_bodies: bool = False
 ) -> Column:
-    """Return a column of the measures of a snapshot, at a path there if that is not its name.
-
-    A roughness that measures lack, of a body that is smooth, is NaN.
-    """
+    """Return a column of the measures of a snapshot, at a path there if that is not its name."""
 
     def read(snapshot: Snapshot, *body: str) -> float:
         value: Any = snapshot.measures.bodies[body[0]] if body else snapshot.measures
         for part in (path or name).split("."):
-            known = isinstance(value, Mapping)
-            value = value.get(part, math.nan) if known else getattr(value, part)
+            value = getattr(value, part)
         return float(value)
 
     return Column(name, unit, description, read, of_bodies)
@@ -85,19 +79,3 @@ BODY_COLUMNS = (
     _of_body("wear_volume", "m^3", "Volume of the whole scar or track"),
     _of_body("max_plastic_depth", "m", "Largest permanent displacement"),
 )
-
-ROUGHNESS_COLUMNS = tuple(
-    _of_body(name, unit, f"{meaning}, within the contact", f"roughness.{labelled(name, unit)}")
-    for name, unit, meaning in (
-        ("Sa", "m", "Arithmetical mean height"),
-        ("Sq", "m", "Root mean square height"),
-        ("Sz", "m", "Maximum height"),
-        ("Ssk", "1", "Skewness of the heights"),
-        ("Sku", "1", "Kurtosis of the heights"),
-        ("Ra_along", "m", "Arithmetical mean height of profiles along x"),
-        ("Rq_along", "m", "Root mean square height of profiles along x"),
-        ("Ra_across", "m", "Arithmetical mean height of profiles along y"),
-        ("Rq_across", "m", "Root mean square height of profiles along y"),
-    )
-)
-"""Further columns of the history where a body is rough; NaN for a smooth body."""

@@ -12,7 +12,7 @@ import numpy as np
 from tribo.core.arrays import Array, middle_rows
 from tribo.core.fields import Field
 from tribo.core.state import RunInfo, Snapshot, State
-from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
+from tribo.result.columns import BODY_COLUMNS, COLUMNS
 
 STATE, EFFECT, TRACK_STATE, BETWEEN = "state", "effect", "track_state", "between"
 SAVED, STEPPED = ("saved", "saved_of_body"), ("stepped", "stepped_of_body")
@@ -74,13 +74,11 @@ FIXED = {
         ("", ("time",), COLUMNS),
         ("", ("time", "body"), BODY_COLUMNS),
         (HISTORY, ("step",), COLUMNS),
-        (HISTORY, ("step", "body"), BODY_COLUMNS + ROUGHNESS_COLUMNS),
+        (HISTORY, ("step", "body"), BODY_COLUMNS),
     )
     for column in columns
 }
 """Variables of every result by name, except of a track, and without fields of models."""
-ROUGHNESS = tuple(HISTORY + part.name for part in ROUGHNESS_COLUMNS)
-"""The variables of `FIXED` that a result has only where a body is rough."""
 
 
 def variables(run: RunInfo) -> dict[str, Variable]:
@@ -90,7 +88,7 @@ def variables(run: RunInfo) -> dict[str, Variable]:
     track has ``track_state_``.
     """
     bodies, rows = run.bodies, _rows(run)
-    left_out = set() if any(body.rough for body in bodies) else {*ROUGHNESS}
+    left_out: set[str] = set()
     if rows <= run.system.grid.cells[0]:
         left_out |= {"track_x", TRACK, TRACK_PLASTIC}
     elif run.system.cap is None:
@@ -147,10 +145,6 @@ def _owners(run: RunInfo) -> dict[tuple[str, Field], tuple[str, ...]]:
 def step_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
     """Return the row of a step in the history."""
     row = {HISTORY + name: value for name, value in _scalars(snapshot).items()}
-    bodies = snapshot.measures.bodies
-    if any(body.roughness for body in bodies.values()):
-        for part in ROUGHNESS_COLUMNS:
-            row[HISTORY + part.name] = [part.read(snapshot, body) for body in bodies]
     return row | _of_models(snapshot, table, STEPPED)
 
 

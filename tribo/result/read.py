@@ -312,8 +312,7 @@ class Result:
     def table(self, name: str) -> dict[str, Array]:
         """Return ``"saves"`` or ``"history"`` as columns, named with their units.
 
-        A body's are called ``bodies.NAME.max_wear_depth_m``; the history has Sa of rough bodies
-        too. Columns of models follow.
+        A body's are called ``bodies.NAME.max_wear_depth_m``. Columns of models follow.
         """
         dim = "time" if name == "saves" else "step"
         columns, of_bodies = {}, {}

@@ -312,7 +312,6 @@ class Simulation:
                     height=model.height(name),
                     rows=model.cycle.maps[name].rows,
                     state_fields=model.laws.kept_on(name),
-                    rough=name in model.rough,
                     straight=model.cycle.maps[name].across is None,
                 )
                 for name, body in model.case.bodies.items()

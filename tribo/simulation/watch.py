@@ -16,10 +16,10 @@ from tribo.evolution.local_fields import effect_fields
 from tribo.guards.guard import Guard
 from tribo.model.model import Model
 from tribo.observers.observer import Observer
-from tribo.result.columns import BODY_COLUMNS, COLUMNS, ROUGHNESS_COLUMNS
+from tribo.result.columns import BODY_COLUMNS, COLUMNS
 from tribo.stepping.measure import measure
 
-OWN = {column.name for column in (*COLUMNS, *BODY_COLUMNS, *ROUGHNESS_COLUMNS)}
+OWN = {column.name for column in (*COLUMNS, *BODY_COLUMNS)}
 
 
 class Watch:

@@ -18,7 +18,6 @@ from tribo.core.measures import (
 )
 from tribo.core.state import State
 from tribo.evolution.friction import friction_force
-from tribo.lab.running_in import contact_roughness
 from tribo.stepping.yielding import caps
 
 if TYPE_CHECKING:
@@ -41,7 +40,6 @@ def measure(model: Model, state: State) -> Measures:
             centre_wear_depth=centre(body.wear),
             wear_volume=model.cycle.maps[name].volume(body.wear),
             max_plastic_depth=float(np.max(body.plastic)),
-            roughness=_roughness(model, name, state),
         )
         for name, body in state.bodies.items()
     }
@@ -67,16 +65,6 @@ def measure(model: Model, state: State) -> Measures:
         invariants=state.invariants,
         cycle_error=cycle_error(model, state),
     )
-
-
-def _roughness(model: Model, name: str, state: State) -> dict[str, float]:
-    """Return the roughness of a body within the contact; empty if it is smooth at first."""
-    if name not in model.rough:
-        return {}
-    body, middle = state.bodies[name], len(model.cycle) // 2
-    own = model.surfaces[name].height, -body.wear, -body.plastic
-    surface = sum(model.cycle.maps[name].see(part, middle) for part in own)
-    return contact_roughness(np.asarray(surface), state.contact.pressure)._asdict()
 
 
 def cycle_error(model: Model, state: State) -> float:

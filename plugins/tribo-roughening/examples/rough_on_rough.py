@@ -5,9 +5,9 @@ python rough_on_rough.py [CELLS [PARTICLES [POSITIONS]]]: the plate hard, then w
 
 import sys
 
+import numpy as np
 from settled_roughness import case
 from tribo import Simulation
-from tribo.lab.roughness import parameters
 
 
 def rough_on_rough(sq, plate_wears, *, cells=32, particles=4, positions=9, layers=5):
@@ -38,8 +38,9 @@ def main(cells=32, particles=4, positions=9):
         with Simulation(rough_on_rough(sq, plate_wears, **sizes)).run() as result:
             patch = result.body("patch")
             for save in range(len(result.times)):
-                measured = parameters(patch.surface(save))
-                shown = measured.Sa_m, measured.Ra_along_m, measured.Ra_across_m
+                z = patch.surface(save)
+                means = z.mean(), z.mean(axis=0), z.mean(axis=1, keepdims=True)
+                shown = (np.mean(np.abs(z - mean)) for mean in means)
                 print(f"{save / 2:11.1f}", *(f"{1e9 * each:8.2f}" for each in shown))
 
 

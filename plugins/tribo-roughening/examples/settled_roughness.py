@@ -5,8 +5,8 @@ python settled_roughness.py [CELLS [PARTICLES]]: cells and particles along a sid
 
 import sys
 
+import numpy as np
 from tribo import Simulation
-from tribo.lab.roughness import parameters
 
 DIAMETER, THICKNESS = 16e-6, 0.4e-6
 K, PRESSURE = 1e-15, 0.5e9
@@ -54,7 +54,8 @@ def roughnesses(data):
     """Return Sa at each save, in m."""
     with Simulation(data).run() as result:
         patch = result.body("patch")
-        return [parameters(patch.surface(save)).Sa_m for save in range(len(result.times))]
+        surfaces = [patch.surface(save) for save in range(len(result.times))]
+        return [np.mean(np.abs(z - z.mean())) for z in surfaces]
 
 
 def main(cells=32, particles=4):

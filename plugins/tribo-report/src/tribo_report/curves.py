@@ -230,7 +230,6 @@ def _columns(bodies: Sequence[str]) -> Iterator[tuple[str, str, dict[str, str]]]
     for name, si, column in (
         ("Volume worn", "m^3", "wear_volume_m3"),
         ("Largest wear depth", "m", "max_wear_depth_m"),
-        ("Roughness Sq in the contact of the moment", "m", "Sq_m"),
     ):
         yield name, si, {body: f"bodies.{body}.{column}" for body in bodies}
     pressures = {"largest": "max_pressure_Pa", "centre": "centre_pressure_Pa"}

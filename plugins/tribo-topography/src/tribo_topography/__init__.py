@@ -1,7 +1,5 @@
-"""Measured surfaces for tribo."""
+"""Measured surfaces for tribo, and the roughness of worn ones."""
 
-from tribo_topography.config import MeasuredFile
-from tribo_topography.facts import Facts, describe
-from tribo_topography.surface import MeasuredSurface
+from tribo.kernel_api import lazy
 
-__all__ = ["Facts", "MeasuredFile", "MeasuredSurface", "describe"]
+__getattr__ = lazy(__name__, __file__)

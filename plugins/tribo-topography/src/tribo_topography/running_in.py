@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Generic, NamedTuple, TypeVar
+from contextlib import suppress
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
+from tribo import Array, BodyResult, CaseError, Mask, Result
 
-from tribo.core.arrays import Array, Mask
-from tribo.lab.roughness import Roughness, parameters, without_form
-from tribo.lab.scar import diameter
-from tribo.result.body import BodyResult
-from tribo.result.export import profile
-from tribo.result.layout import TRACK
-from tribo.result.read import Result
+from tribo_topography.roughness import Roughness, is_rough, parameters, without_form
 
 T = TypeVar("T")
 FORM = 4
@@ -52,11 +48,6 @@ def reliefs(result: Result, body: BodyResult, save: int) -> BeforeAndAfter[Array
     return BeforeAndAfter(*(without_form(np.where(cells, z, np.nan), FORM) for cells, z in places))
 
 
-def contact_roughness(surface: Array, pressure: Array) -> Roughness:
-    """Return the roughness of a surface (m) within the outline of {p > 0}, form removed."""
-    return parameters(without_form(np.where(outlined(pressure > 0), surface, np.nan), FORM))
-
-
 def scar_cells(result: Result, body: BodyResult, save: int) -> Mask:
     """Return the scar of a body at a save, shape (nx, ny), its unworn valleys included.
 
@@ -84,45 +75,9 @@ def outlined(cells: Mask) -> Mask:
 
 
 def rough_bodies(result: Result) -> list[str]:
-    """Return the names of the bodies that are rough at first."""
-    history = result.table("history")
-    return [name for name in result.body_names if f"bodies.{name}.Sq_m" in history]
-
-
-def groove_length(result: Result, name: str) -> float | None:
-    """Return the length of a body's groove on its track at the end, in m; None if all along it."""
-    if TRACK in dir(result):
-        depth = np.nan_to_num(result.field(TRACK, len(result.times) - 1, name))
-    elif result.case_tables.get("kinematics", {}).get("positions", "average") != "average":
-        # In a window that repeats.
-        depth = result.body(name).wear_depth[-1]
-    else:
-        return None
-    return None if depth.all() else diameter(depth, 0, result.grid.spacing[0])
-
-
-def worn_surfaces(result: Result, name: str) -> list[dict[str, Any]]:
-    """Return the data of ``tribo show --json`` on a body's surface at each save.
-
-    ``roughness`` has the parameters in the scar, and under ``unworn`` and ``beside`` parameters to
-    compare with. For the moving body of a resolved cycle ``track_x_m`` and ``track_depth_m`` are
-    the depth at y = 0 along its whole track.
-    """
-    rows: list[dict[str, Any]] = []
-    body = result.body(name)
-    for save in range(len(result.times)):
-        scar, unworn, beside = worn_roughness(result, body, save)
-        more = {"unworn": unworn._asdict(), "beside": beside._asdict()}
-        rows.append({"roughness": scar._asdict() | more, **_track(result, name, save)})
-    return rows
-
-
-def _track(result: Result, name: str, save: int) -> dict[str, list[float]]:
-    if TRACK not in dir(result):
-        return {}
-    depth = profile(result.field(TRACK, save, name), 0)
-    known = np.isfinite(depth)
-    if not known.any():
-        return {}
-    x = (np.arange(depth.size) - 0.5 * (depth.size - 1)) * result.grid.spacing[0]
-    return {"track_x_m": x[known].tolist(), "track_depth_m": depth[known].tolist()}
+    """Return the names of the bodies whose surfaces are more than a smooth form."""
+    # A class that is not installed leaves its result without roughness.
+    with suppress(CaseError):
+        unsure = [name for name, body in result.case.bodies.items() if not body.surface.smooth]
+        return [name for name in unsure if is_rough(result.body(name).height)]
+    return []

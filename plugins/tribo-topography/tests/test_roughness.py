@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from tribo import Cylinder, Grid, Rough, Sphere
 
-from tribo import Grid
-from tribo.lab.roughness import (
+from tribo_topography.roughness import (
     areal_parameters,
     is_rough,
     material_ratio,
@@ -14,8 +14,6 @@ from tribo.lab.roughness import (
     roughness,
     without_form,
 )
-from tribo.surfaces.forms import Cylinder, Sphere
-from tribo.surfaces.rough import Rough
 
 GRID = Grid("1 mm", 100)
 A = 50e-9

@@ -1,9 +1,9 @@
 """Roughness of waves along and across the sliding direction."""
 
 import numpy as np
-
 import tribo
-from tribo.lab.roughness import roughness
+
+from tribo_topography.roughness import roughness
 
 ALONG, ACROSS = 0.1e-6, 0.3e-6
 GRID = tribo.Grid((1e-3, 0.8e-3), (400, 320))

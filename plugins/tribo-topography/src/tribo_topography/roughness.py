@@ -10,8 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-
-from tribo.core.arrays import Array
+from tribo import Array
 
 ROUND_OFF = 1e-12
 """Part of the heights' range below which the residual of a form is taken as 0."""
