@@ -3,7 +3,6 @@
 import numpy as np
 
 from tribo.core.contact import ContactSolution, ContactSystem, Residuals
-from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.core.measures import BodyMeasures, Measures, centre, contact_area, half_widths
@@ -109,15 +108,11 @@ def written(path, **options):
 
 
 def quick_reports(monkeypatch):
-    """Let two pictures stand for all of a result, and a report go without its findings."""
-
-    def refused(*given):
-        raise CaseError("it takes seconds")
+    """Let two pictures stand for all of a result."""
 
     def two(result, *tell, every=figures.result_pictures):
         return dict(list(every(result).items())[:2])
 
-    monkeypatch.setattr("tribo_report.result.findings_of", refused)
     for module in ("tribo.plotting.figures", "tribo_report.result"):
         monkeypatch.setattr(f"{module}.result_pictures", two)
 

@@ -19,7 +19,6 @@ from tribo.config.load import case_tables
 from tribo.templates import template
 
 from tribo_report.amounts import component_words, value_words
-from tribo_report.drawing import drawing
 from tribo_report.fields import charts
 from tribo_report.reduced import Blocks, block_means, each_plain
 from tribo_report.result import result_page
@@ -101,27 +100,6 @@ def test_it_quotes_the_uncertainty_that_a_study_found(tmp_path):
             read_verified(tmp_path / "none.json", result)
 
 
-@pytest.mark.slow
-@pytest.mark.usefixtures("unprinted")
-def test_it_says_which_numbers_rule_the_depth_or_why_not(tmp_path):
-    settings = [
-        "grid.cells=48",
-        "grid.size='1.1 mm'",
-        "kinematics.duration='5 s'",
-        "output.save_times=[]",
-    ]
-    (tmp_path / "case.toml").write_text(template("ball_on_disk"), encoding="utf-8")
-    with tribo.load_case(tmp_path / "case.toml", overrides=settings).run() as result:
-        page = result_page(result)
-    shares = dict(
-        re.findall(r'<th scope="row">([\w.]+)</th><td>[^<]* ([+−][\d.]+) ± [\d.]+ %', page)
-    )
-    assert set(shares) >= {"load.normal", "kinematics.stroke"}
-    assert shares["kinematics.duration"] == shares["kinematics.frequency"]
-    with made() as result:
-        assert "<p>Not known for this case: " in result_page(result)
-
-
 @pytest.mark.parametrize("shape", SHAPES)
 def test_every_shape_of_contact_has_its_charts(shape):
     with made(times=(0.0, 200.0), **SHAPES[shape]) as result:
@@ -163,11 +141,9 @@ def test_what_effects_provide_and_models_keep_has_maps_and_curves():
     assert not data["history"]["axes"][0]["panels"][0]["dotted"]
 
 
-def test_a_coating_is_drawn_and_told():
+def test_a_coating_is_told_and_ends_in_the_sections():
     layers = [{"thickness": 1e-5}, {"thickness": 1e-3}]
     with made(layers=layers) as result:
-        case = result.case_tables | {"kinematics": {}}
-        assert "coated ball on disk, pressed by 100 N" in drawing(case, "disk", "100 N")
         told = "The coating (2 layers) of the ball is nowhere worn through."
         assert told in sentence(result, result.report(), [])
         charted = {each["name"]: each["curves"] for each in charts(result)["sections"]}

@@ -7,22 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from tribo import (
-    Body,
-    Case,
-    CaseError,
-    LabReport,
-    Layer,
-    NumericalError,
-    Result,
-    Simulation,
-)
+from tribo import Body, Case, LabReport, Layer, Result
 from tribo.kernel_api import (
     DataTable,
     Heading,
     TableRow,
     environment,
-    findings_of,
     lab_report,
     lab_sentences,
     plus_minus,
@@ -34,10 +24,9 @@ from tribo.kernel_api import (
 )
 
 from tribo_report.amounts import amount, component_words, part_words, value_words
-from tribo_report.drawing import drawing
 from tribo_report.fields import charts
 from tribo_report.page import render, stills
-from tribo_report.sentence import Estimate, load_words, read_verified, sentence, trust
+from tribo_report.sentence import Estimate, read_verified, sentence, trust
 
 LONGEST_CASE = 200_000
 """Characters of a case that a report holds; one with a measured surface has millions."""
@@ -55,7 +44,6 @@ def result_page(result: Result, verified: Path | None = None) -> str:
     """Return the report of a result as HTML; see `tribo_report.write_report`."""
     lab, case = lab_report(result), result.case_tables
     estimates = [] if verified is None else read_verified(verified, result)
-    swept = next((name for name in result.body_names if result.body(name).swept), None)
     return render(
         "result.html.j2",
         title=Path(result.name).stem,
@@ -64,11 +52,9 @@ def result_page(result: Result, verified: Path | None = None) -> str:
         tables=_tables(result, lab, estimates),
         remarks=list(lab_sentences(result, lab)),
         notes=list(map(str, lab.findings)),
-        drawing=drawing(case, swept, load_words(result)) if _is_whole(case) else "",
         facts=facts(case),
         data=charts(result),
         stills=stills(result_pictures(result)),
-        ruled=_ruled(result),
         held=" ".join([*run_sentences(result), STOPPED]),
         provenance=_provenance(result),
         citation=cited(result),
@@ -103,24 +89,6 @@ def _tables(result: Result, lab: LabReport, estimates: Sequence[Estimate]) -> li
     return [wear, *([uncertain] if rows else []), saves, *others]
 
 
-def _ruled(result: Result) -> dict[str, Any]:
-    """Return which numbers of the case rule its answer, or why that is not known."""
-    try:
-        model = Simulation(result.case_tables).model
-        found = findings_of(model, result.saves()[0]["contact_half_width_x_m"])
-    except (CaseError, NumericalError) as error:
-        return {"why": f"Not known for this case: {error}", "rows": []}
-    ruling = [each for each in found if each.kind == "sensitivity"]
-    longest = max((abs(each.value or 0.0) for each in ruling), default=0.0) or 1.0
-    rows = [
-        {"path": each.place, "words": each.words, "size": round(100 * abs(each.value) / longest)}
-        for each in ruling
-        if each.value is not None
-    ]
-    why = [each.words for each in ruling] or ["tribo-inverse finds it, and is not installed"]
-    return {"rows": rows, "why": why[0]}
-
-
 def _uncertainty(row: Estimate) -> tuple[str, str]:
     """Return a value with its uncertainty, and this in % of the value."""
     found, value = row["uncertainty"], row["value"]
@@ -131,10 +99,6 @@ def _uncertainty(row: Estimate) -> tuple[str, str]:
     # Around a sum, before a power of ten.
     both = f"({both})" if unit.startswith("10") else both
     return f"{both} {unit}".strip(), f"{100 * found / abs(value):.2g}" if value else ""
-
-
-def _is_whole(case: Mapping[str, Any]) -> bool:
-    return len(case["bodies"]) == 2 and {"load", "kinematics"} <= case.keys()
 
 
 def facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:
