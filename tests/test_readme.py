@@ -28,6 +28,12 @@ def test_it_gives_the_two_commands():
     ]
 
 
+@pytest.mark.parametrize("package", sorted(ROOT.glob("plugins/tribo-*")), ids=lambda p: p.name)
+def test_no_link_breaks_where_the_readme_of_a_package_is_shown_alone(package):
+    links = re.findall(r"\]\(([^)]*)\)", (package / "README.md").read_text(encoding="utf-8"))
+    assert all(link.startswith("https://") for link in links)
+
+
 def test_it_is_short():
     assert len(README.splitlines()) <= 120
 
