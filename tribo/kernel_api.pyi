@@ -78,7 +78,6 @@ from tribo.integration.kept import Values as Values
 from tribo.integration.step_to_break import Stretch as Stretch
 from tribo.lab.formulas import circular_groove_area as circular_groove_area
 from tribo.lab.formulas import reciprocating_track_volume as reciprocating_track_volume
-from tribo.lab.heights import BLUR as BLUR
 from tribo.lab.heights import interpolated as interpolated
 from tribo.lab.heights import nearest_filled as nearest_filled
 from tribo.lab.heights import outliers as outliers

@@ -55,15 +55,6 @@ def test_the_deepest_may_lie_in_a_hole():
     assert found.depth_uncertainty < 2e-9
 
 
-def test_what_is_missing_within_a_ring_is_not_of_its_bottom():
-    far, depths = np.hypot(*places(160)) / PITCH, []
-    lost = cap(far - 50, 0, wide=12)
-    for missing in (0, 25):
-        with pytest.warns(TriboWarning, match="the scar encloses an unworn area"):
-            depths.append(measured_scar(Flat(), of_flat(lost, missing=far < missing)).depth)
-    assert depths[1] == pytest.approx(depths[0], rel=1e-3, abs=0)
-
-
 @pytest.mark.parametrize(("pitch", "noise"), [(4e-6, 0), (10e-6, 10e-9)])
 def test_the_largest_depth_of_a_curved_bottom_is_that_of_no_mean(pitch, noise):
     """A ball worn 1 µm flat, of which means over some pixels are 13 and 80 nm less."""
@@ -172,12 +163,3 @@ def test_a_track_that_lies_askew_or_in_an_arc_is_as_wide(beside, within, along):
 def test_the_length_of_a_track_is_of_no_use_for_a_scar_within_the_map(standard):
     with pytest.warns(TriboWarning, match="track_length: no track from edge"):
         measured_scar(*standard[:2], track_length=1e-3)
-
-
-def test_a_whole_circular_track_is_told_and_no_ball_made_its_outline():
-    lost = cap(np.hypot(*places()) - 30e-6, 0, wide=8e-6)
-    with pytest.warns(TriboWarning, match="encloses an unworn area, as a whole circular track"):
-        found = measured_scar(Flat(), of_flat(lost, 1e-8), radius=RADIUS)
-    assert found.inferred == ()
-    assert found.across == pytest.approx(76e-6, rel=0.03, abs=0)
-    assert found.volume == pytest.approx(volume(lost), rel=0.01, abs=0)

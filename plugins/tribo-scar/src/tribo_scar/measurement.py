@@ -22,15 +22,7 @@ from tribo.kernel_api import (
 )
 
 from tribo_scar.depth import deepest, sum_uncertainty
-from tribo_scar.findings import (
-    check_scales,
-    may_be_ball,
-    radius_across,
-    warn,
-    warn_of_area,
-    warn_of_form,
-    warn_of_zeros,
-)
+from tribo_scar.findings import check_measured, check_scales, warn, warn_of_area
 from tribo_scar.registration import Registration, register
 from tribo_scar.widths import LINES, WidthReading, scar_width
 from tribo_scar.worn_area import MARGIN, WornArea, worn_area
@@ -39,14 +31,6 @@ MOST_DIGITS = 6
 """Digits of a size that are printed, as of maps without noise."""
 MOST = 0.65
 """Part of the map that a scar may cover, with its margin."""
-PIT = 0.03
-"""Part of the map below which a difference beside the scar is a pit or a scratch."""
-LITTLE = 2e-3
-"""Part of a volume that does not matter."""
-SHORTER = 0.95
-"""Length of a track over that within the map, below which it is refused."""
-SURE = 0.3
-"""Part of the largest depth above which a pixel shows the shape of the worn surface."""
 
 
 @dataclass(frozen=True)
@@ -214,9 +198,8 @@ def measured_scar(
         if np.array_equal(before.heights, after.heights, equal_nan=True):
             raise CaseError("the maps before and after are the same; give two that differ")
         check_scales(before, after)
-        warn_of_zeros(before, "before")
         before, count_of_outliers = _without_outliers(before, "before")
-    warn_of_zeros(after, "after")
+    check_measured(after)
     after, count = _without_outliers(after, "after")
     found = register(before, after, form)
     shape = after.heights.shape
@@ -233,10 +216,6 @@ def measured_scar(
     area = after.grid.cell_area
     volume = area * float(np.sum(depth[scar]))
     volume_uncertainty = area * sum_uncertainty(found, scar)
-    # Where the maps were laid on each other may leave out what a curvature lifts.
-    beside = np.where(scar | worn.piled | _small(found.worn), np.nan, found.depth)
-    sure = max(volume_uncertainty, LITTLE * volume) / (area * np.count_nonzero(scar))
-    warn_of_form(beside, sure, form, ideal=ideal)
     warn_of_area(worn, within=max(np.subtract(shape, found.depth.shape)) > MARGIN)
     sizes = _Sizes()
     if not worn.several and not worn.cut_off:
@@ -283,13 +262,6 @@ def _without_outliers(measured: Heights, which: str) -> tuple[Heights, int]:
     return Heights(np.where(unlike, np.nan, measured.heights), measured.pitch), count
 
 
-def _small(marked: Mask) -> Mask:
-    """Return the small ones of some areas: pits and scratches."""
-    places, count = ndimage.label(marked)
-    small: Mask = np.bincount(places.ravel(), minlength=count + 1)[places] < PIT * marked.size
-    return marked & small
-
-
 class _Sizes(NamedTuple):
     """Widths of a scar, section and volume of a track, and volumes by formulas; None if unknown."""
 
@@ -311,7 +283,7 @@ def _sizes(
     """Return the sizes of one scar that lies in the map."""
     if worn.track and worn.length:
         section, length = volume / worn.length, track_length or worn.length
-        if length < SHORTER * worn.length:
+        if length < worn.length:
             raise CaseError(
                 f"{1e3 * length:.4g} mm is too short: the track is {1e3 * worn.length:.4g} mm long "
                 "within the map alone; give the length of all of it",
@@ -324,21 +296,20 @@ def _sizes(
         return _Sizes(along, across, section, whole if track_length else None, formulas)
     # Correlated noise does not average out over neighbours.
     of_lines = found.noise * math.sqrt(min(found.variance_inflation / LINES, 1.0))
-    noise, smooth = (of_lines, worn.noise), worn.smooth
     along, across = (
-        scar_width(found.depth, smooth, worn.scar, noise, axis, after.pitch[axis])
+        scar_width(found.depth, worn.smooth, worn.scar, of_lines, axis, after.pitch[axis])
         for axis in (0, 1)
     )
-    if radius is None or worn.is_ring:
+    if radius is None:
         return _Sizes(along, across)
     sizes = Scar(along.value, across.value)
     _check_width(max(sizes), radius)
-    if not may_be_ball(after, worn.scar, radius):
-        return _Sizes(along, across)
     # Smoothing widens the core beyond what is worn.
-    sure = worn.core & (smooth > SURE * np.max(smooth[worn.core]))
-    bottom = np.where(sure, after.heights, np.nan)
-    groove = radius_across(bottom - without_form(bottom), after.pitch)
+    inner = ndimage.binary_erosion(worn.core, iterations=MARGIN)
+    bottom = np.where(inner, after.heights, np.nan)
+    form = bottom - without_form(bottom)
+    bend = float(np.nanmean(np.diff(form, 2, axis=1))) / after.pitch[1] ** 2
+    groove = math.inf if bend >= 0 else -1 / bend
     return _Sizes(along, across, formulas=ball_volumes("ball", sizes, radius, groove, volume))
 
 

@@ -33,13 +33,6 @@ ITERATIONS = 30
 SETTLED = 1e-3
 """Change in a step that ends the last blur, of the map's place in pixels and of its form in
 standard deviations of noise."""
-SHIFT_GUESSED, TURN_GUESSED = 0.1, 0.1
-"""Standard deviations of a shift, in widths of the map, and of a turn, in rad, that the relief does
-not determine."""
-FORM_ITERATIONS = 6
-"""First steps, which fit the form alone."""
-QUANTILE = 0.3
-"""Quantile of the depths that the form is first fitted to, below the median as scars are deep."""
 
 
 @dataclass(frozen=True)
@@ -156,12 +149,14 @@ class _Fit:
 
     def run(self, *, moves: bool = True) -> None:
         """Fit maps from coarse to fine; the form alone unless the map `moves`."""
-        for _ in range(FORM_ITERATIONS):
-            self._improve(BLURS[0], first=True, still=True)
+        self._settle(BLURS[0], first=True, still=True)
         for blur in BLURS:
-            for _ in range(ITERATIONS):
-                if self._improve(blur, still=not moves) < SETTLED * blur**2:
-                    break
+            self._settle(blur, still=not moves)
+
+    def _settle(self, blur: float, *, first: bool = False, still: bool = False) -> None:
+        for _ in range(ITERATIONS):
+            if self._improve(blur, first=first, still=still) < SETTLED * blur**2:
+                break
 
     def difference(self, blur: float) -> tuple[Array, Array]:
         """Return the depth, and its derivatives by shift, rotation times lever and form."""
@@ -187,7 +182,7 @@ class _Fit:
         missing = ndimage.map_coordinates(missing, at, order=1, mode="constant", cval=1.0)
         return np.where((missing > 1e-6) | np.isnan(self.after.heights), np.nan, depth), slopes
 
-    def _improve(self, blur: float, *, first: bool = False, still: bool = False) -> float:
+    def _improve(self, blur: float, *, first: bool, still: bool) -> float:
         """Take a Gauss-Newton step, and return its change as `SETTLED` has it."""
         depth, slopes = self.difference(blur)
         known = np.isfinite(depth)
@@ -206,9 +201,8 @@ class _Fit:
         residuals, columns = depth[used], slopes[:, used]
         scale = robust_deviation(residuals)
         if first:
-            # Quantile regression, which a scar affects least.
-            weights = np.where(residuals > 0, QUANTILE, 1 - QUANTILE)
-            weights /= np.maximum(np.abs(residuals), 1e-3 * scale + 1e-30)
+            # The form through the median, which a scar affects least.
+            weights = 1 / np.maximum(np.abs(residuals), 1e-3 * scale + 1e-30)
         else:
             # Without noise residuals may have an offset far larger than their deviation.
             most = TUKEY * max(scale, float(np.median(np.abs(residuals)))) + 1e-30
@@ -273,11 +267,7 @@ class _Fit:
         back = rotation(-self.angle)
         by_turn = rotation(0.5 * np.pi - self.angle) @ self.shift / self.lever
         moves = np.block([[-back, by_turn[:, None]], [np.zeros(2), -1.0]])
-        # What the relief does not tell adds to what it tells of the other directions.
-        untold = np.eye(3) - basis[:3, :3]
-        guessed = SHIFT_GUESSED * max(self.after.grid.size)
-        guess = np.diag([guessed, guessed, TURN_GUESSED * self.lever]) ** 2
-        of_moves = moves @ (covariance[:3, :3] + untold @ guess @ untold) @ moves.T
+        of_moves = moves @ covariance[:3, :3] @ moves.T
         sigmas = np.sqrt(np.maximum(np.diag(of_moves), 0))
         sigmas[np.diag(basis)[:3] < 0.5] = np.inf
         x, y = -back @ self.shift

@@ -8,20 +8,15 @@ from typing import NamedTuple
 import numpy as np
 import scipy.ndimage as ndimage
 from tribo import Array, CaseError, Mask
-from tribo.kernel_api import BLUR
 
 from tribo_scar.registration import DEEP
 
 LOWEST, HIGHEST = 0.05, 0.3
-"""Parts of the largest depth between which a width is read: as low as noise and blur allow."""
-CLEAR = 0.1
-"""Part of the largest depth below which noise needs no smoothing."""
+"""Parts of the largest depth between which a width is read: as low as noise allows."""
 LINES = 5
 """Lines through the middle of a scar whose mean is its profile."""
 PIXEL = 0.6
 """Standard uncertainty of a width by pixels, half of one on either side, in pixels."""
-SMEARS = 1.5
-"""Standard uncertainty by smoothing, in its widths, as it moves steep sides by up to 2.5."""
 STEEP = 1.2
 """Difference of the widths at the lowest level and at half of the depth, in pixels, below which
 both sides fall within one."""
@@ -37,26 +32,23 @@ class WidthReading(NamedTuple):
 
 
 def scar_width(
-    depth: Array, smooth: Array, scar: Mask, noise: tuple[float, float], axis: int, pitch: float
+    depth: Array, smooth: Array, scar: Mask, noise: float, axis: int, pitch: float
 ) -> WidthReading:
     """Return the width along an axis of a scar that ends within the map, through its middle.
 
-    It is read off the mean of five lines, of smoothed depths where noise needs it. `noise` is the
-    standard deviation beside the scar of such a mean, and of smoothed depths, in m.
+    It is read off the mean of five lines. `noise` is the standard deviation of such a mean beside
+    the scar, in m.
     """
-    clear = DEEP * noise[0] < CLEAR * np.max(smooth[scar])
-    sources = ((depth, noise[0], 0.0), (smooth, noise[1], BLUR))
-    field, sigma, blur = sources[0 if clear else 1]
     even = np.moveaxis(np.where(scar, smooth, np.minimum(smooth, 0.0)), axis, 0)
     weights = np.sum(np.maximum(even, 0.0), axis=0)
     middle = round(float(np.average(np.arange(even.shape[1]), weights=weights)))
     near = slice(max(middle - LINES // 2, 0), middle + LINES // 2 + 1)
-    lines = np.moveaxis(np.where(scar, field, np.nan), axis, 0)[:, near]
+    lines = np.moveaxis(np.where(scar, depth, np.nan), axis, 0)[:, near]
     known = np.isfinite(lines)
     # Where none of the lines was measured the smoothed ones stand in.
     total, count = np.sum(lines, axis=1, where=known), np.sum(known, axis=1)
     profile = np.where(count > 0, total / np.maximum(count, 1), np.mean(even[:, near], axis=1))
-    return _read(profile, sigma, blur, pitch)
+    return _read(profile, noise, pitch)
 
 
 def track_across(
@@ -104,10 +96,10 @@ def track_across(
     askew = math.cos(math.atan(slope * pitch[1 - axis] / pitch[axis]))
     steps = np.gradient(course) * pitch[1 - axis]
     length = float(np.sum(np.hypot(steps, pitch[axis])))
-    return band, _read(within, noise, 0.0, askew * pitch[1 - axis]), length
+    return band, _read(within, noise, askew * pitch[1 - axis]), length
 
 
-def _read(profile: Array, noise: float, blur: float, pitch: float) -> WidthReading:
+def _read(profile: Array, noise: float, pitch: float) -> WidthReading:
     """Return the width of a profile: where the parabola through two of its levels reaches 0.
 
     The depth of a ball worn flat is a parabola. The deviation of another scar shows in the parabola
@@ -117,7 +109,7 @@ def _read(profile: Array, noise: float, blur: float, pitch: float) -> WidthReadi
     if peak <= 0:
         raise CaseError("the scar has no mean depth; give the map of before first")
     half = _crossed(profile, 0.5 * peak)
-    low = min(max(LOWEST, DEEP * noise / peak, 3 * blur * math.sqrt(2) / half), HIGHEST)
+    low = min(max(LOWEST, DEEP * noise / peak), HIGHEST)
     levels = (low, 2 * low, min(4 * low, 0.9))
     squares = [_crossed(profile, level * peak) ** 2 for level in levels]
     if math.sqrt(squares[0]) - half < STEEP:
@@ -128,9 +120,7 @@ def _read(profile: Array, noise: float, blur: float, pitch: float) -> WidthReadi
     )
     # Noise moves the edge by about half of its part of the peak, and the parabola doubles it.
     of_noise = width * noise / peak
-    return WidthReading(
-        pitch * width, pitch * math.hypot(width - other, of_noise, PIXEL, SMEARS * blur)
-    )
+    return WidthReading(pitch * width, pitch * math.hypot(width - other, of_noise, PIXEL))
 
 
 def _crossed(profile: Array, level: float) -> float:

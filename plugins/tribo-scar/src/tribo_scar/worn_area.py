@@ -11,26 +11,11 @@ from tribo import Array, CaseError, Mask
 from tribo.kernel_api import interpolated, smoothed
 
 from tribo_scar.alignment import robust_deviation
-from tribo_scar.registration import DEEP, ROUNDED, Registration
-from tribo_scar.widths import WidthReading, track_across
+from tribo_scar.registration import BLURS, DEEP, ROUNDED, Registration
+from tribo_scar.widths import LOWEST, WidthReading, track_across
 
 SPOT = 0.1
 """Part of the largest scar's volume below which a worn area is left out."""
-EDGE = 0.05
-"""Part of the largest depth above which the edge of the map cuts a scar off."""
-ENCLOSED = 0.1
-"""Unworn part within the outline of a scar, above which the scar is a ring."""
-FINE = 0.7
-"""Width of the Gaussian for ridges of a few pixels, in pixels."""
-RELIEF = 1.0
-"""Width of the Gaussian that separates relief from the curvature of a worn surface, in pixels."""
-BORDER, STEEP = 2, 2.0
-"""Pixels on each side of the border of a scar with what is piled up that are sorted by their sign,
-and the least slope there, in standard deviations of the noise per pixel."""
-RIDGE = 4
-"""Pixels of such a ridge beyond noise, at least; fewer are outliers."""
-ALONG = 0.1
-"""Part of its length that a track may run along the edge of the map."""
 MARGIN = 4
 """Pixels added around the scar, by which smoothing widens it."""
 
@@ -56,8 +41,6 @@ class WornArea:
     """Whether it reaches both edges of the map, along x and along y."""
     cut_off: bool
     """Whether it extends beyond the edge, other than at the ends of a track."""
-    is_ring: bool
-    """Whether it encloses an unworn area, as a whole circular track does."""
     track: WidthReading | None
     """Width across a track; None for a scar that ends within the map."""
     length: float | None
@@ -101,17 +84,14 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         band, track, length = track_across(seen, core, found.worn, noise, axis, pitch)
         scar = ndimage.binary_dilation(band, iterations=MARGIN, mask=band | ~piled)
     _, count = ndimage.label(scar)
-    # Smoothing has the scar's edge lie within such a ridge.
-    fine, level = smoothed(found.depth, FINE), smoothed(found.depth, RELIEF)
-    inner = ndimage.binary_erosion(core, iterations=MARGIN)
-    thin = _thin_ridges(found, fine, robust_deviation((fine - level)[inner]), scar & ~inner)
+    # Smoothing has the scar's edge lie within a thin ridge.
+    fine = smoothed(found.depth, BLURS[-1])
+    margin = scar & ~ndimage.binary_erosion(core, iterations=MARGIN) & (fine < 0)
+    thin = ndimage.binary_propagation(margin & (fine < -DEEP * _noise(fine, found)), mask=margin)
     scar = ndimage.binary_propagation(core & ~thin, mask=scar & ~thin)
     piled = ndimage.binary_dilation(piled | thin, iterations=MARGIN) & ~scar
-    rough = robust_deviation((found.depth - level)[inner & known])
-    between, lost = _border(fine, max(found.noise, rough), scar, piled), depth > 0
-    scar, piled = np.where(between, lost, scar), np.where(between, ~lost, piled)
-    deep = core & (smooth > EDGE * np.max(smooth[core]))
-    enclosed = ndimage.binary_fill_holes(deep) & ~deep & known
+    # The edge cuts off a scar whose width cannot be read.
+    deep = core & (smooth > LOWEST * np.max(smooth[core]))
     return WornArea(
         smooth=smooth,
         depth=depth,
@@ -123,7 +103,6 @@ def worn_area(found: Registration, pitch: tuple[float, float], *, ideal: bool) -
         count=count,
         is_open=is_open,
         cut_off=_is_cut_off(deep, known, is_open),
-        is_ring=bool(np.count_nonzero(enclosed) > ENCLOSED * np.count_nonzero(core)),
         track=track,
         length=length,
     )
@@ -137,30 +116,6 @@ def _noise(depth: Array, found: Registration) -> float:
     unworn = depth[found.unworn]
     least = ROUNDED * float(np.nanmax(np.abs(depth)))
     return max(robust_deviation(unworn), least) if unworn.size else found.noise
-
-
-def _thin_ridges(found: Registration, fine: Array, relief: float, margin: Mask) -> Mask:
-    """Return the ridges in the margin of a scar, too thin for `_largest`.
-
-    Beyond noise, and beyond the relief of the worn surface, whose tops are no ridges.
-    """
-    noise, up = max(_noise(fine, found), relief), margin & (fine < 0)
-    tops, count = ndimage.label(up & (fine < -DEEP * noise), np.ones((3, 3)))
-    sizes = np.bincount(tops.ravel(), minlength=count + 1)
-    ridges: Mask = ndimage.binary_propagation((tops > 0) & (sizes[tops] >= RIDGE), mask=up)
-    return ridges
-
-
-def _border(fine: Array, noise: float, scar: Mask, piled: Mask) -> Mask:
-    """Return pixels at the border of a scar and piled-up material, to be sorted by their sign.
-
-    Smoothing moves that border. Where it is not steep, the signs of noise, and of the relief of the
-    worn surface, would add up.
-    """
-    of_scar, of_piled = (ndimage.binary_dilation(e, iterations=BORDER) for e in (scar, piled))
-    slope = np.hypot(*np.gradient(fine))
-    border: Mask = of_scar & of_piled & (slope > STEEP * noise)
-    return border
 
 
 def _filled(depth: Array, smooth: Array, known: Mask) -> Array:
@@ -189,9 +144,9 @@ def _shallow(smooth: Array, core: Mask, level: float) -> int:
 def _is_cut_off(scar: Mask, known: Mask, is_open: list[bool]) -> bool:
     """Return whether the edge of what is known cuts off a scar, other than a track's ends."""
     # Without the holes that missing pixels leave at the edge.
-    missing = ndimage.binary_opening(np.pad(~known, 8, constant_values=True), iterations=2)
+    missing = ndimage.binary_opening(np.pad(~known, 2 * MARGIN, constant_values=True), iterations=2)
     places, _ = ndimage.label(missing)
-    outside, scar = places == places[4, 4], np.pad(scar, 8)
+    outside, scar = places == places[MARGIN, MARGIN], np.pad(scar, 2 * MARGIN)
     # Pixels outside that touch the scar along x, and along y.
     touched = [
         ndimage.binary_dilation(scar, line) & outside for line in (np.ones((3, 1)), np.ones((1, 3)))
@@ -199,6 +154,5 @@ def _is_cut_off(scar: Mask, known: Mask, is_open: list[bool]) -> bool:
     if is_open[0] != is_open[1]:
         axis = is_open.index(True)
         # The common area is ragged at the ends of a track.
-        beside = np.moveaxis(touched[1 - axis], axis, 0)[16:-16]
-        return bool(np.count_nonzero(beside) > ALONG * known.shape[axis])
-    return bool(np.count_nonzero(touched) > 2)
+        touched = [np.moveaxis(touched[1 - axis], axis, 0)[4 * MARGIN : -4 * MARGIN]]
+    return bool(np.count_nonzero(touched) > MARGIN)
