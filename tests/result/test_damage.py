@@ -8,7 +8,6 @@ from edited import edited
 from made_results import made
 
 from tribo import CaseError, Result
-from tribo.core.hdf5 import open_hdf5
 from tribo.result.sealed import open_sealed, write_sealed
 
 
@@ -80,14 +79,3 @@ def test_a_result_left_open_does_no_harm_at_the_end(sound):
     code = f"import tribo; result = tribo.open({str(sound)!r}); print(result.times)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True)
     assert (done.returncode, done.stderr) == (0, b"")
-
-
-def test_a_file_of_another_program_is_not_called_damaged(tmp_path):
-    path = tmp_path / "other.h5"
-    with open_hdf5(path, "w") as file:
-        file["heights"] = [1.0, 2.0]
-    with pytest.raises(CaseError, match="not a result of tribo"):
-        Result.open(path)
-    path.write_bytes(path.read_bytes()[:-100])
-    with pytest.raises(CaseError, match="is damaged"):
-        Result.open(path)

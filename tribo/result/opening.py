@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
 
@@ -18,7 +18,7 @@ from tribo.core.words import similar_file
 from tribo.result.checkpoint import RunFolder
 from tribo.result.hdf5 import filled_image
 from tribo.result.header import FORMAT
-from tribo.result.sealed import is_sealed, open_sealed
+from tribo.result.sealed import open_sealed
 
 _RESULT = "the .h5 file that 'tribo run' wrote"
 _DENSEST = 1032
@@ -68,9 +68,6 @@ def is_unfinished(path: Path) -> bool:
                 make = f"; if it is a case, make its result with: tribo run {path}"
                 hint = make if path.suffix == ".toml" else f"; give {_RESULT}"
                 raise CaseError(f"{path} is not a result{hint}")
-        if _is_foreign(path):
-            other = "is not a result of tribo: another program wrote it"
-            raise CaseError(f"{path} {other}; give {_RESULT}")
         open_sealed(path).close()
     except OSError as error:
         raise CaseError(f"{path} cannot be read: {error.strerror}") from error
@@ -85,15 +82,6 @@ def is_unfinished(path: Path) -> bool:
         if promised > _DENSEST * file.id.get_filesize():
             raise ValueError(f"it promises {promised / 1e6:.3g} MB, more than it can hold")
         return bool(file.attrs["status"] == "running")
-
-
-def _is_foreign(path: Path) -> bool:
-    """Whether a file without a seal can be read, and is no result."""
-    with suppress(Exception):
-        if not is_sealed(path):
-            with open_hdf5(path) as file:
-                return "tribo_format" not in file.attrs
-    return False
 
 
 def _saved_so_far(path: Path, folder: RunFolder) -> BytesIO:

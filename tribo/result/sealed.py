@@ -24,13 +24,6 @@ def write_sealed(path: Path, data: bytes | memoryview, through: Path | None = No
     write_file(path, data, _MARK + sha256(data).digest(), through=through)
 
 
-def is_sealed(path: Path) -> bool:
-    """Whether a file, of more bytes than the mark and the checksum, ends in them."""
-    with path.open("rb") as file:
-        file.seek(-_LENGTH, os.SEEK_END)
-        return file.read(len(_MARK)) == _MARK
-
-
 def open_sealed(path: Path) -> BinaryIO:
     """Open a file that `write_sealed` wrote, and compare it with its checksum.
 
@@ -44,8 +37,8 @@ def open_sealed(path: Path) -> BinaryIO:
             left -= len(block)
         if file.read() != _MARK + digest.digest():
             raise CaseError(
-                f"{path} is damaged: its checksum does not match; copy the file again, or run its "
-                "case again"
+                f"{path} is damaged, or tribo did not write it: its checksum does not match; copy "
+                "the file again, or run its case again"
             )
         file.seek(0)
     except BaseException:
