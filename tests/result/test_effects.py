@@ -1,14 +1,11 @@
 """What effects compute is kept in the result, for the pressure saved with it."""
 
-import csv
-
 import numpy as np
 import pytest
 from paper_models import StopAfter, small
 from strangers.oxidation import OXIDE, OxideFilm
 
 from tribo import CaseError, Field, Interrupted, Result, Simulation, TriboError
-from tribo.result.export import si_tables, write_tables
 from tribo.result.summary import summary
 
 POWER, FRICTION, SPEED = 1e7, 0.1, 0.1
@@ -43,18 +40,6 @@ def test_each_save_has_the_field_of_its_own_pressure(path):
                 np.testing.assert_allclose(
                     kept[save], expected(result.field("pressure", save)), rtol=1e-9, atol=0
                 )
-
-
-def test_its_largest_value_and_its_mean_are_exported_with_the_saves(path, tmp_path):
-    with Result.open(path) as result:
-        write_tables(si_tables(result), tmp_path)
-        films = [expected(result.field("pressure", save)) for save in range(4)]
-    with (tmp_path / "saves.csv").open() as file:
-        rows = list(csv.DictReader(file))
-    for row, film in zip(rows, films, strict=True):
-        of = "bodies.ball.effects"
-        assert float(row[f"{of}.max_{OXIDE}"]) == pytest.approx(film.max(), rel=1e-9)
-        assert float(row[f"{of}.mean_{OXIDE}"]) == pytest.approx(film[film > 0].mean(), rel=1e-9)
 
 
 def test_the_last_state_of_a_stopped_run_has_it_too(tmp_path):

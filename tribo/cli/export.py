@@ -30,10 +30,10 @@ def export(output: Path, directory: Path | None, name: str, columns: str | None)
     """Write the result OUTPUT as CSV, for Excel, or in a format that a plugin offers.
 
     lab.csv has what 'tribo show' prints of the saves, in a laboratory's units. The
-    other files are in SI: history.csv (a row a step), saves.csv (a row a save, with
-    the largest value of each field of effects and laws and its mean in the contact),
-    profiles_x.csv and profiles_y.csv (through the centre, along and across the
-    sliding direction, a block a save). For Excel they are sheets of tables.xlsx.
+    other files are in SI: history.csv (a row a step), saves.csv (a row a save),
+    profiles_x.csv and profiles_y.csv (pressure and surfaces through the centre, along
+    and across the sliding direction, a block a save). For Excel they are sheets of
+    tables.xlsx.
 
     \b
     Example:

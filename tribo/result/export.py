@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -10,10 +10,8 @@ from typing import Any
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.core.column import labelled
 from tribo.core.errors import CaseError
 from tribo.core.writing import make_folder, write_file
-from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
 
 
@@ -21,7 +19,7 @@ def si_tables(result: Result) -> dict[str, Mapping[str, Array]]:
     """Return history, saves and profiles in SI, with units in their column names."""
     return {
         "history": result.table("history"),
-        "saves": {**result.table("saves"), **_measures(result)},
+        "saves": result.table("saves"),
         "profiles_x": _profiles(result, 0),
         "profiles_y": _profiles(result, 1),
     }
@@ -60,32 +58,6 @@ def profile(field: Array, axis: int) -> Array:
     return np.asarray(np.mean(middle, axis=across))
 
 
-def _of_models(result: Result) -> Iterator[tuple[str, tuple[str, str], list[Array]]]:
-    """Yield the fields of effects and laws: whose, name and unit, and values, (nx, ny) a save."""
-    whose: list[tuple[str, str, str | None]] = [(BETWEEN, BETWEEN, None)]
-    for body in result.body_names:
-        whose += [(STATE, f"bodies.{body}.state", body), (EFFECT, f"bodies.{body}.effects", body)]
-    for kind, of, owner in whose:
-        for key, field in result.fields_of(kind, owner).items():
-            kept = [result.field(key, save, owner) for save in range(len(result.times))]
-            yield (
-                of,
-                (field.name, field.unit),
-                [np.broadcast_to(each, result.grid.cells) for each in kept],
-            )
-
-
-def _measures(result: Result) -> dict[str, Array]:
-    """Return the largest value of each such field at each save, and its mean in the contact."""
-    touched = [result.field("pressure", save) > 0 for save in range(len(result.times))]
-    columns = {}
-    for of, (name, unit), kept in _of_models(result):
-        means = [np.mean(each[cells]) for each, cells in zip(kept, touched, strict=True)]
-        columns[f"{of}.max_{labelled(name, unit)}"] = np.array([np.max(each) for each in kept])
-        columns[f"{of}.mean_{labelled(name, unit)}"] = np.array(means)
-    return columns
-
-
 def _profiles(result: Result, axis: int) -> dict[str, Array]:
     """Return columns for every save, one below the other."""
     grid = result.grid
@@ -95,8 +67,6 @@ def _profiles(result: Result, axis: int) -> dict[str, Array]:
     fields: dict[str, Iterable[Array]] = {
         "pressure_Pa": [result.field("pressure", i) for i in saves]
     }
-    for of, (name, unit), kept in _of_models(result):
-        fields[f"{of}.{labelled(name, unit)}"] = kept
     for name in result.body_names:
         body, of = result.body(name), f"bodies.{name}"
         fields[f"{of}.wear_depth_m"] = body.wear_depth
