@@ -32,12 +32,7 @@ def quantity(
         wanted = f"of a body; give body = {bodies}" if body is None else "of the contact, not"
         raise CaseError(f"{name} is {wanted} {body or ''}".rstrip())
     save = len(result.times) - 1 if time is None else result.save_at(time)
-    if "step" in dims:
-        passed = result.table("history")["time_s"]
-        save = int(np.argmin(np.abs(passed - result.times[save]))) - len(passed)
-        values = result._scalars[name][(save, *([result.body_names.index(body)] if body else []))]
-    else:
-        values = result.field(name, save, body)
+    values = result.field(name, save, body)
     assert known
     if places and "y" not in dims:
         raise CaseError(f"{name} is one number at each time; leave out the places")

@@ -149,12 +149,9 @@ class Result:
         OutputError
             If it cannot be written.
         """
-        write_sealed(Path(path), self.image().getbuffer())
-
-    def image(self) -> BytesIO:
-        """Return a copy of the file, in memory."""
         source = self._source
-        return BytesIO(source.read_bytes() if isinstance(source, Path) else source.getvalue())
+        data = source.read_bytes() if isinstance(source, Path) else source.getvalue()
+        write_sealed(Path(path), data)
 
     @property
     def status(self) -> str:
