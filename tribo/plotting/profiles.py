@@ -27,6 +27,7 @@ from tribo.plotting.sections import (
     varying,
 )
 from tribo.plotting.style import Look, save_looks
+from tribo.result.layout import TRACK
 from tribo.result.read import Result
 
 WORN: Look = {"color": "black", "linewidth": 1.0}
@@ -74,7 +75,7 @@ def body_profiles(
         raise NothingToDraw(f"{name} is worn evenly, {_deep(gone[-1])}")
     body, what = result.body(name), "Height"
     heights = [body.surface(save) for save in every]
-    if result.has("track_depth") and body.swept:
+    if TRACK in dir(result) and body.swept:
         heights, what = [-depth for depth in gone], "Change of height"
     sections = through_centre([(grid, z, scar) for z in heights], axes, ends=bodies_end(result))
     labels = time_labels(result.times)
@@ -85,9 +86,9 @@ def body_profiles(
 def _gone(result: Result, name: str, saves: Sequence[int]) -> tuple[Grid, list[Array]]:
     """Return the depth of a body at saves, along the whole track where it is known."""
     grid = result.grid
-    if not (result.body(name).swept and result.has("track_depth")):
+    if not (result.body(name).swept and TRACK in dir(result)):
         return grid, list(removed(result, name)[list(saves)])
-    gone = [np.nan_to_num(result.field("track_depth", save, name)) for save in saves]
+    gone = [np.nan_to_num(result.field(TRACK, save, name)) for save in saves]
     return Grid((len(gone[0]) * grid.spacing[0], grid.size[1]), gone[0].shape), gone
 
 

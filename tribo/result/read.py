@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, ExitStack
+from functools import cached_property
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
     from tribo.plotting.figures import Plot
 
 
-class Result:
+class Result(AbstractContextManager["Result"]):
     """A finished, stopped or running simulation.
 
     `dataset` has all of it, and each variable of that is an attribute:
@@ -76,7 +77,6 @@ class Result:
             if not (len(self.times) or self.status == "running"):
                 raise ValueError("it holds no save")
             unsound.pop_all()
-        self._dataset: xr.Dataset | None = None
 
     @classmethod
     def open(cls, path: str | Path) -> Result:
@@ -106,31 +106,24 @@ class Result:
     def __repr__(self) -> str:
         if not self._file:
             return f"<Result {self.name}: closed>"
-        times = self.times
-        saves = f"{len(times)} save{'' if len(times) == 1 else 's'}"
-        until = f" up to {times[-1]:g} s" if len(times) else ""
-        return f"<Result {self.name}: {self.status}, {saves}{until}>"
-
-    def __enter__(self) -> Self:
-        return self
+        until = f" up to {self.times[-1]:g} s" if len(self.times) else ""
+        return f"<Result {self.name}: {self.status}, saves: {len(self.times)}{until}>"
 
     def __exit__(self, *error: object) -> None:
         self.close()
 
     def close(self) -> None:
         """Close the file."""
-        if self._dataset is not None:
-            self._dataset.close()
+        if "dataset" in self.__dict__:
+            self.dataset.close()
         self._file.close()
 
-    @property
+    @cached_property
     def dataset(self) -> xr.Dataset:
         """All of the result, as `xarray.open_dataset` gives it."""
-        if self._dataset is None:
-            import xarray as xr
+        import xarray as xr
 
-            self._dataset = xr.open_dataset(self._source, engine="h5netcdf")
-        return self._dataset
+        return xr.open_dataset(self._source, engine="h5netcdf")
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or name not in self._variables:
@@ -225,10 +218,6 @@ class Result:
     def body_names(self) -> tuple[str, ...]:
         """Names of the bodies in the order of the case."""
         return tuple(self.case_tables["bodies"])
-
-    def has(self, name: str) -> bool:
-        """Whether there is a variable of this name, as ``"track_depth"`` of a resolved cycle."""
-        return name in self._variables
 
     def field(self, name: str, save: int, body: str | None = None) -> Array:
         """Return a field at a save as a NumPy array, shape (nx, ny).
@@ -369,12 +358,10 @@ class Result:
     def totals(self) -> Mapping[str, Any]:
         """Return the cost of the run: solves, iterations, steps and `wall_time`."""
         history = self.table("history")
-        steps = len(history["time_s"])
-        last = -1 if steps else slice(0)
         return {
-            "steps": max(steps - 1, 0),
-            "contact_solves": int(np.sum(history["contact_solves"][last])),
-            "solver_iterations": int(np.sum(history["solver_iterations"][last])),
+            "steps": max(len(history["time_s"]) - 1, 0),
+            "contact_solves": int(np.sum(history["contact_solves"][-1:])),
+            "solver_iterations": int(np.sum(history["solver_iterations"][-1:])),
             "wall_time_s": self.wall_time,
         }
 
