@@ -197,13 +197,6 @@ def test_bad_input_is_one_line_with_path_and_remedy(case, old, new, where, remed
     assert list(Path().iterdir()) == [case]
 
 
-@pytest.mark.parametrize("option", ["--no-plugin", "--plugins"])
-def test_an_option_of_all_commands_stands_before_them(case, option):
-    done = tribo("run", "case.toml", option, "acme")
-    assert done.returncode == 2
-    assert f"Error: '{option}' stands before the command." in done.stderr
-
-
 def test_the_nearest_command_is_suggested():
     done = tribo("chek")
     assert done.returncode == 2

@@ -20,7 +20,7 @@ READING = {
     "show": "show r.h5",
     "json": "show r.h5 --json",
     "export": "export r.h5 -d out",
-    "plot": "plot r.h5 -d out --column max_pressure_Pa",
+    "plot": "plot r.h5 -d out --only pressure_map",
     "report": "report r.h5 -o out.html",
     "compare": "compare r.h5 other.h5 --no-plots",
 }

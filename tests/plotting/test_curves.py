@@ -7,26 +7,10 @@ from made_results import made
 
 from tribo.core.errors import CaseError
 from tribo.lab.kept import KeptField, kept_fields
-from tribo.plotting.curves import history_curves, sweep_curves
+from tribo.plotting.curves import sweep_curves
 from tribo.plotting.history import history
 from tribo.plotting.profiles import field_map
 from tribo.study.sweeping.summary import curves_by, sweep_pictures
-
-
-def test_columns_of_the_history_are_drawn_over_the_path():
-    result = made()
-    figure = history_curves(result, ["max_pressure_Pa", "bodies.ball.wear_volume_m3"])
-    history = result.table("history")
-    pressure, volume = figure.axes
-    np.testing.assert_allclose(pressure.lines[0].get_xdata(), history["distance_m"])
-    np.testing.assert_allclose(pressure.lines[0].get_ydata(), 1e-6 * history["max_pressure_Pa"])
-    worn = 1e9 * history["bodies.ball.wear_volume_m3"]
-    np.testing.assert_allclose(volume.lines[0].get_ydata(), worn)
-    assert pressure.get_ylabel() == "largest pressure\n(MPa)"
-    assert volume.get_ylabel() == "worn volume of ball\n(mm³)"
-    assert volume.get_xlabel() == "distance (m)"
-    with pytest.raises(CaseError, match=r"no column 'max_presure_Pa'.* max_pressure_Pa"):
-        history_curves(result, ["max_presure_Pa"])
 
 
 def test_runs_of_a_sweep_are_curves_in_the_order_of_what_varies():

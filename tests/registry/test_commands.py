@@ -84,11 +84,12 @@ def test_the_doctor_names_every_fault_and_none_hurts_a_list_or_a_check(folder, a
     assert conflict in doctor.stdout
 
 
-@pytest.mark.parametrize("choice", [["--no-plugin", "odd"], ["--plugins", "none"]])
-def test_a_plugin_turned_off_on_the_command_line_cannot_be_used(folder, asked, choice):
+@pytest.mark.parametrize("name", ["TRIBO_DISABLE_PLUGINS", "TRIBO_PLUGINS"])
+def test_a_plugin_that_is_turned_off_cannot_be_used(folder, asked, monkeypatch, name):
     cases(folder)
     install(folder, "odd-tribo")
-    off = asked(*choice, "check", "named.toml")
+    monkeypatch.setenv(name, "odd" if "DISABLE" in name else "none")
+    off = asked("check", "named.toml")
     assert off.returncode == 2
     assert "'odd.one' cannot be used: odd-tribo 1.0 is disabled: " in off.stderr
 

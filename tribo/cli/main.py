@@ -17,8 +17,6 @@ from tribo.core.errors import CaseError, Interrupted, ReaderGone, TriboError, Tr
 from tribo.core.words import did_you_mean, suggestion
 from tribo.packages import COMMANDS, how_to_install
 
-GLOBAL = ("--no-plugin", "--plugins")
-
 
 class LazyGroup(click.Group):
     """A group that imports a subcommand's module only when it is called."""
@@ -57,19 +55,7 @@ class LazyGroup(click.Group):
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="tribo")
-@click.option(
-    "--no-plugin",
-    multiple=True,
-    metavar="NAME",
-    help="Leave a plugin out, as TRIBO_DISABLE_PLUGINS=A,B does.",
-)
-@click.option(
-    "--plugins",
-    "only",
-    metavar="A,B",
-    help="Let only these plugins take part, as TRIBO_PLUGINS=A,B does.",
-)
-def tribo(no_plugin: tuple[str, ...], only: str | None) -> None:
+def tribo() -> None:
     """Simulate wear: contact mechanics, wear laws and kinematics as plugins.
 
     \b
@@ -83,15 +69,6 @@ def tribo(no_plugin: tuple[str, ...], only: str | None) -> None:
     output that cannot be written, as to a closed standard output, 130
     interrupted, 141 the reader of a pipe has gone.
     """
-    if not no_plugin and only is None:
-        return
-    from tribo.registry.plugins import DISABLED, ONLY
-
-    # In the environment, so that processes started from here make the same choice.
-    if no_plugin:
-        os.environ[DISABLED] = ",".join([os.environ.get(DISABLED, ""), *no_plugin])
-    if only is not None:
-        os.environ[ONLY] = only
 
 
 @contextmanager
@@ -123,9 +100,6 @@ def main() -> None:
         message = str(stopped) if isinstance(stopped, Interrupted) else "interrupted"
         _fail(message, Interrupted.exit_code)
     except click.ClickException as error:
-        if isinstance(error, click.NoSuchOption) and error.option_name in GLOBAL:
-            what = f"'{error.option_name}' stands before the command."
-            error = click.UsageError(what, error.ctx)
         error.show()
         sys.exit(error.exit_code)
     except ReaderGone as error:

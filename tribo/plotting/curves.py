@@ -1,4 +1,4 @@
-"""Curves on request: columns of a history, runs of a sweep, a fit and its data."""
+"""Curves of a sweep's runs."""
 
 from __future__ import annotations
 
@@ -17,32 +17,9 @@ from tribo.core.words import did_you_mean, suggestion
 from tribo.lab.units import column_label
 from tribo.plotting.picture import Picture
 from tribo.plotting.style import SINGLE_COLUMN, WIDE, save_looks
-from tribo.result.read import Result
 
 MARKS = "osD^vp"
 """Of its curves; the first is full, and seen inside another that coincides."""
-
-
-def history_curves(result: Result, columns: Sequence[str], against: str = "distance_m") -> Figure:
-    """Draw columns of ``result.table("history")`` against another, a panel for each.
-
-    Raises
-    ------
-    CaseError
-        If there is no such column.
-    """
-    history = result.table("history")
-    for name in (*columns, against):
-        if name not in history:
-            known = ", ".join(history)
-            meant = suggestion(did_you_mean(name, history))
-            raise CaseError(f"the history has no column {name!r}{meant} It has {known}")
-
-    def panel(name: str, axes: Axes) -> list[Line2D]:
-        _draw(axes, history[against], history[name], against, name)
-        return []
-
-    return Picture([[partial(panel, name)] for name in columns], 50.0).figure()
 
 
 def sweep_curves(

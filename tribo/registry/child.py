@@ -114,8 +114,8 @@ def _limit(given: float | None) -> float | None:
         limit = math.nan
     if not 0 < limit < math.inf:
         raise CaseError(
-            f"the time limit of a plugin ({LIMIT}, --time-limit) must be a number of seconds above "
-            f"0; {str(chosen)!r} was given"
+            f"the time limit of a plugin ({LIMIT}) must be a number of seconds above 0; "
+            f"{str(chosen)!r} was given"
         )
     return limit
 

@@ -146,9 +146,9 @@ def _choose(plugins: list[Plugin]) -> None:
         own = set(map(canonicalize_name, (plugin.distribution, *plugin.names, *prefixes)))
         known |= own
         if off & {*own, "*"}:
-            plugin.status, plugin.reason = "disabled", f"turned off by --no-plugin or {DISABLED}"
+            plugin.status, plugin.reason = "disabled", f"turned off by {DISABLED}"
         elif ONLY in os.environ and not only & own:
-            reason = f"not among those that --plugins or {ONLY} names"
+            reason = f"not among those that {ONLY} names"
             plugin.status, plugin.reason = "disabled", reason
     for name in sorted((off | only) - known):
         warn(f"no plugin is called {name!r}")

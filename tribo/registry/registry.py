@@ -229,7 +229,7 @@ class Registry:
             except (Exception, SystemExit) as error:
                 warn(
                     f"{hook} of {each.plugin_name} is left out: it raised {said(error)}"
-                    f"{place(error, *packages)}; --no-plugin leaves that plugin out",
+                    f"{place(error, *packages)}; TRIBO_DISABLE_PLUGINS leaves a plugin out",
                 )
         return items
 
