@@ -4,13 +4,11 @@ import io
 import itertools
 import re
 import sys
-import time
 
 import pytest
 from paper_models import case, motion
 
 from tribo import Grid, Simulation
-from tribo.cli import waiting
 from tribo.observers.observer import Observer
 from tribo.observers.progress import Progress
 
@@ -65,17 +63,6 @@ def test_the_bar_and_the_time_left_go_on_evenly_past_many_saves(monkeypatch):
     # The estimate falls by what a step takes, give or take as much, at saves and between.
     later = itertools.pairwise(left[len(left) // 2 :])
     assert all(abs(after - before + 10) <= 25 for before, after in later)
-
-
-@pytest.mark.parametrize(("takes", "line"), [(0.4, "a trial …\n"), (0.0, "")])
-def test_what_takes_long_before_a_run_is_named_even_where_there_is_no_terminal(
-    monkeypatch, takes, line
-):
-    monkeypatch.setattr(sys, "stderr", stream := io.StringIO())
-    monkeypatch.setattr(waiting, "QUIET", 0.2)
-    with waiting.waiting_for("a trial"):
-        time.sleep(takes)
-    assert stream.getvalue() == line
 
 
 def test_no_bar_is_drawn_into_what_is_no_terminal(monkeypatch):

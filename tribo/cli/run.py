@@ -7,7 +7,6 @@ from pathlib import Path
 import click
 
 from tribo.cli.options import CASE, PATH, PLUGIN, SET
-from tribo.cli.waiting import waiting_for
 
 
 @click.command()
@@ -43,8 +42,7 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     read = load_case(case, overrides=overrides)
     for doubt in unusual(read):
         click.echo(f"warning: {doubt}", err=True)
-    with waiting_for("composing the case"):
-        simulation = Simulation(read)
+    simulation = Simulation(read)
     path = output or case.with_suffix(".h5")
     if path.resolve() == case.resolve():
         raise CaseError(f"{path} is the case itself; choose another file with -o")

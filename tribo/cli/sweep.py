@@ -15,8 +15,6 @@ from tribo.core.errors import NumericalError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-NAMED = 5
-
 
 @click.command()
 @click.argument("study", type=PATH)
@@ -71,11 +69,9 @@ def sweep(
             click.echo(f"Wrote {path}")
     if failed:
         lines = [f"{failed} of {total} runs failed; --retry runs them again:"]
-        for message, (first, *others) in list(reasons.items())[:NAMED]:
+        for message, (first, *others) in reasons.items():
             more = f" and {len(others)} more" if others else ""
             lines.append(f"  run {first.number} ({first.label}){more}: {message}")
-        if len(reasons) > NAMED:
-            lines.append(f"  for other reasons see {swept.folder / 'runs.csv'}")
         raise NumericalError("\n".join(lines))
 
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import AbstractContextManager, nullcontext, suppress
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from html import escape
 from itertools import groupby
+from textwrap import wrap
 from typing import Any
 
 from tribo.case import Case
@@ -29,8 +30,6 @@ from tribo.simulation.positions import lengths_of
 from tribo.simulation.predict import Prediction, predict
 from tribo.simulation.run import Simulation
 from tribo.simulation.validity import findings_of, unusual
-
-Waiting = Callable[[str], AbstractContextManager[Any]]
 
 
 @dataclass(frozen=True)
@@ -82,24 +81,21 @@ class Check:
         for place, facts in self.data["facts"].items():
             yield place, [(f"    {name}", text) for name, text in facts.items()]
 
-    def __str__(self) -> str:
-        lines = [f"The case {self.verdict}"]
+    def text(self, case: str = "The case") -> str:
+        """Return it as `tribo check` prints it, in lines of at most 80 characters."""
+        lines = [f"{case} {self.verdict}"]
         for heading, rows in self.blocks():
             lines += [f"  {heading}:"] if heading else []
-            width = max((len(name) for name, _ in rows), default=0)
-            lines += [f"{name:{width}} {text}" for name, text in rows]
+            width = 1 + max((len(name) for name, _ in rows), default=0)
+            for name, text in rows:
+                begin = f"{name:{width}}"
+                lines += wrap(text, 80, initial_indent=begin, subsequent_indent=" " * width)
         return "\n".join(lines)
 
-    __repr__ = __str__
+    __str__ = __repr__ = text
 
     def _repr_html_(self) -> str:
-        shown = f"<p>The case {escape(self.verdict)}</p>"
-        for heading, rows in self.blocks():
-            shown += f"<p>{escape(heading)}:</p>" if heading else ""
-            cells = (f"<td>{escape(n.strip())}</td><td>{escape(text)}</td>" for n, text in rows)
-            lines = "".join(f"<tr>{each}</tr>" for each in cells)
-            shown += f"<table style='text-align: left'>{lines}</table>" if rows else ""
-        return shown
+        return f"<pre>{escape(self.text())}</pre>"
 
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data, in SI units."""
@@ -111,17 +107,14 @@ class Check:
         }
 
 
-def check_case(case: Case, waiting: Waiting = lambda what: nullcontext()) -> Check:
+def check_case(case: Case) -> Check:
     """Predict a run of a case, from its first contact and a trial run.
 
-    `waiting` is entered with the name of a slow task. `CaseError` if the case cannot be run.
+    `CaseError` if the case cannot be run.
     """
-    with waiting("composing the case"):
-        model = Simulation(case).model
-    with waiting("first contact, then a trial run on a coarse grid"):
-        prediction = predict(model)
-    with waiting("sensitivities and other findings of packages"):
-        found = findings_of(model, prediction.first.half_width_x)
+    model = Simulation(case).model
+    prediction = predict(model)
+    found = findings_of(model, prediction.first.half_width_x)
     # What has a limit is beyond it; else a finding is a fact.
     facts = tuple(each for each in found if each.limit is None)
     beyond = (each for each in found if each not in facts)
