@@ -85,7 +85,6 @@ def test_json_is_one_object_and_files_compare_alike(folder, compared):
     [
         (["my.toml"], [], "--vary contact.type=dcfft,winkler"),
         (["my.toml", "b.h5"], CONTACTS, "--vary varies one case, 2 files are given"),
-        (["my.toml"], [*CONTACTS, "--at", "1 h"], "nothing is saved at 3600 s, only at 0, 20, 60"),
         (["a.h5", "b.h5"], ["--force"], "--set and --force are for a case that varies"),
         (["a.h5", "b.h5"], [], "a.h5 is not a file"),
         (["a.h5", "b.h5"], ["--at", "1 mm"], "--at: '1 mm' is a length [m]; a time [s] is needed"),

@@ -130,8 +130,6 @@ def test_a_run_that_fails_is_named():
     [
         ({"contact.type": ("dcfft", "winklr")}, {}, "did you mean 'winkler'"),
         ({"load.normal": (50, 100)}, {"labels": ["a", "a"]}, "as many different labels"),
-        # A depth may end the run at any time, but saves at none that is not asked for.
-        ([{"stop.depth": "1 um"}, {"load.normal": 50}], {"times": [99.0]}, "only at 0, 100, 300 s"),
         *(([{"load.normal": 10.0 + i} for i in range(n)], {}, "give 2 to 12") for n in (0, 1, 13)),
     ],
 )

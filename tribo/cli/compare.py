@@ -14,9 +14,8 @@ from tribo.core.errors import CaseError, located
 if TYPE_CHECKING:
     from tribo.study.comparison import Comparison
 
-_NAME_WIDTH = 26
-_CELL_WIDTH = 16
-_GAP = 3
+BESIDE = 3
+"""Results side by side, which fit into 80 characters."""
 
 
 @click.command()
@@ -63,7 +62,7 @@ def compare(
         times = [Quantity("s", at_least=0).read(parse_value(text)) for text in at]
     what, options = _asked(files, vary, overrides, force)
     if vary:
-        options |= {"folder": folder, "times": times}
+        options["folder"] = folder
     with run(what, **options) as comparison:
         chosen = comparison.chosen_times(times)
         if not as_json:
@@ -81,7 +80,7 @@ def compare(
 
 
 def print_comparison(comparison: Comparison, times: Sequence[float]) -> None:
-    """Print what differs at `times`, as many results side by side as the width allows."""
+    """Print what differs at `times`, three results side by side."""
     from rich.markup import escape
 
     from tribo.cli.console import Console
@@ -95,14 +94,10 @@ def print_comparison(comparison: Comparison, times: Sequence[float]) -> None:
         "cell, sections where grids differ: the L2 norm of the difference, then the largest, "
         "which for a pressure often lies in a cell at the rim."
     )
-    # A label is broken between its words, unless two of them would not fit.
-    longest = max((len(word) for label in labels for word in label.split()), default=0)
-    room = max(console.width - _NAME_WIDTH, 2 * _CELL_WIDTH)
-    columns = max(2, room // max(_CELL_WIDTH, longest + _GAP))
     table = comparison_table(comparison, times)
     indices = range(1, len(labels) + 1)
-    for start in indices[::columns]:
-        console.table(table, (0, *indices[start - 1 : start - 1 + columns]))
+    for start in indices[::BESIDE]:
+        console.table(table, (0, *indices[start - 1 : start - 1 + BESIDE]))
     for note in comparison.notes:
         console.print(f"[yellow]Note:[/] {escape(note)}")
 

@@ -249,7 +249,6 @@ def compare(
     folder: str | Path | None = None,
     *,
     labels: Sequence[str] | None = None,
-    times: Sequence[float] = (),
     registry: Registry | None = None,
     observers: Callable[[], Sequence[Observer]] = list,
     tell: Callable[[str], None] = lambda text: None,
@@ -272,8 +271,6 @@ def compare(
     labels : sequence of str, optional
         Names of the variants or of the items of the list; if left out the values
         that differ, or stems of files, or whole names where stems are alike.
-    times : sequence of float, optional
-        Times, in s, at which all variants must save, so that they can be shown.
     registry : Registry, optional
         Where to look components up; the installed plugins if left out.
     observers : callable, optional
@@ -291,9 +288,9 @@ def compare(
     Raises
     ------
     CaseError
-        If a variant is not valid or does not save at `times`, before any is
-        run; if a file is not a result, or damaged; or if the results have no
-        save in common, or bodies of other names.
+        If a variant is not valid, before any is run; if a file is not a result,
+        or damaged; or if the results have no save in common, or bodies of other
+        names.
     TriboError
         If a run fails; the message names the variant.
 
@@ -311,8 +308,6 @@ def compare(
     points = grid(vary) if isinstance(vary, Mapping) else [dict(point) for point in vary]
     _check_count(len(points), "variant")
     cases = variants(case_tables(what), points, registry)
-    for label, case in cases.items():
-        _check_saved(label, case, times, registry)
     names = list(labels or short_labels(points))
     if len(set(names)) != len(points):
         raise CaseError(f"{len(points)} variants need as many different labels, not {names}")
@@ -330,21 +325,6 @@ def compare(
 def _check_count(count: int, what: str) -> None:
     if not 2 <= count <= MOST:
         raise CaseError(f"{count} {what}{'s' * (count != 1)}; give 2 to {MOST} to compare")
-
-
-def _check_saved(label: str, case: Case, times: Sequence[float], registry: Registry | None) -> None:
-    """Check that a variant saves at times, in s; an end at some depth is no time known before."""
-    if not times:
-        return
-    model = Simulation(case, registry).model
-    end = model.end_time
-    saved = sorted({0.0, *model.save_times, end})
-    for time in times:
-        if not any(abs(time - each) <= ROUND_OFF * end for each in saved):
-            raise CaseError(
-                f"{label}: nothing is saved at {time:g} s, only at "
-                f"{', '.join(f'{each:g}' for each in saved)} s; add it to output.save_times"
-            )
 
 
 def _of_list(

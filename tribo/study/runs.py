@@ -64,20 +64,20 @@ def run_variants(
     """Run cases one after another, each into a file of a folder, named after its label.
 
     Finished results of the same cases are taken as they are, and interrupted
-    runs are continued; see `tribo.compare`. CaseError if the folder holds
-    results of other cases.
+    runs are continued; see `tribo.compare`. CaseError if a file is no result
+    of its case.
     """
-    simulations = {label: Simulation(case, registry) for label, case in cases.items()}
-    paths: dict[str, Path | None] = dict.fromkeys(cases)
+    simulations = [Simulation(case, registry) for case in cases.values()]
+    paths = [folder / name if folder else None for name in file_names(list(cases))]
     if folder is not None:
-        names = file_names(list(cases))
-        paths = {label: folder / name for label, name in zip(cases, names, strict=True)}
-        if not overwrite:
-            _check_own(folder, dict(zip(names, simulations.values(), strict=True)))
+        for path, simulation in zip(paths, simulations, strict=True):
+            if path is not None and not overwrite:
+                _check_own(path, simulation)
         make_folder(folder)
     results = []
-    for number, (label, simulation) in enumerate(simulations.items(), start=1):
-        path = paths[label]
+    for number, (label, path, simulation) in enumerate(
+        zip(cases, paths, simulations, strict=True), start=1
+    ):
         done = path is not None and not overwrite and is_done(path, simulation)
         tell(f"{number} of {len(cases)}, {label}" + (f": done already, {path}" if done else ""))
         with about(label):
@@ -97,18 +97,15 @@ def file_names(labels: Sequence[str]) -> list[str]:
     return [f"{stem}~{n}.h5" if n else f"{stem}.h5" for stem, n in zip(stems, before, strict=True)]
 
 
-def _check_own(folder: Path, simulations: Mapping[str, Simulation]) -> None:
-    """Check that a folder holds only results of these simulations, by file name."""
-    for path in sorted(folder.glob("*.h5")):
-        if path.name not in simulations:
-            raise CaseError(f"{folder} holds another comparison, {path.name}; {_OTHERWISE}")
-        # A killed run may leave an empty file.
-        if not path.exists() or path.stat().st_size == 0:
-            continue
-        try:
-            with Result.open(path) as result:
-                own = result.case_tables == simulations[path.name].model.data
-        except CaseError as error:
-            raise CaseError(f"{error}; {_OTHERWISE}") from error
-        if not own:
-            raise CaseError(f"{path} is the result of another case; {_OTHERWISE}")
+def _check_own(path: Path, simulation: Simulation) -> None:
+    """Check that a file, if there is one, is a result of this simulation."""
+    # A killed run may leave an empty file.
+    if not path.exists() or path.stat().st_size == 0:
+        return
+    try:
+        with Result.open(path) as result:
+            own = result.case_tables == simulation.model.data
+    except CaseError as error:
+        raise CaseError(f"{error}; {_OTHERWISE}") from error
+    if not own:
+        raise CaseError(f"{path} is the result of another case; {_OTHERWISE}")
