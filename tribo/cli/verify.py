@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.argument("case", required=False)
 @SET
 @click.option("--quick", is_flag=True, help="Take only cases that run in less than a second.")
-@click.option("--coverage", is_flag=True, help="List the components that no case uses.")
+@click.option("--coverage", is_flag=True, help="List components and their keys that no case uses.")
 @JSON
 def verify(
     case: str | None, overrides: tuple[str, ...], quick: bool, coverage: bool, as_json: bool
@@ -72,7 +72,7 @@ def _coverage(cases: Sequence[ValidationCase], as_json: bool) -> None:
     if missing:
         raise NumericalError(f"no case uses {', '.join(missing)}")
     if not as_json:
-        click.echo(f"Every installed component is used by one of {len(cases)} cases.")
+        click.echo(f"Every installed component and key is used by one of {len(cases)} cases.")
 
 
 def _validate(cases: Sequence[ValidationCase], as_json: bool) -> None:

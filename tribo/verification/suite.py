@@ -13,6 +13,9 @@ from tribo.registry.hookspecs import hookimpl
 from tribo.registry.registry import default_registry
 from tribo.verification.validation import ValidationCase
 
+REFUSING = ("allow_", "expect_", "max_")
+"""How keys begin that refuse a case or a result, and change none."""
+
 
 @hookimpl(trylast=True)
 def tribo_cases() -> tuple[Path, ...]:
@@ -60,8 +63,11 @@ def called(name: str, cases: list[ValidationCase]) -> list[ValidationCase]:
 
 
 def uncovered(cases: Sequence[ValidationCase]) -> list[str]:
-    """Return the types of installed components that no case uses."""
+    """Return installed components that no case uses, and their keys that none sets."""
     registry = default_registry()
     registry.load_all()
-    used = {name for case in cases for name in case.types}
-    return sorted(set(registry.components) - used)
+    known = set(registry.components)
+    for name in registry.components:
+        keys = getattr(registry.find(name), "model_fields", {})
+        known |= {f"{name}.{key}" for key in keys if not key.startswith(REFUSING)}
+    return sorted(known.difference(*(case.uses for case in cases)))

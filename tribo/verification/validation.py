@@ -116,15 +116,18 @@ class ValidationCase:
         return read_toml(self.folder / "case.toml")
 
     @property
-    def types(self) -> set[str]:
-        """Types of the components that its case and its other solvers are made of."""
+    def uses(self) -> set[str]:
+        """Types of its components and other solvers, and the keys that it sets, as ``type.key``."""
         tables, found = self.tables(), set(self.expected.solvers)
         if tables is None:
             return found
         with chdir(self.folder):
             case = validate_case(tables)
-        parts = [part for _, part in components(case)] + [*case.kinematics.effects()]
-        return found | {part.type for part in parts}
+        for part in [*(part for _, part in components(case)), *case.kinematics.effects()]:
+            defaults = {key: field.default for key, field in type(part).model_fields.items()}
+            own = [key for key, value in part if value != defaults[key]]
+            found |= {part.type, *(f"{part.type}.{key}" for key in own)}
+        return found
 
     def run(self) -> Iterator[Row]:
         """Compute and judge every quantity, with the case's solver and the others."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from tribo import Component, hookimpl
 
 from tribo_tamaas.solver import Tamaas
@@ -11,3 +13,9 @@ from tribo_tamaas.solver import Tamaas
 def tribo_components() -> tuple[type[Component], ...]:
     """Offer tamaas's half-space."""
     return (Tamaas,)
+
+
+@hookimpl
+def tribo_cases() -> tuple[Path, ...]:
+    """Offer the validation cases of this package."""
+    return (Path(__file__).with_name("cases"),)
