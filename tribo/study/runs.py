@@ -100,7 +100,7 @@ def file_names(labels: Sequence[str]) -> list[str]:
 def _check_own(path: Path, simulation: Simulation) -> None:
     """Check that a file, if there is one, is a result of this simulation."""
     # A killed run may leave an empty file.
-    if not path.exists() or path.stat().st_size == 0:
+    if not os.path.exists(path) or path.stat().st_size == 0:
         return
     try:
         with Result.open(path) as result:
