@@ -1,45 +1,39 @@
-"""Studies of small, short runs, and executors that misbehave."""
+"""Small, short runs to be swept, and executors that misbehave."""
 
 import os
 import subprocess
 import sys
+import tomllib
 from concurrent.futures import Executor, Future
 from concurrent.futures.process import BrokenProcessPool
 
+from tribo.config.overrides import apply_settings
+from tribo.core.toml import to_toml
 from tribo.templates import template
 
-QUICK = """
-case = "case.toml"
-
-[settings]
-grid = { cells = 24, size = "0.6 mm" }
-contact.type = "winkler"
-kinematics.duration = "10 s"
-output.save_times = [1, 2]
-"""
-LOADS = """
-[grid]
-load.normal = ["50 N", "60 N"]
-"""
+QUICK = {
+    "grid": {"cells": 24, "size": "0.6 mm"},
+    "contact.type": "winkler",
+    "kinematics.duration": "10 s",
+    "output.save_times": [1, 2],
+}
+LOADS = {"load.normal": ["50 N", "60 N"]}
 # A second a run, with a checkpoint in between.
-SLOW = """
-case = "case.toml"
-
-[settings]
-grid = { cells = 32, size = "0.7 mm" }
-contact.type = "winkler"
-kinematics.duration = "10 s"
-stepping = { type = "explicit", time_step = "0.08 s" }
-output.save_times = [0.1, 0.5, 1, 2, 4, 6, 8]
-"""
+SLOW = {
+    "grid": {"cells": 32, "size": "0.7 mm"},
+    "contact.type": "winkler",
+    "kinematics.duration": "10 s",
+    "stepping": {"type": "explicit", "time_step": "0.08 s"},
+    "output.save_times": [0.1, 0.5, 1, 2, 4, 6, 8],
+}
 
 
-def study(folder, text=QUICK + LOADS):
-    """Write a study and its base case; return the file."""
+def case(folder, settings=QUICK):
+    """Write a case; return the file."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "case.toml").write_text(template("ball_on_disk"))
-    path = folder / "study.toml"
-    path.write_text(text)
+    path = folder / "my.toml"
+    tables = apply_settings(tomllib.loads(template("ball_on_disk")), settings)
+    path.write_text(to_toml(tables), encoding="utf-8")
     return path
 
 

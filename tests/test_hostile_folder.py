@@ -9,7 +9,7 @@ import sweeps
 
 PACKAGES = {"click", "h5py", "matplotlib", "numpy", "pandas", "pluggy", "pydantic", "rich", "scipy"}
 COMMANDS = {
-    "sweep": ["sweep", "study.toml", "--jobs", "1"],
+    "sweep": ["sweep", "my.toml", "--vary", "grid.cells=[10]", "--jobs", "1"],
     "kit": ["plugins", "check", "energy.friction_traction"],
 }
 
@@ -25,7 +25,7 @@ def needed_to_start(folder):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_command_imports_nothing_from_the_folder_it_starts_in(tmp_path, name):
-    folder = sweeps.study(tmp_path / "hostile", sweeps.QUICK + "[grid]\ngrid.cells = [10]").parent
+    folder = sweeps.case(tmp_path / "hostile").parent
     for module in (sys.stdlib_module_names | PACKAGES) - {*needed_to_start(tmp_path)}:
         code = f"print('a stranger', file=open({str(tmp_path / 'seen')!r}, 'a')); raise ImportError"
         (folder / f"{module}.py").write_text(code)

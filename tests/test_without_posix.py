@@ -11,23 +11,12 @@ BLOCK = """
 import sys
 sys.modules["fcntl"] = sys.modules["resource"] = sys.modules["psutil"] = None
 """
-STUDY = """
-case = "case.toml"
-[settings]
-grid.cells = 16
-grid.size = "0.7 mm"
-kinematics.duration = 4
-output.save_times = [2]
-[grid]
-load.normal = [50, 100]
-"""
 SCRIPT = """
 import sys
 from pathlib import Path
-from tribo import Interrupted, Simulation
+from tribo import Interrupted, Simulation, load_case
 from tribo.observers.observer import Observer
 from tribo import sweep
-from tribo.study.sweeping.study_file import load_study
 from tribo.templates import template
 
 
@@ -40,14 +29,16 @@ class StopAt(Observer):
 if __name__ == "__main__":
     assert sys.modules["fcntl"] is sys.modules["psutil"] is None
     Path("case.toml").write_text(template("ball_on_disk"), encoding="utf-8")
-    _, case = load_study("study.toml")
+    short = ["kinematics.duration=4", "output.save_times=[2]", "grid={size=7e-4, cells=16}"]
+    case = load_case("case.toml", overrides=short)
     whole = Simulation(case).run("whole.h5")
     try:
         Simulation(case).run("stopped.h5", observers=[StopAt()])
     except Interrupted:
         resumed = Simulation(case).resume("stopped.h5")
     assert resumed.field("pressure", -1).tobytes() == whole.field("pressure", -1).tobytes()
-    assert list(sweep("study.toml", jobs=1).table["status"]) == ["done", "done"]
+    swept = sweep(case, {"load.normal": [50, 100]}, "out", jobs=1)
+    assert list(swept.table["status"]) == ["done", "done"]
     print("run, resumed, swept")
 """
 
@@ -56,7 +47,6 @@ if __name__ == "__main__":
 def test_a_case_a_resume_and_a_sweep_run_without_fcntl_resource_and_psutil(tmp_path):
     for name, text in (("sitecustomize", BLOCK), ("runs", SCRIPT)):
         (tmp_path / f"{name}.py").write_text(text, encoding="utf-8")
-    (tmp_path / "study.toml").write_text(STUDY, encoding="utf-8")
     ended = subprocess.run(
         [sys.executable, "runs.py"],
         cwd=tmp_path,

@@ -144,7 +144,6 @@ from tribo.simulation.predict import WIDER as WIDER
 from tribo.simulation.predict import coarsened as coarsened
 from tribo.study.runs import file_names as file_names
 from tribo.study.side_by_side import comparison_table as comparison_table
-from tribo.study.sweeping.study_file import by_path as by_path
 from tribo.study.sweeping.summary import cell as cell
 from tribo.study.sweeping.summary import column_heading as column_heading
 from tribo.study.sweeping.summary import curves_by as curves_by
@@ -152,6 +151,7 @@ from tribo.study.sweeping.summary import is_text as is_text
 from tribo.study.sweeping.summary import labelled as labelled
 from tribo.study.sweeping.summary import sweep_pictures as sweep_pictures
 from tribo.study.sweeping.summary import varied_paths as varied_paths
+from tribo.study.variation import by_path as by_path
 from tribo.study.variation import unknown_body as unknown_body
 from tribo.study.variation import valid_case as valid_case
 from tribo.wear.modified import times as times

@@ -21,21 +21,11 @@ from tempfile import TemporaryDirectory
 from tribo import sweep
 from tribo.templates import template
 
-STUDY = """
-case = "case.toml"
 
-[settings]
-grid.cells = {cells}
-
-[grid]
-load.normal = {loads}
-"""
-
-
-def timed(study: Path, jobs: int) -> tuple[float, float]:
+def timed(case: Path, loads: list[float], jobs: int) -> tuple[float, float]:
     """Return how long a sweep takes from nothing, and which part its workers spend inside runs."""
     begun = time.perf_counter()
-    swept = sweep(study, study.with_name(f"jobs-{jobs}"), jobs=jobs)
+    swept = sweep(case, {"load.normal": loads}, case.with_name(f"jobs-{jobs}"), jobs=jobs)
     taken = time.perf_counter() - begun
     assert not swept.failures()
     return taken, float(swept.table["wall_time_s"].sum()) / (jobs * taken)
@@ -50,11 +40,11 @@ def main() -> None:
     parser.add_argument("--json", action="store_true")
     chosen = parser.parse_args()
     with TemporaryDirectory() as folder:
-        study = Path(folder) / "study.toml"
-        study.with_name("case.toml").write_text(template("ball_on_disk"))
+        case = Path(folder) / "case.toml"
+        cells = f"cells = {chosen.cells}"
+        case.write_text(template("ball_on_disk").replace("cells = [256, 256]", cells))
         loads = [60.0 + 40.0 * run / chosen.runs for run in range(chosen.runs)]
-        study.write_text(STUDY.format(loads=loads, cells=chosen.cells))
-        (one, _), (several, inside) = timed(study, 1), timed(study, chosen.jobs)
+        (one, _), (several, inside) = timed(case, loads, 1), timed(case, loads, chosen.jobs)
     found = {
         "runs": chosen.runs,
         "cells": chosen.cells,

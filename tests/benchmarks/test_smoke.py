@@ -90,9 +90,13 @@ def test_the_efficiency_of_a_sweep_is_measured(module, monkeypatch, capsys):
     monkeypatch.setattr(sys, "argv", ["sweep.py", "--runs", "2", "--cells", "12", "--json"])
     inline = partial(sweep, executor=Inline())
     measured = module("speed.sweep")
-    monkeypatch.setattr(measured, "sweep", lambda *given, jobs: inline(*given))
-    short = "kinematics.duration = 20\noutput.save_times = [0]\n[grid]"
-    monkeypatch.setattr(measured, "STUDY", measured.STUDY.replace("[grid]", short))
+    short = {"kinematics.duration": 20, "output.save_times": [0]}
+
+    def swept(case, vary, folder, jobs):
+        points = [short | {"load.normal": load} for load in vary["load.normal"]]
+        return inline(case, points, folder)
+
+    monkeypatch.setattr(measured, "sweep", swept)
     measured.main()
     found = json.loads(capsys.readouterr().out)
     assert (found["runs"], found["jobs"]) == (2, 2)

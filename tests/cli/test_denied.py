@@ -39,7 +39,7 @@ def given():
             done = CliRunner().invoke(tribo, command.split() + QUICK * command.startswith("run"))
             assert done.exit_code == 0, done.output
         shutil.copy(folder / "a.h5", folder / "b.h5")
-    sweeps.study(folder)
+    shutil.copy(sweeps.case(folder / "small"), folder / "small.toml")
     for name, mode in {"denied": 0o555, "entry": 0, "swept": 0o777, "swept/results": 0}.items():
         (folder / name).mkdir()
         (folder / name).chmod(mode)
@@ -98,7 +98,7 @@ def test_it_is_one_message_and_exit_code_3(given, nobody, monkeypatch, command):
 def test_a_sweep_whose_results_cannot_be_entered_is_one_message(given, nobody, monkeypatch):
     monkeypatch.chdir(given)
     with pytest.raises(OutputError, match=r"^cannot write to swept: Permission denied$"):
-        sweep("study.toml", "swept", executor=sweeps.Inline())
+        sweep("small.toml", sweeps.LOADS, "swept", executor=sweeps.Inline())
 
 
 def test_a_case_in_a_folder_that_cannot_be_entered_is_one_message(given, nobody, monkeypatch):

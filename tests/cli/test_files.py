@@ -12,7 +12,7 @@ CASE = {
     "run": "run {}",
     "check": "check {}",
     "compare": "compare {} --vary grid.cells=16,24",
-    "sweep": "sweep {}",
+    "sweep": "sweep {} --vary grid.cells=16,24",
     "calibrate": "calibrate {} --measured measured.toml",
     "measured": "calibrate case.toml --measured {}",
     "verify": "verify {}",

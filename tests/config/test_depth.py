@@ -13,7 +13,6 @@ FILES = {
     "case.toml": CASE,
     "tables.toml": CASE + TABLES,
     "many_lists.toml": CASE + "\n[odd]\nq = " + 4000 * "[" + 4000 * "]",
-    "study.toml": f"case = 'case.toml'\n[grid.load]\nnormal = [1, 2]\n{TABLES}",
     "measured.toml": "fit = ['bodies.ball.wear.k']\n[[measured]]\nbody = 'ball'\n"
     f"quantity = 'depth'\nvalue = 1\n{TABLES}",
 }
@@ -22,7 +21,7 @@ COMMANDS = {
     "many lists": "check many_lists.toml",
     "path": f"check case.toml --set {PATH}=1",
     "values": f"compare case.toml --vary load.normal={{{PATH}=1}},{{a=2}}",
-    "study": "sweep study.toml",
+    "axis": f"sweep case.toml --vary {PATH}=1,2",
     "measured": "calibrate case.toml --measured measured.toml",
 }
 

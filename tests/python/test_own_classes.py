@@ -46,14 +46,14 @@ def test_the_case_of_a_result_has_the_class():
 
 
 def test_workers_of_a_sweep_import_the_class(tmp_path):
-    study = {"case": case(), "grid": {"bodies.ball.wear.k": [2 * K, 4 * K]}}
-    found = sweep(study, tmp_path, jobs=1)
+    rates = {"bodies.ball.wear.k": [2 * K, 4 * K]}
+    found = sweep(case(), rates, tmp_path, jobs=1)
     assert list(found.table["status"]) == ["done", "done"]
 
     class Local(Halved):
         type = "own.local"
 
-    found = sweep({**study, "case": case(Local(k=K))}, tmp_path / "local", jobs=1)
+    found = sweep(case(Local(k=K)), rates, tmp_path / "local", jobs=1)
     assert set(found.table["status"]) == {"failed"}
     assert found.table["message"].str.contains("outside of any function").all()
 

@@ -77,12 +77,11 @@ def test_resume_needs_the_same_file_again_unless_another_is_allowed(asked, folde
 
 
 @pytest.mark.slow
-def test_the_workers_of_a_sweep_take_a_file_too(asked, folder):
-    (folder / "study.toml").write_text(
-        'case = "my.toml"\n[settings]\nkinematics.duration = 0.1\noutput.save_times = []\n'
-        'grid.size = "0.7 mm"\ngrid.cells = 32\n[grid]\nload.normal = [50]\n'
-    )
-    done = asked("sweep", "study.toml", "--jobs", "1", "--plugin", "law.py")
+def test_the_workers_of_a_sweep_take_a_file_too(asked):
+    short = ["kinematics.duration=0.1", "output.save_times=[]", "grid={size=7e-4, cells=32}"]
+    options = [part for each in short for part in ("--set", each)]
+    options += ["--vary", "load.normal=[50]", "--jobs", "1", "--plugin", "law.py"]
+    done = asked("sweep", "my.toml", *options)
     assert done.returncode == 0, done.stderr
 
 

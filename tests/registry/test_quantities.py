@@ -43,7 +43,7 @@ def swept(tmp_path_factory):
     (folder / "read.py").write_text(FILE)
     default_registry.cache_clear()
     add_files([folder / "read.py"])
-    yield sweep(sweeps.study(folder), executor=sweeps.Inline())
+    yield sweep(sweeps.case(folder), sweeps.LOADS, executor=sweeps.Inline())
     sys.modules.pop("plugin_read")
     default_registry.cache_clear()
 

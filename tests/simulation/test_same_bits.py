@@ -104,9 +104,8 @@ def test_resumed_with_another_number_of_threads(case, first, tmp_path):
 
 
 def test_sweep(case, first, tmp_path):
-    settings = "".join(f"{name} = {value}\n" for name, value in SETTINGS.items())
-    study = tmp_path / "study.toml"
-    study.write_text(f'case = "{case}"\n[settings]\n{settings}[grid]\nload.normal = [900]\n')
-    process(SHELL, "sweep", study, "-o", tmp_path / "sweep", "--jobs", 1, threads=2)
+    settings = [part for each in SETTINGS.items() for part in ("--set", "=".join(each))]
+    vary = ["--vary", "load.normal=[900]", "-o", tmp_path / "sweep", "--jobs", 1]
+    process(SHELL, "sweep", case, *settings, *vary, threads=2)
     found = [bits(path) for path in (tmp_path / "sweep").rglob("*.h5")]
     assert found == [first]

@@ -130,7 +130,7 @@ def test_a_run_that_fails_is_named():
     [
         ({"contact.type": ("dcfft", "winklr")}, {}, "did you mean 'winkler'"),
         ({"load.normal": (50, 100)}, {"labels": ["a", "a"]}, "as many different labels"),
-        *(([{"load.normal": 10.0 + i} for i in range(n)], {}, "give 2 to 12") for n in (0, 1, 13)),
+        *(([{"load.normal": 10.0 + i} for i in range(n)], {}, "give 2 to 12") for n in (1, 13)),
     ],
 )
 def test_what_is_wrong_is_told_before_anything_runs(tmp_path, vary, options, message):

@@ -19,7 +19,7 @@ from tribo.study.sweeping.executors import processes
 # Of checkpoints that were not whole when their process was killed.
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::tribo.TriboWarning")]
 PATIENCE = 120.0
-LOADS = '[grid]\nload.normal = ["50 N", "60 N", "70 N"]'
+LOADS = {"load.normal": [50, 60, 70]}
 
 
 def until(found, what):
@@ -52,7 +52,7 @@ def alive(process):
 
 
 def results(folder):
-    return folder / "study-sweep" / "results"
+    return folder / "my-sweep" / "results"
 
 
 def half_done(folder):
@@ -91,21 +91,27 @@ def done(folder):
 
 
 def table(folder):
-    return pandas.read_csv(folder / "study-sweep" / "runs.csv").drop(
+    return pandas.read_csv(folder / "my-sweep" / "runs.csv").drop(
         columns="wall_time_s", errors="ignore"
     )
 
 
 def swept(folder, *options):
     """Start a sweep; return its process once a run is in progress, and its command."""
-    command = ("sweep", sweeps.study(folder, sweeps.SLOW + LOADS), *options)
+    command = (
+        "sweep",
+        sweeps.case(folder, sweeps.SLOW),
+        "--vary",
+        "load.normal=50,60,70",
+        *options,
+    )
     process = sweeps.tribo(*command, cwd=folder)
     until(lambda: half_done(folder), "run in progress")
     return process, command
 
 
 def assert_ends_as(whole, folder):
-    swept = sweep(folder / "study.toml", executor=sweeps.Inline(), retry=True)
+    swept = sweep(folder / "my.toml", LOADS, executor=sweeps.Inline(), retry=True)
     assert swept.failures() == {}
     pandas.testing.assert_frame_equal(table(folder), whole)
 
@@ -121,7 +127,7 @@ def assert_stopped(folder, process):
 def whole(tmp_path_factory):
     """Return the table of a sweep that nothing disturbed."""
     folder = tmp_path_factory.mktemp("whole")
-    sweep(sweeps.study(folder, sweeps.SLOW + LOADS), executor=sweeps.Inline())
+    sweep(sweeps.case(folder, sweeps.SLOW), LOADS, executor=sweeps.Inline())
     return table(folder)
 
 
@@ -145,7 +151,7 @@ def test_a_sweep_survives_a_killed_worker_ctrl_c_and_a_killed_parent(tmp_path, w
     before = done(tmp_path)
     # A worker may still have ended its run.
     assert 0 < len(before) < 3
-    assert not (tmp_path / "study-sweep" / "runs.csv").exists()
+    assert not (tmp_path / "my-sweep" / "runs.csv").exists()
     assert_ends_as(whole, tmp_path)
     assert before.items() <= done(tmp_path).items()
 
@@ -170,7 +176,7 @@ class Dropping(Executor):
 
 
 def test_an_executor_that_ends_is_an_error_of_writing(tmp_path):
-    sweeps.study(tmp_path)
+    sweeps.case(tmp_path)
     with pytest.raises(OutputError, match="the executor dropped its runs"):
-        sweep(tmp_path / "study.toml", tmp_path / "out", executor=Dropping())
+        sweep(tmp_path / "my.toml", LOADS, tmp_path / "out", executor=Dropping())
     assert not done(tmp_path)

@@ -22,13 +22,15 @@ def statuses(swept):
 
 @pytest.fixture(scope="module")
 def swept(tmp_path_factory):
-    return sweep(sweeps.study(tmp_path_factory.mktemp("sweep")), executor=sweeps.Inline())
+    return sweep(
+        sweeps.case(tmp_path_factory.mktemp("sweep")), sweeps.LOADS, executor=sweeps.Inline()
+    )
 
 
 @pytest.fixture
 def again(swept, tmp_path):
-    """Return the study of a copy of that sweep."""
-    return shutil.copytree(swept.folder.parent, tmp_path / "copy") / "study.toml"
+    """Return the case of a copy of that sweep."""
+    return shutil.copytree(swept.folder.parent, tmp_path / "copy") / "my.toml"
 
 
 def test_the_tables_load_in_pandas_with_units_in_the_column_names(swept):
@@ -49,18 +51,13 @@ def test_the_tables_load_in_pandas_with_units_in_the_column_names(swept):
 
 @pytest.mark.slow
 def test_tables_and_lists_that_vary_have_a_column_each_and_warnings_are_in_the_table(tmp_path):
-    text = """
-    [[list]]
-    contact = "winkler"
-    grid.size = "0.6 mm"
-    grid.cells = 12
-    [[list]]
-    contact = "dcfft"
-    grid.size = ["0.8 mm", "0.9 mm"]
-    """
-    path = sweeps.study(tmp_path, sweeps.QUICK + text)
+    points = [
+        {"contact": "winkler", "grid.size": "0.6 mm", "grid.cells": 12},
+        {"contact": "dcfft", "grid.size": ["0.8 mm", "0.9 mm"]},
+    ]
+    path = sweeps.case(tmp_path)
     with pytest.warns(TriboWarning, match="resolution"):
-        rows = sweep(path, executor=sweeps.Inline()).as_json()["runs"]
+        rows = sweep(path, points, executor=sweeps.Inline()).as_json()["runs"]
     assert [row["contact.type"] for row in rows] == ["winkler", "dcfft"]
     assert [row["grid.size.2_m"] for row in rows] == [6e-4, 9e-4]
     assert [row["status"] for row in rows] == ["done", "done"]
@@ -68,31 +65,26 @@ def test_tables_and_lists_that_vary_have_a_column_each_and_warnings_are_in_the_t
 
 
 @pytest.mark.slow
-def test_what_is_done_is_not_done_again_and_a_study_may_grow(again):
+def test_what_is_done_is_not_done_again_and_a_sweep_may_grow(again):
     before = {path: path.stat().st_mtime_ns for path in again.parent.rglob("*.h5")}
-    again.write_text(again.read_text().replace('["50 N",', '["55 N", "50 N",'))
     executor = sweeps.Inline()
-    grown = sweep(again, executor=executor)
+    grown = sweep(again, {"load.normal": [55, 50, 60]}, executor=executor)
     assert statuses(grown) == ["done"] * 3
     assert executor.calls == [str(grown.runs[0].path)]
     assert {path: path.stat().st_mtime_ns for path in before} == before
 
 
-FAILING = """
-[[list]]
-load.normal = "50 N"
-[[list]]
-grid.size = "0.2 mm"
-[[list]]
-grid.size = "0.21 mm"
-stop.distance = "1 m"
-"""
+FAILING = [
+    {"load.normal": "50 N"},
+    {"grid.size": "0.2 mm"},
+    {"grid.size": "0.21 mm", "stop.distance": "1 m"},
+]
 
 
 @pytest.mark.slow
 def test_a_failing_run_is_recorded_and_run_again_only_when_told(tmp_path):
-    path = sweeps.study(tmp_path, sweeps.QUICK + FAILING)
-    swept = sweep(path, executor=sweeps.Inline())
+    path = sweeps.case(tmp_path)
+    swept = sweep(path, FAILING, executor=sweeps.Inline())
     assert statuses(swept) == ["done", "failed", "failed"]
     (message, *_) = swept.failures()
     assert "grid.size" in message
@@ -100,25 +92,25 @@ def test_a_failing_run_is_recorded_and_run_again_only_when_told(tmp_path):
     assert table["message"][1] == message
     assert np.isnan(table["max_pressure_Pa"][1])
     executor = sweeps.Inline()
-    pandas.testing.assert_frame_equal(sweep(path, executor=executor).table, swept.table)
+    pandas.testing.assert_frame_equal(sweep(path, FAILING, executor=executor).table, swept.table)
     assert executor.calls == []
-    assert statuses(sweep(path, executor=executor, retry=True)) == statuses(swept)
+    assert statuses(sweep(path, FAILING, executor=executor, retry=True)) == statuses(swept)
     assert executor.calls == [str(run.path) for run in swept.runs[1:]]
 
 
 def test_a_run_whose_worker_dies_fails_and_is_done_when_told(again):
     # Of another case, so that it has no result yet.
-    again.write_text(again.read_text().replace("60 N", "61 N"))
+    loads = {"load.normal": [50, 61]}
     executor = sweeps.Inline(sweeps.dies_at(61.0))
-    found = sweep(again, executor=executor)
+    found = sweep(again, loads, executor=executor)
     assert statuses(found) == ["done", "failed"]
     assert "its worker process died" in found.table["message"][1]
     assert executor.calls == [str(found.runs[1].path)]
-    assert statuses(sweep(again, executor=sweeps.Inline(), retry=True)) == ["done"] * 2
+    assert statuses(sweep(again, loads, executor=sweeps.Inline(), retry=True)) == ["done"] * 2
 
 
 def test_a_worker_with_a_folder_of_its_own_is_told_of(tmp_path):
-    swept = sweep(sweeps.study(tmp_path), executor=sweeps.Inline(lambda case: ""))
+    swept = sweep(sweeps.case(tmp_path), sweeps.LOADS, executor=sweeps.Inline(lambda case: ""))
     assert statuses(swept) == ["failed"] * 2
     assert "all workers must share" in swept.table["message"][0]
 
@@ -127,41 +119,40 @@ def test_an_executor_that_takes_no_runs_ends_the_sweep(tmp_path):
     executor = ThreadPoolExecutor(1)
     executor.shutdown()
     with pytest.raises(OutputError, match="takes no more runs"):
-        sweep(sweeps.study(tmp_path), executor=executor)
+        sweep(sweeps.case(tmp_path), sweeps.LOADS, executor=executor)
 
 
-ENERGY = """
-[[list]]
-bodies.ball.wear = { type = "energy.dissipation", alpha = "1e-6 mm^3/J" }
-effects = ["energy.friction_traction"]
-friction.coefficient = 0.3
-"""
+ENERGY = {
+    "bodies.ball.wear": {"type": "energy.dissipation", "alpha": "1e-6 mm^3/J"},
+    "effects": ["energy.friction_traction"],
+    "friction.coefficient": 0.3,
+}
 
 
 @pytest.mark.slow
 def test_a_worker_that_lacks_a_plugin_says_so(tmp_path):
     pytest.importorskip("tribo_energy")
-    path = sweeps.study(tmp_path, sweeps.QUICK + ENERGY)
+    path = sweeps.case(tmp_path)
     with ProcessPoolExecutor(
         1, mp_context=get_context("spawn"), initializer=sweeps.turn_off_energy
     ) as executor:
-        swept = sweep(path, executor=executor)
+        swept = sweep(path, [ENERGY], executor=executor)
     assert statuses(swept) == ["failed"]
     message = swept.table["message"][0]
     assert "cannot compose this case: bodies.ball.wear.type: " in message
     assert "tribo-energy" in message
-    assert statuses(sweep(path, executor=sweeps.Inline(), retry=True)) == ["done"]
+    assert statuses(sweep(path, [ENERGY], executor=sweeps.Inline(), retry=True)) == ["done"]
 
 
 @pytest.mark.slow
 def test_a_damaged_result_is_done_again(again):
-    damaged = plan(again, again.with_name("study-sweep"))[0][1].path
+    damaged = plan(again, sweeps.LOADS, again.with_name("my-sweep"))[0][1].path
     content = bytearray(damaged.read_bytes())
     content[len(content) // 2] ^= 1
     damaged.write_bytes(content)
     executor = sweeps.Inline()
     with pytest.warns(TriboWarning, match=f"{damaged.name} is started again: "):
-        assert statuses(sweep(again, executor=executor)) == ["done"] * 2
+        assert statuses(sweep(again, sweeps.LOADS, executor=executor)) == ["done"] * 2
     assert executor.calls == [str(damaged)]
 
 
@@ -170,24 +161,32 @@ def test_results_of_other_components_are_made_anew(again, monkeypatch):
     monkeypatch.setattr("tribo.result.provenance._code", lambda package: "edited")
     executor = sweeps.Inline()
     with pytest.warns(TriboWarning, match="is started again: .* is done, with other components: "):
-        assert statuses(sweep(again, executor=executor)) == ["done"] * 2
+        assert statuses(sweep(again, sweeps.LOADS, executor=executor)) == ["done"] * 2
     assert len(executor.calls) == 2
 
 
 def test_two_sweeps_do_not_share_a_folder(tmp_path):
-    path = sweeps.study(tmp_path)
+    path = sweeps.case(tmp_path)
     (tmp_path / "out").mkdir()
     with (
         hold(tmp_path / "out" / "sweep.lock"),
         pytest.raises(CaseError, match=r"another sweep is writing to .*out"),
     ):
-        sweep(path, tmp_path / "out", executor=sweeps.Inline())
+        sweep(path, sweeps.LOADS, tmp_path / "out", executor=sweeps.Inline())
 
 
 def test_a_folder_that_cannot_be_written_to_is_named(tmp_path):
-    path = sweeps.study(tmp_path)
+    path = sweeps.case(tmp_path)
     (tmp_path / "out").write_text("")
     # Nobody writes to /proc, not even root.
     for out in (tmp_path / "out", Path("/proc/out")):
         with pytest.raises(OutputError, match=f"cannot write to {out}: "):
-            sweep(path, out, executor=sweeps.Inline())
+            sweep(path, sweeps.LOADS, out, executor=sweeps.Inline())
+
+
+def test_what_is_wrong_is_said_before_anything_runs(tmp_path):
+    path = sweeps.case(tmp_path)
+    for vary, words in (([], "nothing varies"), ({"loda.normal": [1]}, "did you mean 'load'")):
+        with pytest.raises(CaseError, match=words):
+            sweep(path, vary, tmp_path / "out", executor=sweeps.Inline())
+    assert not (tmp_path / "out").exists()

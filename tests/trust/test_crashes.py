@@ -142,9 +142,7 @@ def compared(folder):
 
 
 def swept(folder):
-    study = 'case = "run.toml"\n[grid]\nload.normal = ["50 N"]\n'
-    (folder / "study.toml").write_text(study)
-    sweep(folder / "study.toml", executor=sweeps.Inline())
+    sweep(folder / "run.toml", {"load.normal": ["50 N"]}, executor=sweeps.Inline())
 
 
 @pytest.mark.parametrize("runs", [compared, swept])

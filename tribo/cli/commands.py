@@ -20,7 +20,7 @@ OWN = {
     "new": "Write a case file to start from.",
     "check": "Validate a case and predict what it will do.",
     "run": "Run a case.",
-    "sweep": "Run many cases of a study in parallel.",
+    "sweep": "Run many variants of a case in parallel.",
     "resume": "Go on with a run that was stopped.",
     "compare": "Run variants of a case, or take results, side by side.",
     "show": "Print a result as a table or as JSON.",

@@ -16,7 +16,7 @@ from tribo.templates import TEMPLATES, template
 @click.argument("file", type=PATH, required=False)
 @click.option("--force", is_flag=True, help="Replace an existing file.")
 def new(name: str | None, file: Path | None, force: bool) -> None:
-    """Write a commented case, study or measurements from TEMPLATE to FILE.
+    """Write a commented case or measurements from TEMPLATE to FILE.
 
     Without TEMPLATE it lists the templates, with what plugins offer. A dash for FILE prints the
     template.
@@ -61,4 +61,4 @@ def _next(text: str, file: Path) -> str:
     tables = tomllib.loads(text)
     if "measured" in tables:
         return f"tribo calibrate CASE --measured {file}"
-    return f"tribo sweep {file}" if "case" in tables else f"tribo check {file}"
+    return f"tribo check {file}"

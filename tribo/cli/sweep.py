@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tribo.cli.options import JSON, PATH, PLUGIN, echo_json
+from tribo.cli.options import CASE, JSON, PATH, PLUGIN, SET, echo_json
 from tribo.core.errors import NumericalError
 
 if TYPE_CHECKING:
@@ -17,8 +17,10 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("study", type=PATH)
-@click.option("-o", "--output", type=PATH, help="Write to this folder, by default STUDY-sweep.")
+@CASE
+@click.option("--vary", multiple=True, required=True, metavar="PATH=A,B", help="Vary a value.")
+@SET
+@click.option("-o", "--output", type=PATH, help="Write to this folder, by default CASE-sweep.")
 @click.option(
     "-j",
     "--jobs",
@@ -29,30 +31,38 @@ if TYPE_CHECKING:
 @JSON
 @PLUGIN
 def sweep(
-    study: Path,
+    case: Path,
+    vary: tuple[str, ...],
+    overrides: tuple[str, ...],
     output: Path | None,
     jobs: int | None,
     retry: bool,
     as_json: bool,
 ) -> None:
-    """Run the cases of STUDY, a TOML file with the values that vary, in parallel.
+    """Run variants of CASE in parallel.
 
+    Any of its values can vary, as with 'tribo compare'; several --vary multiply.
     Every case is validated before any is run. Afterwards the folder holds
     runs.csv (a row a run), saves.csv (a row a save), the folder results and,
     where curves say it, a picture of the depth of each worn body. A
     failing run is recorded and the others continue. A sweep that was stopped,
-    or whose study has grown, continues with the same command.
+    or has more values now, continues with the same command.
 
     \b
     Example:
-      tribo sweep study.toml --jobs 4
+      tribo sweep my.toml --vary load.normal='20 N,50 N' --vary grid.cells=64,128
 
     Exit codes: 0 all done, 2 bad input, 3 runs have failed, 130 interrupted.
     """
+    from tribo.config.load import read_toml
+    from tribo.config.overrides import apply_settings
     from tribo.study.sweeping.sweep import sweep as run
+    from tribo.study.variation import read_axes
 
+    tables, axes = apply_settings(read_toml(case), overrides), read_axes(vary)
+    folder = output or case.with_name(f"{case.stem}-sweep")
     with _shown() as tell:
-        swept = run(study, output, jobs=jobs, retry=retry, tell=tell)
+        swept = run(tables, axes, folder, jobs=jobs, retry=retry, tell=tell)
     total, reasons = len(swept.runs), swept.failures()
     failed = sum(map(len, reasons.values()))
     if as_json:

@@ -25,7 +25,7 @@ from tribo.simulation.run import Simulation
 from tribo.study.differences import differences
 from tribo.study.runs import run_variants
 from tribo.study.side_by_side import comparison_table
-from tribo.study.variation import grid, short_labels, variants
+from tribo.study.variation import points_of, short_labels, variants
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -305,7 +305,7 @@ def compare(
         if vary:
             raise CaseError("a list of results has nothing to vary; give one case")
         return _of_list(what, labels, registry)
-    points = grid(vary) if isinstance(vary, Mapping) else [dict(point) for point in vary]
+    points = points_of(vary)
     _check_count(len(points), "variant")
     cases = variants(case_tables(what), points, registry)
     names = list(labels or short_labels(points))

@@ -36,6 +36,29 @@ def grid(axes: Mapping[str, Sequence[Any]]) -> list[Point]:
     return [dict(zip(axes, values, strict=True)) for values in product(*axes.values())]
 
 
+def points_of(vary: Mapping[str, Sequence[Any]] | Sequence[Mapping[str, Any]]) -> list[Point]:
+    """Return the settings of each variant: every combination of values by path, or as listed."""
+    points = grid(vary) if isinstance(vary, Mapping) else [dict(point) for point in vary]
+    if not any(points):
+        raise CaseError('nothing varies; give values by path, as {"load.normal": [50, 100]}')
+    return points
+
+
+def by_path(table: Any, where: str, prefix: str = "") -> Any:
+    """Return values by path; a path may be a quoted key, or tables in each other."""
+    if not isinstance(table, Mapping):
+        return table
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        path = f"{prefix}{key}"
+        nested = isinstance(value, Mapping) and value
+        for name, item in (by_path(value, where, f"{path}.") if nested else {path: value}).items():
+            if name in found:
+                raise CaseError(f"{name!r} is given twice", where)
+            found[name] = item
+    return found
+
+
 def check_distinct(paths: Iterable[str]) -> None:
     """Check that no path is given twice, quoted or not; CaseError if one is."""
     seen = set()

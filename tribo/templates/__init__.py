@@ -1,4 +1,4 @@
-"""Cases to start from, and a study."""
+"""Cases to start from."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ TEMPLATES = {
     "coated_ball": "A ball whose hard coating is worn through.",
     "rough_ball": "A rough ball that runs in on a smooth disk.",
     "rough_flats": "A patch of two rough bodies that repeats.",
-    "sweep": "A study over loads, coefficients and contact models, for tribo sweep.",
 }
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
@@ -12,6 +12,8 @@ from typing import Any
 
 import pandas
 
+from tribo.case import Case
+from tribo.config.load import case_tables
 from tribo.core.errors import CaseError
 from tribo.core.locks import BusyError
 from tribo.core.writing import make_folder, remove, write_file, writing
@@ -21,8 +23,7 @@ from tribo.study.runs import is_done
 from tribo.study.sweeping.carrying import carry
 from tribo.study.sweeping.executors import processes
 from tribo.study.sweeping.runs_table import Run, failed_before, tables
-from tribo.study.sweeping.study_file import load_study, points
-from tribo.study.variation import variants
+from tribo.study.variation import points_of, variants
 
 RUNS, SAVES, STOP, LOCK = "runs.csv", "saves.csv", "sweep.stop", "sweep.lock"
 
@@ -36,7 +37,7 @@ class Sweep:
     folder : Path
         Holds ``runs.csv``, ``saves.csv`` and the folder ``results``.
     runs : tuple of Run
-        In the order of the study.
+        In the order of their settings.
     table : pandas.DataFrame
         The table in ``runs.csv``, one row per run.
 
@@ -46,9 +47,9 @@ class Sweep:
     >>> from tempfile import TemporaryDirectory
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
     >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
-    >>> study = {"case": case, "grid": {"load.normal": ["50 N", "100 N"]}}
+    >>> loads = {"load.normal": ["50 N", "100 N"]}
     >>> with TemporaryDirectory() as folder, ThreadPoolExecutor(1) as workers:
-    ...     swept = tribo.sweep(study, folder, executor=workers)
+    ...     swept = tribo.sweep(case, loads, folder, executor=workers)
     >>> swept.failures(), swept.table["distance_m"].round(1).tolist()  # until 1 µm is worn
     ({}, [1.8, 1.3])
     """
@@ -72,15 +73,16 @@ class Sweep:
 
 
 def sweep(
-    study: str | Path | Mapping[str, Any],
-    output: str | Path | None = None,
+    what: Case | Mapping[str, Any] | str | Path,
+    vary: Mapping[str, Sequence[Any]] | Sequence[Mapping[str, Any]],
+    folder: str | Path | None = None,
     *,
     executor: Executor | None = None,
     jobs: int | None = None,
     retry: bool = False,
     tell: Callable[[int, int, int], None] = lambda total, done, failed: None,
 ) -> Sweep:
-    """Run all cases of a study, in parallel.
+    """Run variants of a case, in parallel.
 
     All are validated and composed before any is run. Finished results of the
     same case and components are reused, and stopped runs continue from their
@@ -88,15 +90,17 @@ def sweep(
 
     Parameters
     ----------
-    study : str, Path or Mapping
-        The file of the study; or its tables, in which ``case`` may be a `Case`:
-        ``{"case": case, "grid": {"load.normal": ["20 N", "50 N"]}}``.
-    output : str or Path, optional
+    what : Case, Mapping, str or Path
+        The case: itself, its tables, or its TOML file.
+    vary : Mapping or sequence of Mapping
+        Values by path, every combination of which is run; or the settings of
+        each run, values by path.
+    folder : str or Path, optional
         Folder of the results; named as the file, with ``-sweep``, if left out.
     executor : Executor, optional
         Runs the cases; processes on this machine if left out. It gets a
         function that its workers can import, and plain data. They must see
-        `output` under the same path. It is left open.
+        `folder` under the same path. It is left open.
     jobs : int, optional
         Number of processes if there is no `executor`; a core each if left out.
     retry : bool, optional
@@ -113,8 +117,8 @@ def sweep(
     Raises
     ------
     CaseError
-        If the study or any of its cases is not valid, or another sweep is
-        writing to the folder.
+        If any of the cases is not valid, or another sweep is writing to the
+        folder.
     OutputError
         If the folder cannot be written to, or the executor has broken.
     Interrupted
@@ -126,17 +130,18 @@ def sweep(
     >>> from tempfile import TemporaryDirectory
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
     >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
-    >>> study = {"case": case, "grid": {"bodies.ball.wear.k": [1e-16, 1e-15]}}
+    >>> rates = {"bodies.ball.wear.k": [1e-16, 1e-15]}
     >>> with TemporaryDirectory() as folder, ThreadPoolExecutor(1) as workers:
-    ...     tribo.sweep(study, folder, executor=workers).table["distance_m"].round(1).tolist()
+    ...     swept = tribo.sweep(case, rates, folder, executor=workers)
+    >>> swept.table["distance_m"].round(1).tolist()
     [4.2, 0.4]
     """
-    if output is None:
-        if isinstance(study, Mapping):
-            raise CaseError("tables of a study have no name; give the folder of its results")
-        output = Path(study).with_name(f"{Path(study).stem}-sweep")
-    folder = Path(output)
-    runs, paths = plan(study, folder)
+    if folder is None:
+        if not isinstance(what, str | Path):
+            raise CaseError("a case in memory has no name; give the folder of the results")
+        folder = Path(what).with_name(f"{Path(what).stem}-sweep")
+    folder = Path(folder)
+    runs, paths = plan(what, vary, folder)
     with _holding(folder):
         names = {run.path.name for run in runs}
         before = {} if retry else failed_before(folder / RUNS)
@@ -170,13 +175,16 @@ def sweep(
     return Sweep(folder, tuple(runs), table)
 
 
-def plan(study: str | Path | Mapping[str, Any], folder: Path) -> tuple[list[Run], list[str]]:
-    """Return the runs of a study, all validated, and the paths that vary."""
-    asked, data = load_study(study)
-    settings = points(asked)
+def plan(
+    what: Case | Mapping[str, Any] | str | Path,
+    vary: Mapping[str, Sequence[Any]] | Sequence[Mapping[str, Any]],
+    folder: Path,
+) -> tuple[list[Run], list[str]]:
+    """Return the runs of a sweep, all validated, and the paths that vary."""
+    settings = points_of(vary)
     runs = []
-    for i, (label, case) in enumerate(variants(data, settings).items(), start=1):
-        # Named after the case, so that a study may grow and nothing runs twice.
+    for i, (label, case) in enumerate(variants(case_tables(what), settings).items(), start=1):
+        # Named after the case, so that a sweep may grow and nothing runs twice.
         name = fingerprint(case.model_dump(mode="json"))[:16]
         runs.append(Run(i, label, case, folder / "results" / f"{name}.h5"))
     return runs, list({path: None for point in settings for path in point})
