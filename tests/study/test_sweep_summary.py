@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from tribo.study.sweeping.summary import ROWS, draw_runs, runs_table
+from tribo.study.sweeping.summary import draw_runs
 
 
 def table(loads, contacts):
@@ -19,12 +19,6 @@ def table(loads, contacts):
             "bodies.disk.max_wear_depth_m": 0.0,
         }
     )
-
-
-def test_a_long_table_ends_with_how_many_more_there_are():
-    runs = runs_table(table([float(load) for load in range(1, ROWS + 4)], ["dcfft"]))
-    assert len(runs.rows) == ROWS
-    assert runs.notes == ("and 3 more, in runs.csv",)
 
 
 def test_worn_bodies_are_drawn_of_plans_and_of_samples(tmp_path):

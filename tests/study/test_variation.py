@@ -94,4 +94,4 @@ def test_variants_with_one_reason_are_told_together():
     first, *others = str(caught.value).splitlines()
     assert first.startswith("4 of 6 variants cannot be run")
     assert len(others) == 2
-    assert "load.normal=-1, grid.cells=16; load.normal=-1, grid.cells=32: " in others[0]
+    assert "load.normal=-1, grid.cells=16 and 1 more: " in others[0]

@@ -16,15 +16,6 @@ The same hour follows, with the cycle resolved into 33 positions along the strok
 on 64² cells; it takes ten to thirty seconds. What differs is on the page "Averaged or resolved
 strokes", under "How much it costs"."""
 
-LIKE = {
-    "ball_scar": "like the paper's figure 4, which was measured",
-    "disk_scar": "like figure 5, which was measured",
-    "pressure_map_early": "like figure 8",
-    "pressure_sections": "like figure 9",
-    "ball_profiles": "like figures 10 and 11",
-}
-"""The paper's figures that pictures stand for."""
-
 
 @click.command()
 @click.option(
@@ -89,6 +80,5 @@ def demo(directory: Path, force: bool) -> None:
             pictures += save_overlays(comparison.results, end, directory)
     click.echo(f"Case, results and {len(pictures)} pictures are in {directory}/:")
     for path in (case, output, followed, *pictures):
-        like = LIKE.get(path.stem)
-        click.echo(f"  {path.name:24}{like}" if like else f"  {path.name}")
+        click.echo(f"  {path.name}")
     click.echo(f"To hand the result on: tribo report {output} (comes with tribo-report)")

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import click
 
 from tribo.cli.options import echo_json
-from tribo.core.errors import CaseError
 
 
 @click.command()
@@ -16,7 +13,6 @@ from tribo.core.errors import CaseError
 def materials(name: str | None, as_json: bool) -> None:
     """List the materials that a case may name, or the numbers of NAME with their sources.
 
-    A word that is no NAME lists the materials with a word like it in their name or description.
     Of a range a case takes the middle, if no value is said to be taken. Wear rates
     are shown for comparison; a case takes none of them.
 
@@ -24,28 +20,15 @@ def materials(name: str | None, as_json: bool) -> None:
     Example:
       tribo materials
       tribo materials 100Cr6
-      tribo materials steel
     """
     from tribo.core.material import in_words, materials
 
-    known = _named(name) if name else materials.tables()
+    known = dict([materials.known(name)]) if name else materials.tables()
     if as_json:
         echo_json(known)
         return
     for called, table in known.items():
         click.echo(f"{called:14} {table['summary']}")
-        for key, number in table.items() if name and len(known) == 1 else ():
+        for key, number in table.items() if name else ():
             if isinstance(number, dict):
                 click.echo(f"  {key}: {in_words(number)}\n    {'; '.join(number['sources'])}")
-
-
-def _named(name: str) -> dict[str, dict[str, Any]]:
-    from tribo.core.material import materials
-
-    try:
-        return dict([materials.known(name)])
-    except CaseError:
-        every = materials.tables()
-        if found := materials.like(name):
-            return {each: every[each] for each in found}
-        raise

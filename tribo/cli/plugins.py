@@ -37,7 +37,7 @@ def list_(as_json: bool) -> None:
     if as_json:
         echo_json(rows)
         return
-    cells = [
+    lines = [
         (
             row["name"] or "-",
             row["kind"] or "when imported",
@@ -47,10 +47,8 @@ def list_(as_json: bool) -> None:
         )
         for row in rows
     ]
-    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    for row in cells:
-        padded = (f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True))
-        click.echo("  ".join(padded).rstrip())
+    for name, kind, whose, status, words in lines:
+        click.echo(f"{name:24} {kind:16} {whose:24} {status:10} {words}")
 
 
 @plugins.command()

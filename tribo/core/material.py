@@ -122,7 +122,7 @@ class Materials:
         if found := called.get(name.casefold()):
             return found, tables[found]
         near = ", ".join(self.like(name))
-        listed = f"did you mean {near}? 'tribo materials {name}' lists them" if near else _LISTED
+        listed = f"did you mean {near}? {_LISTED}" if near else _LISTED
         raise WrongValues(f"no material is called {name!r}; {listed}")
 
     def like(self, word: str) -> list[str]:

@@ -16,7 +16,6 @@ from tribo.simulation.run import Simulation
 
 Point = dict[str, Any]
 """The settings of a variant: values by path."""
-_NAMED = 3
 
 
 def read_axes(texts: Iterable[str]) -> dict[str, tuple[Any, ...]]:
@@ -141,9 +140,9 @@ def _axis(text: str) -> tuple[str, tuple[Any, ...]]:
 def _refusal(reasons: Mapping[str, Sequence[str]], count: int) -> str:
     failing = sum(map(len, reasons.values()))
     lines = [f"{failing} of {count} variants cannot be run; nothing was started:"]
-    for reason, labels in reasons.items():
-        more = f"; and {len(labels) - _NAMED} more" if len(labels) > _NAMED else ""
-        lines.append(f"  with {'; '.join(labels[:_NAMED])}{more}: {reason}")
+    for reason, (first, *others) in reasons.items():
+        more = f" and {len(others)} more" if others else ""
+        lines.append(f"  with {first}{more}: {reason}")
     return "\n".join(lines)
 
 

@@ -14,8 +14,6 @@ from tribo.core.data_table import DataTable, Heading, TableRow
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-ROWS = 20
-"""Most runs in the table."""
 MOST_CURVES = 6
 """In a picture."""
 MEASURED = (
@@ -31,21 +29,20 @@ def runs_table(runs: pd.DataFrame) -> DataTable | None:
     done = runs[runs["status"] == "done"]
     if done.empty:
         return None
-    shown, headings = done[:ROWS], [Heading("run", whole=True)]
-    columns: list[Sequence[float | str]] = [list(shown["run"])]
+    headings = [Heading("run", whole=True)]
+    columns: list[Sequence[float | str]] = [list(done["run"])]
     for name in varied_paths(runs):
         headings.append(column_heading(name, done))
         # The heading has the unit.
-        columns.append([cell(name, done, index) for index in shown.index])
+        columns.append([cell(name, done, index) for index in done.index])
     for end, heading, factor in MEASURED:
         for name in [column for column in done if _measures(str(column), end)]:
             body = str(name).removeprefix("bodies.").removesuffix(end)
             headings.append(heading._replace(label=heading.label.format(body)))
-            columns.append([factor * value for value in shown[name]])
-    notes = (f"and {len(done) - ROWS} more, in runs.csv",) if len(done) > ROWS else ()
+            columns.append([factor * value for value in done[name]])
     title = "Runs: what varied; largest pressure, depth and volume of each body at the end"
     rows = list(map(TableRow, zip(*columns, strict=True)))
-    return DataTable(title, headings, rows, notes)
+    return DataTable(title, headings, rows)
 
 
 def draw_runs(runs: pd.DataFrame, folder: Path) -> list[Path]:
