@@ -45,7 +45,7 @@ def problem(
 ):
     """A problem of which the first values are data; the other responses are predictions."""
     n = len(observed)
-    each = {"below": np.zeros(n, bool), "specimen": np.arange(n), "repeatability": 0.0} | data
+    each = {"specimen": np.arange(n), "repeatability": 0.0} | data
     start = np.log(np.broadcast_to(start, len(names)))
     whole = np.full(n + predictions, small), start - reach, start + reach, np.zeros((n, 0))
     return Problem(names, observed, sigma, *each.values(), *whole)

@@ -94,8 +94,7 @@ def test_another_law_is_noticed_and_not_chosen(two_loads, found):
     wrong = choice.calibrations["archard"]
     assert wrong.p_value < 1e-3
     assert of_kind(wrong, "misfit")[0].value == wrong.chi_square
-    assert "test.2.measured.1" in [each.place for each in of_kind(wrong, "pattern")]
-    assert not of_kind(found, "pattern")
+    assert not of_kind(found, "misfit")
 
 
 @pytest.mark.slow
@@ -123,9 +122,6 @@ def test_maps_of_tests_that_scatter_are_off_together(noisy):
     (each,) = found.parameters.itertuples()
     assert each.value == pytest.approx(3e-16, rel=0.02, abs=0)
     assert each.upper / each.value > 1.3
-    # A map that is 15 % deeper all over is of another test, not of another shape.
-    assert found.data["residual"].abs().max() > 1.5
-    assert not of_kind(found, "pattern")
 
 
 @pytest.mark.slow

@@ -49,7 +49,7 @@ def test_the_expected_interval_is_that_of_a_calibration():
     made = problem(np.ones(n), sigma[of], specimen=np.arange(n) // 2, repeatability=None)
     here = Linearised(made, np.zeros(2), np.ones(n), effects[of], Weights.of(sigma[of]))
     here = here.weighed(np.zeros(2), 0.2)
-    whole = here.sensitivity()
+    whole = here.jacobian()
     kinds = np.array([whole[:2].T @ whole[:2], whole[-2:].T @ whole[-2:]])
     halves, freedom = Search(kinds, 0.1, 0.95, True).expected(counts)
     assert freedom == pytest.approx([here.degrees_of_freedom(axis) for axis in np.eye(2)], rel=1e-6)

@@ -9,37 +9,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-from scipy.ndimage import binary_dilation
 from scipy.special import chdtrc
 from tribo import Array, Finding
-from tribo.kernel_api import signed
 
 from tribo_inverse.calibration.linearised import COLLINEAR, normalised
-from tribo_inverse.calibration.quantities import (
-    DEPTH_SIGMA,
-    FIELDS,
-    WORN,
-    in_si,
-    in_words,
-    p_words,
-    percent,
-)
+from tribo_inverse.calibration.quantities import in_si, in_words, p_words, percent
 
 if TYPE_CHECKING:
     from tribo_inverse.calibration.maps import FittedMaps
 
 UNLIKELY = 0.01
 """p-value below which data and model disagree."""
-TOO_SMALL = 0.001
-"""1 − p above which the data agree with the model better than they may."""
 PARTICIPATES = 0.3
 """Component of a singular vector above which a parameter is named."""
-CORRELATED = 3.0
-"""Standard deviations above which the correlation of neighbouring residuals is significant."""
-SIGNIFICANT = 4.0
-"""Standard deviations above which a level or a volume is not noise."""
-DIRECTIONS = ("along", "across")
-"""The sliding direction, by axis."""
 
 
 def of_run(finding: Finding, runs: Sequence[str] = ()) -> Finding:
@@ -57,8 +39,8 @@ def of_fit(
     estimates : DataFrame
         `Calibration.parameters`.
     data : DataFrame
-        `Calibration.data` with `stated`, the standard deviation without the grid's, and `alone`,
-        the weighted residuals, which are independent where tests scatter.
+        `Calibration.data` with `alone`, the weighted residuals, which are independent where tests
+        scatter.
     jacobian : ndarray, shape (n, p)
         Derivatives of the weighted residuals by the logarithms of the parameters.
     freedom : int, optional
@@ -66,18 +48,15 @@ def of_fit(
     """
     return [
         *_bounds(estimates, freedom is None),
-        *_resolutions(estimates, data, jacobian),
         *_collinear(list(estimates["path"]), jacobian),
         *(() if freedom is None else _misfit(data, freedom)),
-        *_patterns(data),
-        *_coarse_grid(data),
     ]
 
 
 def _bounds(estimates: pd.DataFrame, scatters: bool) -> Iterator[Finding]:
     """Report estimates on a bound, or not bounded by the data."""
     for each in estimates.itertuples():
-        value, upper = in_si(each.value, each.unit), in_si(each.upper, each.unit)
+        value = in_si(each.value, each.unit)
         sides = ["below"] * (each.lower == 0) + ["above"] * math.isinf(each.upper)
         if each.held:
             yield Finding(
@@ -85,14 +64,6 @@ def _bounds(estimates: pd.DataFrame, scatters: bool) -> Iterator[Finding]:
                 f"{each.path}: the estimate lies on its {bound(each)} bound, {value}, and has no "
                 "interval",
                 value=each.value,
-                place=each.path,
-            )
-        elif each.limited:
-            yield Finding(
-                "undetected",
-                f"{each.path}: its wear was below the limit of detection, so that only the bound "
-                f"{upper} is known; the fitted case has a negligible value",
-                limit=each.upper,
                 place=each.path,
             )
         elif sides:
@@ -109,24 +80,6 @@ def _bounds(estimates: pd.DataFrame, scatters: bool) -> Iterator[Finding]:
 def bound(estimate: Any) -> str:
     """Return which bound holds an estimate."""
     return "lower" if estimate.value - estimate.lower < estimate.upper - estimate.value else "upper"
-
-
-def _resolutions(estimates: pd.DataFrame, data: pd.DataFrame, jacobian: Array) -> Iterator[Finding]:
-    """Report the instrument whose resolution is more than half of the variance of an estimate."""
-    parts = (data["step_sigma"] / data["sigma"]).to_numpy()
-    for each, effect in zip(estimates.itertuples(), np.linalg.pinv(jacobian), strict=True):
-        known = not (each.held or each.limited or math.isinf(each.upper))
-        if known and each.resolution_share > 0.5:
-            entry = data.iloc[int(np.argmax(np.abs(effect) * parts))]
-            instrument = "balance" if entry.quantity == "mass" else "instrument"
-            yield Finding(
-                "reading",
-                f"{each.path}: the {instrument}'s resolution dominates the uncertainty; "
-                f"the {named(entry)} read to {in_words(entry.quantity, entry.step)} "
-                f"leaves ±{percent(each.resolution_limit)} % open",
-                value=each.resolution_limit,
-                place=each.path,
-            )
 
 
 def unresolved(readings: pd.DataFrame) -> Iterator[Finding]:
@@ -163,27 +116,14 @@ def _collinear(paths: list[str], jacobian: Array) -> Iterator[Finding]:
 
 
 def _misfit(data: pd.DataFrame, freedom: int) -> Iterator[Finding]:
-    """Report a χ² that is too large, or too small, to be due to chance."""
+    """Report a χ² that is too large to be due to chance."""
     if freedom == 0:
         words = "there are no more data than parameters: nothing is left to test the model with"
         yield Finding("untested", words)
         return
-    read = data[~data["below"]]
-    chi_square = float(np.sum(read["alone"] ** 2))
-    stated = float(np.sum((read["residual"] * read["sigma"] / read["stated"]) ** 2))
-    by_steps = float(np.mean((read["step_sigma"] / read["stated"]) ** 2))
-    # Readings in coarse steps are alike.
-    if by_steps < 0.5 and chdtrc(freedom, stated) > 1 - TOO_SMALL:
-        yield Finding(
-            "overstated",
-            f"data and model differ by less than the stated uncertainties: χ² with those alone is "
-            f"{stated:.2g} where about {freedom} is expected; the uncertainties are too large, or "
-            "the data not independent",
-            value=stated,
-            limit=freedom,
-        )
+    chi_square = float(np.sum(data["alone"] ** 2))
     if chdtrc(freedom, chi_square) < UNLIKELY:
-        worst = read.loc[read["alone"].abs().idxmax()]
+        worst = data.loc[data["alone"].abs().idxmax()]
         yield Finding(
             "misfit",
             f"data and model disagree: χ² is {chi_square:.3g} where about {freedom} is expected; "
@@ -196,87 +136,11 @@ def _misfit(data: pd.DataFrame, freedom: int) -> Iterator[Finding]:
         )
 
 
-def _patterns(data: pd.DataFrame) -> Iterator[Finding]:
-    """Report profiles and maps whose scaled neighbouring residuals are correlated."""
-    along = data[data["quantity"].isin(FIELDS)].sort_values("position_m", kind="stable")
-    for place, rows in along.groupby("place", sort=False):
-        residuals = rows["alone"].to_numpy()
-        scale = (rows["computed"] / rows["sigma"]).to_numpy()
-        size = float(np.sum(scale**2)) or 1.0
-        residuals = residuals - np.sum(residuals * scale) / size * scale
-        squares = float(np.sum(residuals**2)) or 1.0
-        correlation = float(np.sum(residuals[1:] * residuals[:-1]) / squares)
-        limit = CORRELATED / len(rows) ** 0.5
-        if correlation > limit and np.max(np.abs(residuals)) > 1:
-            yield Finding(
-                "pattern",
-                f"the residuals of the {named(next(rows.itertuples()))} follow a pattern: "
-                f"neighbours have a correlation of {correlation:.2f}, so the scar has another "
-                "shape than the model's",
-                value=correlation,
-                limit=limit,
-                place=str(place),
-            )
-
-
-def _coarse_grid(data: pd.DataFrame) -> Iterator[Finding]:
-    """Report diameters that are measured more exactly than the grid computes them."""
-    for entry in data[data["stated"] < data["edge"]].drop_duplicates("place").itertuples():
-        yield Finding(
-            "grid",
-            f"the {named(entry)} is measured to {in_words(entry.quantity, entry.stated)}, the grid "
-            f"is good to about {in_words(entry.quantity, entry.edge)}: raise grid.cells",
-            value=entry.stated,
-            limit=entry.edge,
-            place=entry.place,
-        )
-
-
 def named(entry: Any) -> str:
     """Return the name of a measurement, as ``"mass of 'ball' in heavy"``."""
     where = f" in {entry.test}" if entry.test else ""
     when = "" if math.isnan(entry.time_s) else f" at {entry.time_s:g} s"
     return f"{entry.quantity}{f' of {entry.body!r}' if entry.body else ''}{where}{when}"
-
-
-def off_middle(
-    name: str, place: str, axis: int, shift: float, sigma: float = math.inf, but: str = ""
-) -> Finding:
-    """Report the distance of the scar from the middle of a map."""
-    known = f"± {1e6 * sigma:.1g} " if math.isfinite(sigma) else ""
-    return Finding(
-        "shift",
-        f"the scar in the {name} lies {signed(1e6 * shift, 1)} {known}µm {DIRECTIONS[axis]} the "
-        f"sliding direction from the middle of the map{but}",
-        value=shift,
-        uncertainty=sigma if known else None,
-        place=place,
-    )
-
-
-def off_level(
-    name: str, place: str, measured: Array, depth: Array, sigma: float
-) -> Iterator[Finding]:
-    """Report a map whose median outside the scar, two cells and more away, is not 0.
-
-    The limit is four standard errors of a median, plus 0.2 % of the scar's depth.
-    """
-    largest = float(np.max(depth))
-    unworn = ~binary_dilation(depth > WORN * largest, iterations=2) & np.isfinite(measured)
-    if not np.any(unworn):
-        return
-    level = float(np.median(measured[unworn]))
-    error = (0.5 * math.pi / np.sum(unworn)) ** 0.5 * sigma
-    limit = max(SIGNIFICANT * error, DEPTH_SIGMA * largest)
-    if abs(level) > limit:
-        yield Finding(
-            "level",
-            f"outside the scar the {name} lies {1e6 * abs(level):.2g} µm "
-            f"{'above' if level > 0 else 'below'} 0: level it first, as tribo scar does",
-            value=level,
-            limit=float(limit),
-            place=place,
-        )
 
 
 def of_maps(found: FittedMaps) -> Iterator[Finding]:
@@ -290,16 +154,6 @@ def of_maps(found: FittedMaps) -> Iterator[Finding]:
             "out, or the uncertainty is larger, or the length shorter",
             value=chi_square,
             limit=freedom,
-        )
-    least = freedom - found.by_grid
-    if least > 1 and chdtrc(least, chi_square) > 1 - TOO_SMALL:
-        yield Finding(
-            "overstated",
-            f"the depths differ from the fit by less than their uncertainty: χ² is "
-            f"{chi_square:.3g} where at least {least:.3g} is expected; give the uncertainty of a "
-            "cell, or of a line along a track, not of a pixel",
-            value=chi_square,
-            limit=least,
         )
     for name, each in found.maps.items():
         if (silent := int(np.sum(~each.told))) > 0:

@@ -30,14 +30,12 @@ NAME, PROFILE, MAP = 1.25, 42.0, 62.0
 def fit_picture(data: pd.DataFrame, points: pd.DataFrame | None = None) -> Figure:
     """Draw the computed over the measured values of a calibration, with standard deviations.
 
-    A value below a limit of detection is drawn at the limit, as an arrow that points down.
-
     Parameters
     ----------
     data : DataFrame
         A row for each measured value, as `brief` of a calibration: ``body``,
         ``quantity``, ``measured``, ``sigma`` and ``computed``; ``test``,
-        ``time_s``, ``position_m`` and ``below`` where it has them.
+        ``time_s`` and ``position_m`` where it has them.
     points : DataFrame, optional
         A row for each point, as its `data`; its profiles and maps are drawn, each in a panel.
 
@@ -56,7 +54,6 @@ def fit_picture(data: pd.DataFrame, points: pd.DataFrame | None = None) -> Figur
     """
     fields = [] if points is None else _fields(points)
     measured, computed = data["measured"].to_numpy(float), data["computed"].to_numpy(float)
-    below = data.get("below", pd.Series(False, index=data.index)).to_numpy(bool)
     rows = np.arange(len(data))[::-1]
     names = list(map(row_name, data.itertuples()))
     with house_style():
@@ -66,18 +63,15 @@ def fit_picture(data: pd.DataFrame, points: pd.DataFrame | None = None) -> Figur
         figure = new_figure(sum(heights), max(SINGLE_COLUMN, 45.0 + room))
         axes, *panels = figure.subplots(len(heights), height_ratios=heights, squeeze=False)[:, 0]
         axes.axvline(1.0, color="black", linewidth=0.5)
-        told: dict[str, Any] = {"fmt": "none", "ecolor": "#56b4e9", "elinewidth": 2.4}
-        if not below.all():
-            axes.errorbar(
-                np.ones(np.sum(~below)),
-                rows[~below],
-                xerr=(data["sigma"] / np.abs(measured))[~below],
-                label="measured, ± its standard deviation",
-                **told,
-            )
-        if below.any():
-            axes.plot(np.ones(np.sum(below)), rows[below], "<", color="#0072b2", markersize=6.0)
-            axes.lines[-1].set_label("measured: below this limit")
+        axes.errorbar(
+            np.ones(len(data)),
+            rows,
+            xerr=data["sigma"] / np.abs(measured),
+            label="measured, ± its standard deviation",
+            fmt="none",
+            ecolor="#56b4e9",
+            elinewidth=2.4,
+        )
         axes.plot(computed / measured, rows, "s", color="#202020", markersize=3.0, label="fitted")
         axes.set_yticks(rows, names)
         axes.set_ylim(-0.7, len(data) - 0.3)

@@ -29,7 +29,6 @@ def maps_json(found: FittedMaps, level: float) -> dict[str, Any]:
         "products": found.products,
         "chi_square": found.chi_square,
         "degrees_of_freedom": found.degrees_of_freedom,
-        "by_grid": found.by_grid,
         "p_value": found.p_value,
         "notes": found.notes,
         "findings": [asdict(each) for each in found.findings],
@@ -53,7 +52,6 @@ def _arrays(each: LocalMap, level: float) -> dict[str, Any]:
         "measured_m": each.measured,
         "computed_m": each.computed,
         "uncertainty_m": each.uncertainty,
-        "off_m": np.array(each.off),
     }
 
 
@@ -64,11 +62,9 @@ def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
         keys = ("deviation", "prior_deviation", "measured_m", "computed_m", "uncertainty_m")
         logs, (dx, dy) = np.log(np.array(each["factor"], dtype=float)), each["spacing_m"]
         own, prior, measured, computed, sigma = (np.array(each[k], dtype=float) for k in keys)
-        off = tuple(each.get("off_m", ()))
-        maps[name] = LocalMap(logs, own, prior, (dx, dy), measured, computed, sigma, off)
+        maps[name] = LocalMap(logs, own, prior, (dx, dy), measured, computed, sigma)
     numbers = {key: found[key] for key in ("gradients", "products")}
     fit = {key: found[key] for key in ("chi_square", "degrees_of_freedom")}
-    fit["by_grid"] = found.get("by_grid", 0.0)
     findings = tuple(Finding(**each) for each in found["findings"])
     return FittedMaps(maps=maps, **numbers, **fit, findings=findings), found["level"]
 

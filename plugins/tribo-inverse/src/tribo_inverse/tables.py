@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any
+from io import StringIO
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from rich.markup import escape
 from tribo.kernel_api import Console, DataTable, Heading, TableRow, digits_of, signed
 
-from tribo_inverse.calibration.calibrate import Calibration
-from tribo_inverse.calibration.choice import Choice
-from tribo_inverse.calibration.plan import Plan
 from tribo_inverse.calibration.quantities import in_si, in_words, p_words, percent, row_name
 from tribo_inverse.findings import bound
+
+if TYPE_CHECKING:
+    from tribo_inverse.calibration.calibrate import Calibration
+    from tribo_inverse.calibration.choice import Choice
+    from tribo_inverse.calibration.plan import Plan
 
 FAR = 10.0
 """Ratio of an interval's end to the value above which no percentage is printed."""
@@ -27,15 +30,26 @@ BROKEN = "interval"
 """End of the headings of columns of intervals."""
 
 
-def print_fit(found: Calibration) -> None:
+def print_fit(found: Calibration, console: Console | None = None) -> None:
     """Print estimates, residuals, predictions, the goodness of fit and warnings."""
-    console = Console()
-    tables = estimates_table(found), data_table(found), predictions_table(found)
-    for table in (*tables, quality_table(found)):
-        if table.rows:
-            console.table(table)
+    console = console or Console()
+    for table in fit_tables(found):
+        console.table(table)
     for note in found.notes:
         console.print(f"[yellow]Warning:[/] {escape(note)}")
+
+
+def fit_text(found: Calibration) -> str:
+    """Return what `print_fit` prints."""
+    text = StringIO()
+    print_fit(found, Console(file=text))
+    return text.getvalue().rstrip()
+
+
+def fit_tables(found: Calibration) -> list[DataTable]:
+    """Return the estimates, residuals, predictions and the goodness of fit."""
+    tables = estimates_table(found), data_table(found), predictions_table(found)
+    return [table for table in (*tables, quality_table(found)) if table.rows]
 
 
 def print_plan(found: Plan) -> None:
@@ -62,17 +76,14 @@ def print_plan(found: Plan) -> None:
 def print_choice(found: Choice) -> None:
     """Print the comparison of several cases, and the estimates of each."""
     console, rows = Console(), []
-    columns = ["criterion", "weight", "left out", "χ²", "d.o.f.", "parameters"]
+    columns = ["criterion", "weight", "χ²", "d.o.f.", "parameters"]
     for each in found.cases.itertuples():
         own = found.calibrations[each.case]
-        left_out = "" if math.isnan(each.left_out) else f"{each.left_out:.1f}"
         fit = f"{own.chi_square:.3g}", own.degrees_of_freedom
-        odds = f"{each.bic:.1f}", f"{each.weight:.2g}", left_out
+        odds = f"{each.bic:.1f}", f"{each.weight:.2g}"
         rows.append((each.case, *odds, *fit, each.parameters))
     note = (
-        "criterion: Schwarz's, the lower the better; weight: the probability that follows from it; "
-        "left out: ln of the probability of each test predicted from the others, the higher the "
-        "better."
+        "criterion: Schwarz's, the lower the better; weight: the probability that follows from it."
     )
     console.table(_table("Cases", columns, rows, note))
     for name in found.cases["case"]:
@@ -101,9 +112,7 @@ def estimates_table(found: Calibration) -> DataTable:
         if each.held:
             ends = f"held by its {bound(each)} bound"
         value = in_si(each.value, each.unit, digits)
-        if each.limited:
-            value, ends = f"below {in_si(each.upper, each.unit)}", "upper bound"
-        if each.held or each.limited or math.isinf(each.upper):
+        if each.held or math.isinf(each.upper):
             relative = ""
         rows.append((each.path, value, ends, relative))
         if each.unit == "1/Pa":
@@ -114,8 +123,6 @@ def estimates_table(found: Calibration) -> DataTable:
 def _per_newton_metre(each: Any, digits: int) -> tuple[str, str, str, str]:
     """Return a specific wear rate with its interval in the unit of laboratories' tables."""
     lower, value, upper = (f"{1e9 * x:.{digits}g}" for x in (each.lower, each.value, each.upper))
-    if each.limited:
-        return "", f"below {upper} {PER_NM}", "", ""
     ends = "" if each.held else _interval(each, lower, upper)[0]
     return "", f"{value} {PER_NM}", ends, ""
 
@@ -126,8 +133,6 @@ def data_table(found: Calibration) -> DataTable:
     for each in found.brief.itertuples():
         values = (each.measured, each.sigma, each.computed)
         shown = [in_words(each.quantity, value) for value in values]
-        if each.below:
-            shown[0] = f"< {shown[0]}"
         many = each.depths > 1
         residual = f"rms {each.residual:.1f}" if many else signed(each.residual, 1)
         rows.append((_name(each), *shown, residual))

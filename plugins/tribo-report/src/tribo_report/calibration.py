@@ -25,7 +25,7 @@ from tribo_inverse.calibration.quantities import in_si, p_words
 from tribo_inverse.findings import UNLIKELY, bound
 from tribo_inverse.fitted import fit_picture
 from tribo_inverse.map_tables import read_maps
-from tribo_inverse.tables import data_table, estimates_table, predictions_table, quality_table
+from tribo_inverse.tables import fit_tables
 
 from tribo_report.maps import maps_page
 from tribo_report.page import render, stills
@@ -44,7 +44,6 @@ def calibration_file_page(path: Path) -> str:
 
 
 def _read(found: dict[str, Any]) -> Calibration:
-    found["parameters"] = [{"limited": False, **row} for row in found["parameters"]]
     tables: dict[str, Any] = {
         name: pd.DataFrame(found.pop(name)) for name in ("parameters", "data", "predictions")
     }
@@ -57,7 +56,7 @@ def _read(found: dict[str, Any]) -> Calibration:
         raise ValueError(f"it has no {', '.join(sorted(missing))}")
     for name in ("p_value", "notes"):
         del found[name]
-    for name in ("correlation", "singular_values", "left_out"):
+    for name in ("correlation", "singular_values"):
         found[name] = np.array(found[name], dtype=float)
     found["fitted"] = {name: tomllib.loads(text) for name, text in found.get("fitted", {}).items()}
     found["findings"] = tuple(Finding(**each) for each in found["findings"])
@@ -66,15 +65,13 @@ def _read(found: dict[str, Any]) -> Calibration:
 
 def calibration_page(found: Calibration, title: str) -> str:
     """Return the report of a calibration as HTML; see `tribo_report.write_report`."""
-    tables = [estimates_table(found), data_table(found), predictions_table(found)]
-    tables.append(quality_table(found))
     return render(
         "study.html.j2",
         kind="Calibration",
         title=title,
         answers=list(_answers(found)),
         tables_title="What was fitted",
-        tables=[table for table in tables if table.rows],
+        tables=fit_tables(found),
         remarks=[],
         notes=found.notes,
         stills=stills(
@@ -98,8 +95,6 @@ def _answers(found: Calibration) -> Iterator[str]:
         words = f"{each.path} is {in_si(each.value, each.unit)}"
         if each.held:
             yield f"{words}, held by its {bound(each)} bound."
-        elif each.limited:
-            yield f"{each.path} is below {in_si(each.upper, each.unit)}, as nothing was detected."
         elif math.isinf(each.upper):
             yield f"{words}; the data do not bound it."
         else:

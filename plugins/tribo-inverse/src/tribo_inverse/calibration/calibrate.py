@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -15,14 +16,7 @@ from tribo import Array, Case, CaseError, Finding, NumericalError
 from tribo.kernel_api import OutOfWindow, apply_settings, to_toml
 
 from tribo_inverse.calibration.experiment import Experiment, check_sizes
-from tribo_inverse.calibration.fit import (
-    NO_EFFECT,
-    Unsettled,
-    fit,
-    interval,
-    limit,
-    steps,
-)
+from tribo_inverse.calibration.fit import fit, interval
 from tribo_inverse.calibration.linearised import Linearised, Weights, root_covariance
 from tribo_inverse.calibration.measured import Measurements
 from tribo_inverse.calibration.predictions import predicted
@@ -31,17 +25,16 @@ from tribo_inverse.calibration.quantities import (
     FIELDS,
     plain,
 )
-from tribo_inverse.findings import named, of_fit, off_level, off_middle
+from tribo_inverse.findings import of_fit
+from tribo_inverse.tables import fit_tables, fit_text
 
 DATA = ["test", "body", "quantity", "time_s", "position_m", "place", "unit"]
-DATA += ["measured", "below", "sigma", "computed", "residual"]
+DATA += ["measured", "sigma", "computed", "residual"]
 """Columns of a calibration's data."""
 PLACE = ["x_m", "y_m", "shift_x_m", "shift_y_m"]
 """Further columns, where a depth map is among the data."""
 AT_BOUND = 1e-6
 """Relative distance below which an estimate counts as on its bound."""
-SIGMA_CHANGE = 0.05
-"""Relative change of a standard deviation, by errors of the grid, up to which a fit is kept."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,29 +59,24 @@ class Calibration:
     """Number of simulations."""
     parameters: pd.DataFrame
     """One row per parameter: `path`, `unit`, `value`; `lower` and `upper`, the ends of its
-    interval, 0 or infinite where the data do not bound it; `resolution_share`, the part of its
-    variance due to the resolution of instruments; `resolution_limit`, its largest error due to the
-    resolution, relative to `value`; `held`, whether it lies on one of its bounds, which are then
-    `lower` and `upper`; `limited`, whether only limits of detection depend on it, so that only
-    `upper` is known."""
+    interval, 0 or infinite where the data do not bound it; `held`, whether it lies on one of its
+    bounds, which are then `lower` and `upper`."""
     data: pd.DataFrame
     """One row per measured value: `test`, empty for the case as it is; `body`, `quantity`,
     `time_s`, `position_m` on a profile, `place`, its entry in the file, `unit`, `measured`,
-    `below`, whether it is a limit of detection, `sigma`, its standard deviation including the grid
-    and the scatter from test to test, `computed`, and `residual`, computed less measured in units
-    of `sigma`; √(−2 ln Φ(z)) for a limit that lies z above the computed value. A map has one row
-    per block of cells, with its middle, `x_m` and `y_m`, and the shift of the scar from the middle
-    of the map, `shift_x_m` and `shift_y_m`."""
+    `sigma`, its standard deviation including the grid and the scatter from test to test,
+    `computed`, and `residual`, computed less measured in units of `sigma`. A map has one row per
+    block of cells, with its middle, `x_m` and `y_m`, and the shift of the scar from the middle of
+    the map, `shift_x_m` and `shift_y_m`."""
     predictions: pd.DataFrame
     """Other quantities of the fitted case at the end of each test: `test`, `body`, `quantity`,
     `unit`, `value`, `lower`, `upper`; these equal where nothing fitted changes it, 0 and infinite
-    if it depends on a parameter held by a bound. For a parameter that is `limited` the case is run
-    at its upper bound. Where tests scatter, the interval is for the mean."""
+    if it depends on a parameter held by a bound. Where tests scatter, the interval is for the
+    mean."""
     chi_square: float
-    """Sum of squared weighted residuals, without limits of detection."""
+    """Sum of squared weighted residuals."""
     degrees_of_freedom: int
-    """Values, without limits of detection, less the parameters that they determine and the shifts
-    of maps."""
+    """Values less the parameters that are not held, and the shifts of maps."""
     repeatability: float
     """Relative standard deviation of the parameters from test to test."""
     repeatability_estimated: bool
@@ -101,11 +89,17 @@ class Calibration:
     """Of the weighted Jacobian by the logarithms of the parameters, largest first."""
     bic: float
     """Schwarz's criterion, −2 ln L + p ln n; p includes an estimated repeatability."""
-    left_out: Array
-    """Log-likelihood of each test predicted from all others; NaN if these do not determine a
-    parameter."""
     findings: tuple[Finding, ...]
     """Findings on the data, the fit and the model."""
+
+    def __str__(self) -> str:
+        """Return the tables and warnings that `tribo calibrate` prints."""
+        return fit_text(self)
+
+    def _repr_html_(self) -> str:
+        """Show the same in a notebook."""
+        notes = "".join(f"<p>Warning: {escape(note)}</p>" for note in self.notes)
+        return "".join(table._repr_html_() for table in fit_tables(self)) + notes
 
     @property
     def settings(self) -> dict[str, float]:
@@ -209,19 +203,17 @@ def calibrate(
             f"value{'' if count == 1 else 's'}: measure more, or leave parameters out of fit"
         )
     try:
-        experiment = experiment.centred(experiment.start)
+        experiment = experiment.centred()
         first = experiment.run(experiment.start).responses
     except OutOfWindow as error:
         paths = " and ".join(p.path for p in experiment.parameters)
         raise NumericalError(f"give a start of {paths} in fit that is nearer; {error}") from error
     check_sizes(experiment.data, first, experiment.parameters)
-    # Correlated errors of a map scale with its depth, which is known near the estimate only.
-    problem = experiment.problem(experiment.start).without_common()
-
     least, told = math.inf, 0
 
     def responses(values: Array) -> Array:
         found = experiment.run(values).responses
+        problem = experiment.problem(values)
         misfit = float(np.sum(problem.residuals(found, problem.weights()) ** 2))
         nonlocal least, told
         if experiment.run_count > told:
@@ -231,20 +223,7 @@ def calibrate(
         return found
 
     try:
-        unsettled: Unsettled | None = None
-        try:
-            fitted = fit(responses, problem, experiment.start)
-        except Unsettled as error:
-            # The uncertainties at the start may be too far off to settle it.
-            fitted, unsettled = error.last, error
-        estimate, before = np.exp(fitted.point), problem.sigma
-        experiment = experiment.centred(estimate)
-        problem = experiment.problem(estimate)
-        if problem.common.size or np.any(np.abs(problem.sigma - before) > SIGMA_CHANGE * before):
-            estimate, least = np.where(fitted.limited(), experiment.start, estimate), math.inf
-            fitted = fit(responses, problem, estimate, steps(fitted))
-        elif unsettled:
-            raise unsettled
+        fitted = fit(responses, experiment.problem, experiment.start)
     except (CaseError, NumericalError) as error:
         if all(setup.model.case.stop.depth is None for setup in experiment.setups):
             raise
@@ -257,11 +236,11 @@ def calibrate(
 
 def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibration:
     """Return the calibration that follows from a fit."""
-    jacobian, data = fitted.sensitivity(), experiment.data
+    jacobian, data = fitted.jacobian(), experiment.data
     last = experiment.run(np.exp(fitted.point))
     root = root_covariance(jacobian)
     deviations = np.sqrt(np.sum(root**2, axis=1))
-    estimates = _estimates(fitted, jacobian, experiment, level)
+    estimates = _estimates(fitted, experiment, level)
     held = estimates["held"].to_numpy()
     settled = {each.path: float(f"{each.value:.7g}") for each in estimates.itertuples()}
     problem, computed = fitted.problem, fitted.responses[: len(data)]
@@ -269,17 +248,14 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
     scatter = fitted.repeatability * np.sqrt(np.sum(effects**2, axis=1))
     sigma = np.hypot(problem.sigma, scatter)
     residuals = fitted.residuals(fitted.point)
-    chi_square = float(np.sum(residuals[~problem.below] ** 2))
     data = data.assign(
-        stated=data["sigma"],
         sigma=sigma,
         computed=computed,
         residual=problem.residuals(computed, Weights.of(sigma)),
         alone=residuals,
     )
-    determined = np.max(np.abs(jacobian[~problem.below]), axis=0, initial=0.0) > NO_EFFECT
-    moved = sum(bool(far) for each in experiment.shifts.values() for far in each.shift)
-    freedom = max(int(np.sum(~problem.below)) - int(np.sum(determined & ~held)) - moved, 0)
+    moved = sum(n > 1 for depth in last.maps.values() for n in depth.shape)
+    freedom = max(len(data) - int(np.sum(~held)) - moved, 0)
     predictions = predicted(fitted, experiment, estimates, level)
     scatters = problem.repeatability is None
     return Calibration(
@@ -288,7 +264,7 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
         parameters=estimates,
         data=data[DATA + PLACE if "x_m" in data else DATA],
         predictions=predictions,
-        chi_square=chi_square,
+        chi_square=float(np.sum(residuals**2)),
         degrees_of_freedom=freedom,
         repeatability=fitted.repeatability,
         repeatability_estimated=scatters,
@@ -296,55 +272,21 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
         correlation=root @ root.T / np.outer(deviations, deviations),
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
         bic=fitted.deviance(fitted.point) + (len(held) + scatters) * math.log(len(data)),
-        left_out=fitted.left_out(),
         findings=(
-            *_of_places(experiment, last.maps),
             *of_fit(estimates, data, jacobian, None if scatters else freedom),
             *last.findings,
         ),
     )
 
 
-def _of_places(experiment: Experiment, depths: Mapping[int, Array]) -> Iterator[Finding]:
-    """Report maps whose scar is off the middle, or that are not levelled."""
-    for reading, depth in depths.items():
-        row, found = experiment.table.loc[reading], experiment.shifts[reading]
-        where = named(row), row["place"]
-        for axis, (shift, sigma) in enumerate(zip(*found, strict=True)):
-            if shift:
-                yield off_middle(*where, axis, shift, sigma)
-        yield from off_level(
-            *where, experiment.on_cells(reading, found.shift)[0], depth, row["sigma"]
-        )
-
-
-def _estimates(
-    fitted: Linearised, jacobian: Array, experiment: Experiment, level: float
-) -> pd.DataFrame:
+def _estimates(fitted: Linearised, experiment: Experiment, level: float) -> pd.DataFrame:
     """Return `Calibration.parameters`."""
     table = pd.DataFrame(experiment.parameters).drop(columns="start")
     values = np.exp(fitted.point)
     lower, upper = table[["lower", "upper"]].to_numpy(float, copy=True).T
     held = (values - lower <= AT_BOUND * values) | (upper - values <= AT_BOUND * values)
-    limited = fitted.limited() & ~held
     for i in np.flatnonzero(~held):
-        axis = np.eye(len(values))[i]
-        if limited[i]:
-            low, high = -math.inf, limit(fitted, axis, level)
-        else:
-            low, high = interval(fitted, axis, level)
+        low, high = interval(fitted, np.eye(len(values))[i], level)
         lower[i] = max(values[i] * math.exp(low), lower[i])
         upper[i] = min(values[i] * math.exp(high), upper[i])
-    standard = np.asarray(np.linalg.pinv(jacobian), dtype=np.float64)
-    effect = fitted.weights.weigh_transposed(standard.T).T
-    deviation, most = experiment.data[["step_sigma", "step_most"]].to_numpy().T
-    share = np.sum((effect * deviation) ** 2, axis=1) / np.sum(standard**2, axis=1)
-    return table[["path", "unit"]].assign(
-        value=values,
-        lower=lower,
-        upper=upper,
-        resolution_share=share,
-        resolution_limit=np.sum(np.abs(effect) * most, axis=1),
-        held=held,
-        limited=limited,
-    )
+    return table[["path", "unit"]].assign(value=values, lower=lower, upper=upper, held=held)

@@ -21,8 +21,6 @@ from tribo_inverse.findings import chosen, undecided
 
 STRONG = 6.0
 """Difference of the criterion above which evidence is strong (Kass & Raftery)."""
-_SIGNIFICANT = 2.0
-"""Standard errors by which a case must predict left-out tests worse to be rejected."""
 SAME = 1e-6
 """Relative rounding of two ratios."""
 
@@ -44,8 +42,7 @@ class Choice:
     cases: pd.DataFrame
     """One row per case, the best first: `case`, its name; `bic`, Schwarz's criterion,
     −2 ln L + p ln n for p parameters and n values; `weight`, its posterior probability with equal
-    priors; `left_out`, the sum of the log-likelihoods of tests predicted from the others, NaN if
-    these do not determine a parameter; `parameters`, their number."""
+    priors; `parameters`, their number."""
     calibrations: Mapping[str, Calibration]
     """By the name of the case."""
     finding: Finding
@@ -94,7 +91,6 @@ def choose_case(
     References
     ----------
     Schwarz (1978), Ann. Stat. 6, 461-464. Kass and Raftery (1995), J. Am. Stat. Assoc. 90, 773-795.
-    Vehtari, Gelman and Gabry (2017), Stat. Comput. 27, 1413-1432.
 
     Examples
     --------
@@ -122,7 +118,6 @@ def choose_case(
         {
             "case": name,
             "bic": each.bic,
-            "left_out": float(np.sum(each.left_out)) if len(each.left_out) else np.nan,
             "parameters": len(each.parameters),
         }
         for name, each in found.items()
@@ -151,16 +146,9 @@ def _measurements_of_each(
 
 
 def _decided(rows: pd.DataFrame, found: Mapping[str, Calibration]) -> Finding:
-    """Return the finding; a case that predicts left-out tests worse than another is not chosen."""
+    """Return the finding: the best case, or those that the data do not separate from it."""
     best, *others = rows.itertuples()
-    rivals = {}
-    for other in others:
-        by = other.bic - best.bic
-        ahead = found[best.case].left_out - found[other.case].left_out
-        error = float(np.std(ahead, ddof=1) * len(ahead) ** 0.5) if len(ahead) > 1 else np.inf
-        # NaN, where a test alone determines a parameter, does not reject.
-        if by < STRONG or bool(np.sum(ahead) < -_SIGNIFICANT * error):
-            rivals[other.case] = by
+    rivals = {each.case: each.bic - best.bic for each in others if each.bic - best.bic < STRONG}
     if not rivals:
         return chosen(best.case, others[0].bic - best.bic, STRONG, found[best.case].p_value)
     return undecided(

@@ -26,10 +26,8 @@ from tribo_inverse.calibration.linearised import Problem
 from tribo_inverse.calibration.measured import Measurements, data_error, read_measurements
 from tribo_inverse.calibration.parameters import Parameter, check_set, find_parameters
 from tribo_inverse.calibration.quantities import (
-    AXES,
     DEPTH_MAP,
     DEPTH_SIGMA,
-    DIAMETER_SIGMA,
     EDGE_CELL_SIGMA,
     FIELDS,
     PROFILES,
@@ -37,7 +35,7 @@ from tribo_inverse.calibration.quantities import (
     edge_sigma,
     in_si,
 )
-from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT, ScarShift, find_shift, slopes
+from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT, find_shift, slopes
 from tribo_inverse.calibration.setups import (
     READ,
     Setup,
@@ -62,7 +60,7 @@ class Experiment:
     setups: list[Setup]
     parameters: list[Parameter]
     table: pd.DataFrame
-    """`Measurements.table` with `setup` and `edge`, the σ of a computed diameter."""
+    """`Measurements.table` with `setup`."""
     heights: Mapping[int, Heights]
     """Measured depth maps by their row of the table."""
     data: pd.DataFrame
@@ -72,8 +70,6 @@ class Experiment:
     """Quantities at the end that were not measured: `setup`, `test` and `READ`."""
     repeatability: float | None
     """From test to test; None to estimate it."""
-    shifts: Mapping[int, ScarShift] = field(default_factory=dict)
-    """Shift of the scar of a map, by its row of the table."""
     runs: dict[bytes, SetupRun] = field(default_factory=dict)
     """Runs by the bytes of the parameters, with the readings of the table and predictions."""
 
@@ -93,11 +89,7 @@ class Experiment:
         parameters = find_parameters(base, measurements.fit, data["body"].unique())
         for place, test in measurements.tests.items():
             check_set(parameters, test.set, f"{place}set")
-        diameter = data["position_m"].isna() & data["quantity"].isin(AXES)
-        axis = data["quantity"].map(AXES).fillna(0).astype(int)
-        spacing = np.array([setup.model.grid.spacing for setup in setups])
-        data["edge"] = np.where(diameter, DIAMETER_SIGMA * spacing[data["setup"], axis], 0.0)
-        seen = data[~data["below"]].groupby(["setup", *READ], dropna=False)["specimen"]
+        seen = data.groupby(["setup", *READ], dropna=False)["specimen"]
         repeatability = measurements.repeatability
         if repeatability is None and not np.any(seen.nunique() > 1):
             repeatability = 0.0
@@ -130,15 +122,15 @@ class Experiment:
             for _, own in both.groupby("setup")
         ]
 
-    def moved(self, shifts: Mapping[int, ScarShift]) -> Experiment:
+    def moved(self, shifts: Mapping[int, tuple[float, float]]) -> Experiment:
         """Return it with maps moved so that their scars lie on the middle of the contact."""
         parts = []
         for reading, row in self.table.groupby(level=0):
             rows = row.assign(reading=reading)
             if row["quantity"].iloc[0] == DEPTH_MAP:
-                rows = self._of_map(rows, shifts.get(reading, ScarShift()).shift)
+                rows = self._of_map(rows, shifts.get(reading, (0.0, 0.0)))
             parts.append(rows)
-        return replace(self, data=pd.concat(parts, ignore_index=True), shifts=shifts)
+        return replace(self, data=pd.concat(parts, ignore_index=True))
 
     def on_cells(self, reading: int, shift: tuple[float, float]) -> tuple[Array, Array]:
         """Return a map on the cells of its surface, in m, and its noise; see `cells.on_cells`.
@@ -164,21 +156,17 @@ class Experiment:
             blocks["measured"] = math.nan
         blocks[["shift_x_m", "shift_y_m"]] = shift
         rows = row.loc[row.index.repeat(len(blocks))].reset_index(drop=True).assign(**blocks)
-        for name in ("sigma", "step_sigma"):
-            rows[name] *= rows["noise"]
+        rows["sigma"] *= rows["noise"]
         return rows
 
-    def centred(self, values: Array) -> Experiment:
-        """Return it with maps moved so that their scars lie where a run has them."""
-        found = {}
-        for reading, depth in self._readings_of(values).maps.items():
+    def centred(self) -> Experiment:
+        """Return it with maps moved so that their scars lie where the first run has them."""
+        shifts = {}
+        for reading, depth in self._readings_of(self.start).maps.items():
             if reading in self.heights:
-                row = self.table.loc[reading]
-                spacing = self.setups[row["setup"]].model.grid.spacing
-                sigma = math.hypot(row["sigma"], DEPTH_SIGMA * float(np.max(depth)))
-                shift = find_shift(self.heights[reading], depth, spacing, sigma)
-                found[reading] = shift.unless_near(self.shifts.get(reading, ScarShift()), spacing)
-        return self.moved(found) if found else self
+                model = self.setups[self.table.loc[reading, "setup"]].model
+                shifts[reading] = find_shift(self.heights[reading], depth, model.grid.spacing)
+        return self.moved(shifts) if shifts else self
 
     def run(self, values: Array) -> SetupRun:
         """Return a run with one response per row of the data, then per prediction."""
@@ -233,17 +221,16 @@ class Experiment:
         """Return the least-squares problem, with the errors of the grid in a run of `values`."""
         data, run = self.data, self.run(values)
         sigma = np.hypot(data["sigma"], run.grid_sigma[: len(data)]).to_numpy()
-        computed = pd.Series(run.responses[: len(data)]).abs()
-        largest = computed.groupby(data["place"]).transform("max").to_numpy()
+        depths = data["measured"].fillna(pd.Series(run.responses[: len(data)])).abs()
+        largest = depths.groupby(data["place"]).transform("max")
         is_field = data["quantity"].isin(FIELDS)
-        small = np.where(is_field, np.maximum(LINEAR_BELOW * largest, sigma), 0.0)
+        small = np.where(is_field, np.maximum(LINEAR_BELOW * largest, data["sigma"]), 0.0)
         with np.errstate(divide="ignore"):
             lower, upper = np.log([(p.lower, p.upper) for p in self.parameters]).T
         return Problem(
             names=tuple(p.path for p in self.parameters),
             observed=data["measured"].to_numpy(),
             sigma=sigma,
-            below=data["below"].to_numpy(),
             specimen=data["specimen"].to_numpy(),
             repeatability=self.repeatability,
             small=np.append(small, np.zeros(len(self.predicted))),
@@ -279,17 +266,17 @@ class Experiment:
 def check_sizes(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> None:
     """Refuse entries that differ from the first run by a factor above 300, with a line for each."""
     given = ", ".join(f"{p.path} = {in_si(p.start, p.unit)}" for p in parameters)
-    sizes = data[["unit", "sigma", "below"]].assign(
+    sizes = data[["unit", "sigma"]].assign(
         value=data["measured"].abs(), own=np.abs(computed[: len(data)])
     )
     refused = [
         f"{place} was read as {in_si(value, unit)}, and the case gives {in_si(own, unit)} with "
         f"{given}: check the value and its unit, or give a start in fit that is nearer to it"
-        for place, unit, sigma, below, value, own in (
+        for place, unit, sigma, value, own in (
             sizes.groupby(data["place"], sort=False).max().itertuples()
         )
         # A value below its uncertainty is only an upper limit.
-        if own > REFUSED * max(value, sigma) or (value > REFUSED * own > 0 and not below)
+        if own > REFUSED * max(value, sigma) or value > REFUSED * own > 0
     ]
     if refused:
         raise CaseError("\n".join(refused))

@@ -6,9 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import least_squares, minimize_scalar
-from scipy.special import log_ndtr
-from scipy.stats import multivariate_normal
-from tribo import Array, Mask
+from tribo import Array
 
 LONGEST_STEP = np.log(100.0)
 """Largest change of a logarithm between two runs."""
@@ -16,17 +14,12 @@ LONGEST_STEP_OF_DEPTHS = np.log(4.0)
 """The same where profiles or depth maps, which are linearised, are among the data."""
 REPEATABILITY_RANGE = (1e-3, 3.0)
 """Smallest and largest repeatability that is estimated."""
-INSENSITIVE = 0.1
-"""Change of all data together, in standard deviations, per change of a parameter by a factor e,
-below which the data are taken as insensitive to it."""
 COLLINEAR = 0.01
 """Singular value of the Jacobian with normalised columns, 1 if the effects of parameters are
 orthogonal, up to which the data do not separate them: steps have no part in that direction."""
 _STAY = 0.1
 """Weight of a move in that direction, relative to the effects of the parameters on the data."""
 _ITERATIONS, _CONVERGED, _RIDGE = 30, 1e-5, 1e-12
-_UNDETERMINED = 10.0
-"""Standard deviation of a logarithm above which a parameter counts as undetermined."""
 
 
 @dataclass(frozen=True)
@@ -64,15 +57,10 @@ class Weights:
         common = self.reduction * (self.vectors.T @ values).T
         return np.asarray(values - self.vectors @ common.T)
 
-    def diagonal(self, rows: Mask) -> Array:
-        """Return the diagonal of W at some rows."""
-        return np.asarray((1 - self.vectors[rows] ** 2 @ self.reduction) / self.sigma[rows])
-
-    def log_determinant(self, rows: Mask) -> float:
-        """Return ln |W| of some rows, whose errors are independent of the other rows."""
-        inside = self.vectors[rows].T @ self.vectors[rows]
-        size = np.linalg.slogdet(np.eye(len(inside)) - self.reduction[:, None] * inside)[1]
-        return float(size - np.sum(np.log(self.sigma[rows])))
+    @property
+    def log_determinant(self) -> float:
+        """Logarithm of the determinant of W."""
+        return float(np.sum(np.log1p(-self.reduction)) - np.sum(np.log(self.sigma)))
 
 
 @dataclass(frozen=True)
@@ -85,8 +73,6 @@ class Problem:
     """Measured values, shape (n,)."""
     sigma: Array
     """Their standard deviations, shape (n,)."""
-    below: Mask
-    """Whether a value is censored, below a limit of detection; shape (n,)."""
     specimen: Array
     """Number of the test of each value, shape (n,)."""
     repeatability: float | None
@@ -107,10 +93,6 @@ class Problem:
         parts = [self.common] if scatter is None else [self.common, scatter]
         return Weights.of(self.sigma, np.concatenate(parts, axis=1))
 
-    def without_common(self) -> Problem:
-        """Return the problem without correlated errors."""
-        return replace(self, common=self.common[:, :0])
-
     def scaled(self, responses: Array) -> Array:
         """Return responses on a scale on which slopes change little: logarithms, linear near 0.
 
@@ -122,22 +104,12 @@ class Problem:
         return found
 
     def residuals(self, responses: Array, weights: Weights) -> Array:
-        """Return weighted residuals; their sum of squares is −2 ln L but for a constant.
-
-        The residual of a censored value is √(−2 ln Φ(z)), where the response lies z standard
-        deviations below the limit of detection.
-        """
-        found = weights.weigh(responses[: len(self.observed)] - self.observed)
-        found[self.below] = np.sqrt(-2 * log_ndtr(-found[self.below]))
-        return found
+        """Return weighted residuals; their sum of squares is −2 ln L but for a constant."""
+        return weights.weigh(responses[: len(self.observed)] - self.observed)
 
     def by_test(self, effects: Array) -> Array:
-        """Return the effects of parameters that differ from test to test, shape (n, tests · p).
-
-        Each censored value counts as a test of its own, so that it is independent of the others.
-        """
-        test = np.where(self.below, -1 - np.arange(len(self.below)), self.specimen)
-        own = test[:, None] == np.unique(test)
+        """Return the effects of parameters that differ from test to test, shape (n, tests · p)."""
+        own = self.specimen[:, None] == np.unique(self.specimen)
         return np.asarray((own[:, :, None] * effects[:, None, :]).reshape(len(effects), -1))
 
 
@@ -179,55 +151,28 @@ class Linearised:
         """Return the weighted residuals of the data; see `Problem.residuals`."""
         return self.problem.residuals(self.at(point), self.weights)
 
-    def jacobian(self, point: Array) -> Array:
-        """Return the derivatives of `residuals`, shape (n, p)."""
-        found = self.weights.weigh(self.effects(point))
-        below = self.problem.below
-        # d/dz of √(−2 ln Φ(z)) is −φ/(Φ √(−2 ln Φ)).
-        root = self.residuals(point)[below]
-        above = (self.at(point)[: len(below)] - self.problem.observed)[below]
-        above = above * self.weights.diagonal(below)
-        inside = np.exp(-0.5 * above**2 + 0.5 * root**2) / np.sqrt(2 * np.pi)
-        slope = np.divide(inside, root, out=np.zeros_like(root), where=root > 0)
-        found[below] *= slope[:, None]
-        return found
-
-    def sensitivity(self) -> Array:
-        """Return the weighted derivatives of the data, shape (n, p).
-
-        For a censored value they are taken at the limit of detection.
-        """
-        effects, observed = self.effects(self.point), self.problem.observed
-        below = self.problem.below
-        met = observed[below] / self.responses[: len(below)][below]
-        effects[below] *= np.maximum(met, 1.0)[:, None]
-        return self.weights.weigh(effects)
-
-    def limited(self) -> Mask:
-        """Return which parameters only censored values depend on, shape (p,)."""
-        found, below = self.sensitivity(), self.problem.below
-        not_by_values = np.sqrt(np.sum(found[~below] ** 2, axis=0)) < INSENSITIVE
-        by_limits = np.any(np.abs(found[below]) > INSENSITIVE, axis=0)
-        return np.asarray(by_limits & not_by_values)
+    def jacobian(self, point: Array | None = None) -> Array:
+        """Return the derivatives of `residuals`, shape (n, p), at the last run if no point."""
+        return self.weights.weigh(self.effects(self.point if point is None else point))
 
     def bounds(self, reach: float) -> tuple[Array, Array]:
         """Return the bounds of points within `reach` of the point of the run."""
         lower = np.maximum(self.problem.lower, self.point - reach)
         return lower, np.minimum(self.problem.upper, self.point + reach)
 
-    def least(self, start: Array, rows: Mask | slice = slice(None)) -> Array:
-        """Return the least-squares point of rows of the data, within bounds and a longest step.
+    def least(self) -> Array:
+        """Return the least-squares point of the data, within bounds and a longest step.
 
         It stays where it is along directions that the data do not determine.
         """
         has_depths = np.any(self.problem.small > 0)
         ends = self.bounds(LONGEST_STEP_OF_DEPTHS if has_depths else LONGEST_STEP)
-        size, angles, directions = normalised(self.sensitivity())
+        size, angles, directions = normalised(self.jacobian())
         stay = _STAY * directions[angles <= COLLINEAR] * size
         found = least_squares(
-            lambda point: np.append(self.residuals(point)[rows], stay @ (point - self.point)),
-            np.clip(start, *ends),
-            lambda point: np.concatenate([self.jacobian(point)[rows], stay]),
+            lambda point: np.append(self.residuals(point), stay @ (point - self.point)),
+            np.clip(self.point, *ends),
+            lambda point: np.concatenate([self.jacobian(point), stay]),
             ends,
             xtol=1e-10,
             ftol=1e-10,
@@ -237,16 +182,21 @@ class Linearised:
 
     def best(self) -> tuple[Linearised, Array]:
         """Return the model with the weights of its least-squares point, and that point."""
-        here, point = self, self.least(self.point)
+        here, point = self, self.least()
         if self.problem.repeatability == 0:
             return here, point
         for _ in range(_ITERATIONS):
             given = self.problem.repeatability
             here = here.weighed(point, here._estimated(point) if given is None else given)
-            former, point = point, here.least(point)
+            former, point = point, here.least()
             if np.max(np.abs(point - former)) < _CONVERGED:
                 break
         return here, point
+
+    def about(self, point: Array, responses: Array, problem: Problem) -> Linearised:
+        """Return the model about another run, with the same slopes."""
+        weights = problem.weights()
+        return replace(self, point=point, responses=responses, problem=problem, weights=weights)
 
     def weighed(self, point: Array, repeatability: float) -> Linearised:
         """Return the model with the weights that follow from a repeatability at a point."""
@@ -264,7 +214,7 @@ class Linearised:
         """
         if self.problem.repeatability is not None:
             return np.inf
-        jacobian = self.sensitivity()
+        jacobian = self.jacobian()
         scatter = self.weights.weigh(self.problem.by_test(self.effects(self.point)))
         directions = np.linalg.svd(jacobian, full_matrices=False)[0]
         left = scatter - directions @ (directions.T @ scatter)
@@ -277,38 +227,8 @@ class Linearised:
 
     def deviance(self, point: Array) -> float:
         """Return −2 ln L at a point."""
-        values = ~self.problem.below
-        scale = np.sum(values) * np.log(2 * np.pi) - 2 * self.weights.log_determinant(values)
+        scale = len(self.problem.observed) * np.log(2 * np.pi) - 2 * self.weights.log_determinant
         return float(np.sum(self.residuals(point) ** 2) + scale)
-
-    def left_out(self) -> Array:
-        """Return the log-likelihood of each test predicted from all others, shape (tests,).
-
-        NaN if the others do not determine a parameter; empty for a single test.
-        """
-        found, below, n = [], self.problem.below, len(self.problem.observed)
-        tests = np.unique(self.problem.specimen)
-        for test in tests if len(tests) > 1 else []:
-            own = self.problem.specimen == test
-            point = self.least(self.point, ~own)
-            rest = replace(self, point=point, responses=self.at(point))
-            root = root_covariance(rest.sensitivity()[~own])
-            if np.max(np.sum(root**2, axis=1)) >= _UNDETERMINED**2:
-                found.append(np.nan)
-                continue
-            # The error of the estimate adds to the error of each value.
-            from_estimate = self.weights.weigh(rest.effects(point)) @ root
-            residuals = self.weights.weigh(rest.responses[:n] - self.problem.observed)
-            values, limits = own & ~below, own & below
-            sigma = np.sqrt(1 + np.sum(from_estimate[limits] ** 2, axis=1))
-            likelihood = np.sum(log_ndtr(-residuals[limits] / sigma))
-            if np.any(values):
-                covariance = np.eye(np.sum(values))
-                covariance += from_estimate[values] @ from_estimate[values].T
-                likelihood += multivariate_normal.logpdf(residuals[values], cov=covariance)
-                likelihood += self.weights.log_determinant(values)
-            found.append(float(likelihood))
-        return np.array(found)
 
     def _estimated(self, point: Array) -> float:
         """Return the repeatability by restricted maximum likelihood (REML) about a point."""

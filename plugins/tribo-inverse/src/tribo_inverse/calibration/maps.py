@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 from scipy.fft import dctn, idctn
+from scipy.optimize import minimize
 from scipy.special import chdtrc, ndtri
 from tribo import Array, Case, CaseError, Finding, Mask, NumericalError, Simulation
 from tribo.kernel_api import Model, assemble, begin, march, varied
@@ -19,20 +20,22 @@ from tribo_inverse.adjoint.backwards import swept_back
 from tribo_inverse.adjoint.gradient import FURTHEST, ValueAndGradient
 from tribo_inverse.adjoint.view import Seeds, View
 from tribo_inverse.calibration.cells import cell_means, surface_shape
-from tribo_inverse.calibration.descent import descended
 from tribo_inverse.calibration.lanczos import eigenpairs
-from tribo_inverse.calibration.map_errors import MapErrors
+from tribo_inverse.calibration.linearised import Weights
 from tribo_inverse.calibration.prior import Prior
+from tribo_inverse.calibration.quantities import EDGE_CELL_SIGMA, edge_sigma
+from tribo_inverse.calibration.scar_shift import slopes
 from tribo_inverse.findings import UNLIKELY, of_maps
 from tribo_inverse.recording.local import localised
 from tribo_inverse.recording.tape import Tape, recorded
 
 STEP = 1e-2
 """Largest change of a logarithm for the finite difference of all depths along a direction."""
-FIRST_ITERATIONS = 10
-"""Steps of L-BFGS before the information is computed."""
 ITERATIONS = 100
-"""Largest number of steps after it."""
+"""Largest number of steps to the most probable map."""
+LEVEL = 0.1
+"""Norm of the gradient of −ln p, in standard deviations of the prior, that ends them: −ln p is then
+within half of its square of the least, since the prior alone curves it by 1."""
 FINE = 0.125
 """Cell size, in correlation lengths, below which the fit starts on a grid of half as many cells."""
 FEWEST = 16
@@ -59,8 +62,6 @@ class LocalMap:
     """Depth of the fit, in m."""
     uncertainty: Array
     """Standard deviation of their difference, in m."""
-    off: tuple[float, ...] = ()
-    """Offset of the scar from its position in the map, along each axis of the map, in m."""
 
     @property
     def factor(self) -> Array:
@@ -90,10 +91,8 @@ class FittedMaps:
     """Number of products with the Fisher information."""
     chi_square: float
     degrees_of_freedom: float
-    """Measured cells, less Σ λ/(1 + λ) over the eigenvalues λ of the information, and less the same
-    for the positions of the maps."""
-    by_grid: float = 0.0
-    """Degrees of freedom due to errors of the grid, which may be less than stated."""
+    """Measured cells, less Σ λ/(1 + λ) over the eigenvalues λ of the information, and less one for
+    each unknown coordinate of the position of a map."""
     findings: tuple[Finding, ...] = ()
     """Findings on the maps and the fit."""
 
@@ -124,13 +123,13 @@ def fit_maps(
 ) -> FittedMaps:
     """Fit local factors on the wear coefficients of bodies to maps of their depth.
 
-    The maximum of the posterior is found by L-BFGS with exact gradients, in cosine modes of the
-    prior. The posterior's standard deviation is linearised: the Fisher information Jᵀ V⁻¹ J is
-    projected on a Krylov space (Bui-Thanh et al. 2013, SIAM J. Sci. Comput. 35, A2494-A2523) by at
-    most `products` products, each a run and an adjoint pass. Directions beyond keep the prior's
-    standard deviation, which is too large rather than too small. The information also
-    preconditions L-BFGS. Where cells are far smaller than the correlation lengths, the fit starts
-    on a coarser grid.
+    The maximum of the posterior is found by a trust-region Newton method with exact gradients, in
+    cosine modes of the prior. The Fisher information Jᵀ V⁻¹ J stands for the curvature of the
+    misfit, and for the posterior's standard deviation. It is projected on a Krylov space (Bui-Thanh
+    et al. 2013, SIAM J. Sci. Comput. 35, A2494-A2523) by at most `products` products at the case
+    itself and as many at the maximum, each a run and an adjoint pass. Directions beyond keep the
+    prior's standard deviation, which is too large rather than too small. Where cells are far
+    smaller than the correlation lengths, the fit starts on a coarser grid.
 
     `depths` has, by the name of the body, the mean depth of each cell at the end, in m, of the
     shape of `View.wear`, NaN where missing, and their standard deviations, to which `edge_sigma`
@@ -148,14 +147,12 @@ def fit_maps(
     z, basis, values = posterior.fitted(products)
     logs = posterior.logs(z)
     fit = posterior.run(logs)
-    residuals = posterior.residuals(fit)
     reduction = sum(
         value / (1 + value) * posterior.logs(vector) ** 2
         for vector, value in zip(basis, values, strict=True)
     )
     maps = {}
     for name, part in posterior.parts.items():
-        errors, off = posterior.errors[name], residuals[name]
         shape, prior = posterior.shapes[name], np.full(posterior.shapes[name], priors[name].spread)
         variance = prior**2 - reduction[part].reshape(shape)
         maps[name] = LocalMap(
@@ -164,16 +161,11 @@ def fit_maps(
             prior,
             posterior.model.grid.spacing,
             depths[name][0],
-            cell_means(fit.wear(name)) - errors.sigma * errors.moved(off),
-            errors.sigma,
-            errors.off(off),
+            cell_means(fit.wear(name)),
+            posterior.weights[name].sigma.reshape(shape),
         )
     read = sum(int(np.sum(~np.isnan(depth))) for depth, _ in depths.values())
-    of_places = sum(each.degrees_of_freedom for each in posterior.errors.values())
-    by_grid = sum(
-        float(np.sum((1 - (sigma / posterior.errors[name].sigma) ** 2)[~np.isnan(depth)]))
-        for name, (depth, sigma) in depths.items()
-    )
+    of_places = sum(weights.vectors.shape[1] for weights in posterior.weights.values())
     made = int(np.sum(np.isnan(misfits)))
     found = FittedMaps(
         maps=maps,
@@ -181,7 +173,6 @@ def fit_maps(
         products=made,
         chi_square=2 * posterior.misfit(fit)[0],
         degrees_of_freedom=read - float(np.sum(values / (1 + values))) - of_places,
-        by_grid=by_grid,
     )
     return replace(found, findings=tuple(of_maps(found)))
 
@@ -211,7 +202,7 @@ class _Posterior:
             self.scales[name] = priors[name].scale(self.amplitudes[name])
             self.parts[name] = slice(self.size, self.size + shape[0] * shape[1])
             self.size = self.parts[name].stop
-        self.errors: dict[str, MapErrors] = {}
+        self.weights: dict[str, Weights] = {}
         self.gradient = ValueAndGradient(model, self.misfit, (), list(depths))
 
     def halved(self) -> _Posterior | None:
@@ -251,44 +242,42 @@ class _Posterior:
         if coarse is None:
             near = np.zeros(self.size)
             self.weigh(near)
-            near = self.least(near, FIRST_ITERATIONS)
+            near = self.least(near, *self.information(near, products))
             self.weigh(near)
-            with closing(Tape()) as tape:
-                basis, values = eigenpairs(
-                    self.products(self.logs(near), tape), self.size, products
-                )
+            basis, values = self.information(near, products)
         else:
             near, basis, values = coarse.fitted(products)
             near = self.raised(coarse, near)
             self.weigh(near)
             basis = np.array([self.raised(coarse, each) for each in basis])
-        return self.least(near, ITERATIONS, basis, (1 + values) ** -0.5 - 1), basis, values
+        return self.least(near, basis, values), basis, values
 
-    def least(
-        self, near: Array, steps: int, basis: Array | None = None, less: Array | None = None
-    ) -> Array:
-        """Return the most probable amplitudes, or the amplitudes after `steps`, by L-BFGS.
+    def least(self, near: Array, basis: Array, values: Array) -> Array:
+        """Return the most probable amplitudes, given eigenpairs of the information nearby."""
 
-        The posterior's standard deviation along the rows of `basis` is 1 + `less`, which
-        preconditions the steps.
-        """
-
-        def preconditioned(y: Array) -> Array:
-            if basis is None or less is None:
-                return y
-            along = less * np.sum(basis * y, axis=1)
-            return np.asarray(y + np.sum(along[:, None] * basis, axis=0))
-
-        def posterior(y: Array) -> tuple[float, Array]:
-            z = near + preconditioned(y)
+        def posterior(z: Array) -> tuple[float, Array]:
             logs = self.logs(z)
-            if (most := float(np.max(np.abs(logs)))) > FURTHEST:
-                raise NumericalError(f"a step went {most:.3g} away in the logarithm of a factor")
-            value, slope = self.gradient(logs)
+            try:
+                if (most := float(np.max(np.abs(logs)))) > FURTHEST:
+                    raise NumericalError(f"a step went {most:.3g} away in a factor's logarithm")
+                value, slope = self.gradient(logs)
+            except NumericalError:
+                if np.array_equal(z, near):
+                    raise
+                # The trust region shrinks.
+                return math.inf, np.zeros_like(z)
             self.tell(2 * value)
-            return value + 0.5 * float(np.sum(z * z)), preconditioned(self.adjoint(slope) + z)
+            return value + 0.5 * float(np.sum(z * z)), self.adjoint(slope) + z
 
-        return np.asarray(near + preconditioned(descended(posterior, 0 * near, steps)))
+        def curved(_: Array, move: Array) -> Array:
+            along = values * np.sum(basis * move, axis=1)
+            return np.asarray(move + np.sum(along[:, None] * basis, axis=0))
+
+        options = {"maxiter": ITERATIONS, "gtol": LEVEL}
+        found = minimize(
+            posterior, near, jac=True, hessp=curved, method="trust-ncg", options=options
+        )
+        return np.asarray(found.x)
 
     def logs(self, z: Array) -> Array:
         """Return ln(k/k₀) of amplitudes."""
@@ -308,29 +297,35 @@ class _Posterior:
         return found
 
     def weigh(self, z: Array) -> None:
-        """Set the errors of the maps, with edges and slopes of the scars of these amplitudes."""
+        """Set the weights of the maps, with edges and slopes of the scars of these amplitudes."""
         view, spacing = self.run(self.logs(z)), self.model.grid.spacing
-        self.errors = {
-            name: MapErrors.of(view.wear(name), *given, self.placed.get(name, (0.0, 0.0)), spacing)
-            for name, given in self.depths.items()
-        }
-
-    def residuals(self, view: View) -> dict[str, Array]:
-        """Return computed less measured depths, in standard deviations; 0 where missing."""
-        return {
-            name: np.nan_to_num((cell_means(view.wear(name)) - depth) / self.errors[name].sigma)
-            for name, (depth, _) in self.depths.items()
-        }
+        for name, (depth, sigma) in self.depths.items():
+            worn, placed = view.wear(name), self.placed.get(name, (0.0, 0.0))
+            total = np.hypot(sigma, edge_sigma(worn, EDGE_CELL_SIGMA))
+            along = slopes(cell_means(worn), spacing).items()
+            moves = [placed[axis] * slope for axis, slope in along if placed[axis]]
+            columns = np.array([np.where(np.isnan(depth), 0.0, each).ravel() for each in moves])
+            self.weights[name] = Weights.of(total.ravel(), columns.reshape(-1, depth.size).T)
 
     def misfit(self, view: View) -> tuple[float, Seeds]:
         """Return half of the weighed sum of the squared residuals, and its derivative."""
         value, seeds = 0.0, {}
-        for name, off in self.residuals(view).items():
-            weighed = self.errors[name].weighed(off)
-            value += 0.5 * float(np.sum(off * weighed))
-            # `cell_means` is its own adjoint.
-            seeds[name] = cell_means(weighed / self.errors[name].sigma)
+        for name, (depth, _) in self.depths.items():
+            residuals = np.nan_to_num(cell_means(view.wear(name)) - depth)
+            value += 0.5 * self.square(name, residuals)
+            seeds[name] = self.seed(name, residuals)
         return value, Seeds(seeds)
+
+    def square(self, name: str, residuals: Array) -> float:
+        """Return the weighed sum of squares of residuals, in m, of a map."""
+        return float(np.sum(self.weights[name].weigh(residuals.ravel()) ** 2))
+
+    def seed(self, name: str, residuals: Array) -> Array:
+        """Return half of the derivative of `square` by the depth worn."""
+        weights = self.weights[name]
+        weighed = weights.weigh_transposed(weights.weigh(residuals.ravel()))
+        # `cell_means` is its own adjoint.
+        return cell_means(weighed.reshape(residuals.shape))
 
     def local(self, logs: Array) -> Model:
         """Return the model with local factors, given as ln(k/k₀)."""
@@ -342,21 +337,24 @@ class _Posterior:
         *_, last = march(model, begin(model))
         return View(model, last.state)
 
-    def products(self, logs: Array, tape: Tape) -> Callable[[Array], Array]:
-        """Return the function that multiplies amplitudes by the information Jᵀ V⁻¹ J of a map."""
+    def information(self, z: Array, products: int) -> tuple[Array, Array]:
+        """Return eigenvectors, as rows, and eigenvalues of Jᵀ V⁻¹ J about amplitudes."""
+        logs = self.logs(z)
         model, time = self.local(logs), self.model.end_time
-        end = View(model, recorded(model, [time], tape)[time])
+        with closing(Tape()) as tape:
+            end = View(model, recorded(model, [time], tape)[time])
 
-        def product(z: Array) -> Array:
-            move = self.logs(z)
-            step = STEP / np.max(np.abs(move))
-            moved, seeds = self.run(logs + step * move), {}
-            for name, (depth, _) in self.depths.items():
-                change, errors = cell_means(moved.wear(name) - end.wear(name)), self.errors[name]
-                off = np.where(np.isnan(depth), 0.0, change / (step * errors.sigma))
-                seeds[name] = cell_means(errors.weighed(off) / errors.sigma)
-            found = swept_back(model, tape, {time: Seeds(seeds)}, [])
-            self.tell(math.nan)
-            return self.adjoint(np.concatenate([found.wear_rate[name].ravel() for name in seeds]))
+            def product(vector: Array) -> Array:
+                move = self.logs(vector)
+                step = STEP / np.max(np.abs(move))
+                moved, seeds = self.run(logs + step * move), {}
+                for name, (depth, _) in self.depths.items():
+                    change = cell_means(moved.wear(name) - end.wear(name)) / step
+                    seeds[name] = self.seed(name, np.where(np.isnan(depth), 0.0, change))
+                found = swept_back(model, tape, {time: Seeds(seeds)}, [])
+                self.tell(math.nan)
+                return self.adjoint(
+                    np.concatenate([found.wear_rate[name].ravel() for name in seeds])
+                )
 
-        return product
+            return eigenpairs(product, self.size, products)

@@ -16,7 +16,7 @@ from pydantic import (
     field_validator,
     model_validator,
 )
-from tribo import Array, CaseError, Mask, Quantity, Table
+from tribo import Array, CaseError, Quantity, Table
 from tribo.kernel_api import by_path, case_error, number, read_toml, to_toml
 
 from tribo_inverse.calibration.quantities import (
@@ -32,10 +32,6 @@ LEAST_UNCERTAINTY = 1e-6
 """Smallest relative uncertainty."""
 NOISE = 3.0
 """Standard deviations by which a mean depth below 0 is not noise."""
-
-
-class Below(float):
-    """A limit that a value is below, as ``"< 0.1 mg"``."""
 
 
 class Share(float):
@@ -69,7 +65,7 @@ NUMBERS = dict.fromkeys(PROFILES, ("value", "position")) | {
 }
 """Keys of the numbers of a quantity; of those that are left out it is the value alone."""
 LOCAL = "local coefficients are fitted to maps of one test: give [[map]] in a file of its own"
-UNSEEN = "what was too little to be seen is given as a limit, '< 0.1 mg' say"
+UNSEEN = "half the limit of detection stands for what was not seen, with that uncertainty"
 
 
 _EXAMPLE = {"body": "ball", "quantity": "mass", "value": "2 mg", "resolution": "0.1 mg"}
@@ -91,7 +87,7 @@ class MeasuredEntry(Table):
     quantity: Annotated[str, _QuantityName()]
     """Measured quantity: one of `QUANTITIES`, or of a package."""
     value: float | tuple[float, ...] | None = None
-    """The value with its unit, or a limit of detection, ``"< 0.1 mg"``; none in a planned test.
+    """The value with its unit; none in a planned test.
 
     A list of depths for a profile, a list of values for repeated tests.
     """
@@ -134,10 +130,7 @@ class MeasuredEntry(Table):
         def read(part: object) -> float:
             if info.field_name == "uncertainty" and str(part).rstrip().endswith("%"):
                 return _part_of(str(part).strip(), name)
-            is_limit = isinstance(part, str) and part.lstrip().startswith("<")
-            if is_limit and is_value and not is_profile:
-                return Below(mark.read(str(part).lstrip()[1:].strip()))
-            return part if isinstance(part, Below) else mark.read(part)
+            return mark.read(part)
 
         try:
             if is_value and isinstance(value, list | tuple):
@@ -208,16 +201,9 @@ class MeasuredEntry(Table):
             return np.full(len(self.position or (None,)), np.nan)
         return np.atleast_1d(np.array(self.value, dtype=float))
 
-    @property
-    def below(self) -> Mask:
-        """Which of the values are limits of detection, shape (n,)."""
-        given = self.value if isinstance(self.value, tuple) else [self.value] * len(self.values)
-        return np.array([isinstance(each, Below) for each in given])
-
     def rows(self) -> pd.DataFrame:
         """Return one row of `Measurements.table` per value."""
-        step_sigma, step_most = self.from_resolution
-        values = pd.DataFrame({"measured": self.values, "below": self.below})
+        values = pd.DataFrame({"measured": self.values})
         return values.assign(
             specimen=0 if self.position else values.index,
             body=self.body,
@@ -228,16 +214,13 @@ class MeasuredEntry(Table):
             unit=quantity(self.quantity).unit,
             sigma=self.sigma,
             step=self.resolution or 0.0,
-            step_sigma=step_sigma,
-            step_most=step_most,
         )
 
     @property
-    def from_resolution(self) -> tuple[float, float]:
-        """Standard deviation and largest error of a reading, or of the difference of two."""
-        step = self.resolution or 0.0
+    def from_resolution(self) -> float:
+        """Standard deviation of a reading, or of the difference of two."""
         readings = 2 if self.quantity == "mass" else 1
-        return step * np.sqrt(readings / 12), step * readings / 2
+        return (self.resolution or 0.0) * math.sqrt(readings / 12)
 
     @property
     def sigma(self) -> Array | float:
@@ -245,7 +228,7 @@ class MeasuredEntry(Table):
         own: Array | float = self.uncertainty or 0.0
         if isinstance(self.uncertainty, Share):
             own = self.uncertainty * self.values
-        return np.hypot(own, self.from_resolution[0])
+        return np.hypot(own, self.from_resolution)
 
 
 def _list(value: Any, info: ValidationInfo) -> Any:
@@ -324,9 +307,6 @@ class MapEntry(Table):
     """Prior standard deviation of the logarithm of the coefficient from place to place."""
     length: Annotated[float, Quantity("m", above=0)]
     """Correlation length of the coefficient."""
-    centred: bool = False
-    """Whether the middle of the contact is known to be the middle of the map; the position of the
-    scar is fitted otherwise."""
 
 
 class Measurements(Table):
@@ -358,9 +338,8 @@ class Measurements(Table):
         """Return the measured numbers in SI, one row each; a depth map has one without a value.
 
         `place` is the entry in the file, `test` the name of its test, `of` the index of the test in
-        `tests`, `specimen` the number of the single test, `entry` the `MeasuredEntry`; `step_sigma`
-        and `step_most` are the standard deviation and the largest error due to the resolution,
-        `step`.
+        `tests`, `specimen` the number of the single test, `entry` the `MeasuredEntry`, `step` the
+        resolution.
         """
         tables, specimens = [], 0
         for of, (place, test) in enumerate(self.tests.items()):

@@ -135,7 +135,7 @@ def plan_tests(
     here = differenced(responses, problem, point, computed)
     here = here.weighed(point, measurements.repeatability)
     check_effect(here)
-    sensitivity, kinds = here.sensitivity(), []
+    sensitivity, kinds = here.jacobian(), []
     for _, own in experiment.data.groupby("setup")["specimen"]:
         rows = own.index[own == own.min()]
         kinds.append(sensitivity[rows].T @ sensitivity[rows])

@@ -165,7 +165,7 @@ def _check_entry(model: Model, entry: MeasuredEntry, place: str) -> None:
             f"{place}.time",
         )
     if entry.position is None and entry.quantity in AXES:
-        width = np.max(entry.values[~entry.below], initial=0.0)
+        width = np.max(entry.values)
         if width > (size := model.grid.size[AXES[entry.quantity]]):
             raise CaseError(
                 f"{1e3 * width:g} mm is wider than the window, {1e3 * size:g} mm: check its unit, "
