@@ -38,9 +38,6 @@ def test_the_law_that_made_the_data_is_chosen_where_they_are_exact():
     told = choose_case(CASES, rough).finding
     assert (told.kind, told.place) == ("undecided", "archard, power")
     assert told.value < told.limit
-    # Of the ball, whose mass was measured, its volume says nothing more.
-    assert "they differ most in the " in told.words
-    assert "the volume of 'ball'" not in told.words
     assert json.dumps(found.as_json())
 
 

@@ -13,7 +13,7 @@ from scipy.special import chdtrc
 from tribo import Array, Finding
 
 from tribo_inverse.calibration.linearised import COLLINEAR, normalised
-from tribo_inverse.calibration.quantities import in_si, in_words, p_words, percent
+from tribo_inverse.calibration.quantities import in_si, in_words, p_words
 
 if TYPE_CHECKING:
     from tribo_inverse.calibration.maps import FittedMaps
@@ -174,22 +174,13 @@ def chosen(case: str, by: float, limit: float, p_value: float | None) -> Finding
     return Finding("chosen", words, value=by, limit=limit, place=case)
 
 
-def undecided(best: str, rivals: Mapping[str, float], limit: float, following: Any) -> Finding:
-    """Report cases that the data do not separate, and the quantity to measure next, if any."""
-    more = ""
-    if following is not None:
-        name, test = following.quantity, following.test
-        values = " and ".join(in_words(name, each) for each in following[["value_x", "value_y"]])
-        where = f" in {test}" if test else ""
-        more = (
-            f"; of what was not measured they differ most in the {name} of {following.body!r}"
-            f"{where}: {values}, {percent(abs(following.ratio - 1))} % apart"
-        )
+def undecided(best: str, rivals: Mapping[str, float], limit: float) -> Finding:
+    """Report cases that the data do not separate."""
     return Finding(
         "undecided",
         f"these data do not separate {' and '.join([best, *rivals])}: Schwarz's criterion "
         f"differs by {', '.join(f'{by:.2g}' for by in rivals.values())}, where {limit:g} is strong "
-        f"evidence{more}",
+        "evidence; measure a quantity in which their predictions differ",
         value=min(rivals.values()),
         limit=limit,
         place=", ".join([best, *rivals]),

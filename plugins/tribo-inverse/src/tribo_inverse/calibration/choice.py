@@ -21,8 +21,6 @@ from tribo_inverse.findings import chosen, undecided
 
 STRONG = 6.0
 """Difference of the criterion above which evidence is strong (Kass & Raftery)."""
-SAME = 1e-6
-"""Relative rounding of two ratios."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,23 +149,4 @@ def _decided(rows: pd.DataFrame, found: Mapping[str, Calibration]) -> Finding:
     rivals = {each.case: each.bic - best.bic for each in others if each.bic - best.bic < STRONG}
     if not rivals:
         return chosen(best.case, others[0].bic - best.bic, STRONG, found[best.case].p_value)
-    return undecided(
-        best.case, rivals, STRONG, _next_quantity(found, best.case, next(iter(rivals)))
-    )
-
-
-def _next_quantity(found: Mapping[str, Calibration], first: str, second: str) -> Any:
-    """Return the unmeasured quantity in which two cases differ most, for the next test."""
-    keys = ["test", "body", "quantity"]
-    both = found[first].predictions.merge(found[second].predictions, on=keys)
-    both["ratio"] = both["value_x"] / both["value_y"]
-    data = found[first].data
-    ratios = data.assign(ratio=data["computed"] / found[second].data["computed"])
-
-    def is_new(row: Any) -> bool:
-        # A quantity proportional to a measured one, as a volume to a mass, adds no information.
-        own = ratios[(ratios["test"] == row.test) & (ratios["body"] == row.body)]
-        return not np.any(np.abs(own["ratio"] / row.ratio - 1) < SAME)
-
-    both = both[[is_new(row) for row in both.itertuples()]]
-    return both.loc[np.abs(np.log(both["ratio"])).idxmax()] if len(both) else None
+    return undecided(best.case, rivals, STRONG)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -21,8 +21,6 @@ from tribo_inverse.findings import unresolved
 MOST = 1000
 """Largest number of tests that is tried."""
 _RIDGE = 1e-12
-_POWER = 4
-"""Power of the norm over parameters whose intervals are shortened."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,13 +173,10 @@ class Search:
         As `Linearised.degrees_of_freedom`, with the weighted slopes J of a test that scatters by
         J Jᵀ.
         """
-        once, twice, thrice = (
-            np.sum(counts[:, None, None] * np.linalg.matrix_power(self.kinds, power), axis=0)
-            for power in (1, 2, 3)
-        )
-        covariance = np.linalg.inv(once + _RIDGE * np.trace(once) * np.eye(len(once)))
+        twice, thrice = self._summed(counts, 2), self._summed(counts, 3)
+        covariance = self._covariance(counts)
         variances = np.diag(covariance)
-        freedom = np.full(len(once), np.inf)
+        freedom = np.full(len(variances), np.inf)
         if self.scatters:
             scattered = twice @ covariance
             information = np.trace(twice) - 2 * np.trace(thrice @ covariance)
@@ -214,12 +209,19 @@ class Search:
             "more on what is fitted, or leave a parameter out of fit"
         )
 
-    def _size(self, counts: Array) -> tuple[float, float]:
-        """Return a norm of the half-widths, and the same with a known repeatability."""
-        searches = self, replace(self, scatters=False)
-        # The maximum alone ignores exchanges that shorten all other intervals.
-        halves, known = (np.sum(each.expected(counts)[0] ** _POWER) for each in searches)
-        return float(halves), float(known)
+    def _summed(self, counts: Array, power: int) -> Array:
+        """Return the sum of a power of the information of each test."""
+        powers = np.linalg.matrix_power(self.kinds, power)
+        return np.asarray(np.sum(counts[:, None, None] * powers, axis=0))
+
+    def _covariance(self, counts: Array) -> Array:
+        """Return the covariance of the parameters after a number of tests of each kind."""
+        once = self._summed(counts, 1)
+        return np.linalg.inv(once + _RIDGE * np.trace(once) * np.eye(len(once)))
+
+    def _size(self, counts: Array) -> float:
+        """Return the sum of squares of the variances, in which the largest counts most."""
+        return float(np.sum(np.diag(self._covariance(counts)) ** 2))
 
     def _exchanged(self, counts: Array) -> list[Array]:
         """Return the counts, then those with one test exchanged for another kind."""
