@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 from scipy.fft import dctn, idctn
-from scipy.optimize import minimize
 from scipy.special import chdtrc, ndtri
 from tribo import Array, Case, CaseError, Finding, Mask, NumericalError, Simulation
 from tribo.kernel_api import Model, assemble, begin, march, varied
@@ -20,6 +19,7 @@ from tribo_inverse.adjoint.backwards import swept_back
 from tribo_inverse.adjoint.gradient import FURTHEST, ValueAndGradient
 from tribo_inverse.adjoint.view import Seeds, View
 from tribo_inverse.calibration.cells import cell_means, surface_shape
+from tribo_inverse.calibration.descent import descended
 from tribo_inverse.calibration.lanczos import eigenpairs
 from tribo_inverse.calibration.linearised import Weights
 from tribo_inverse.calibration.prior import Prior
@@ -31,11 +31,10 @@ from tribo_inverse.recording.tape import Tape, recorded
 
 STEP = 1e-2
 """Largest change of a logarithm for the finite difference of all depths along a direction."""
+FIRST_ITERATIONS = 10
+"""Steps of L-BFGS before the information is computed."""
 ITERATIONS = 100
-"""Largest number of steps to the most probable map."""
-LEVEL = 0.1
-"""Norm of the gradient of −ln p, in standard deviations of the prior, that ends them: −ln p is then
-within half of its square of the least, since the prior alone curves it by 1."""
+"""Largest number of steps after it."""
 FINE = 0.125
 """Cell size, in correlation lengths, below which the fit starts on a grid of half as many cells."""
 FEWEST = 16
@@ -123,13 +122,13 @@ def fit_maps(
 ) -> FittedMaps:
     """Fit local factors on the wear coefficients of bodies to maps of their depth.
 
-    The maximum of the posterior is found by a trust-region Newton method with exact gradients, in
-    cosine modes of the prior. The Fisher information Jᵀ V⁻¹ J stands for the curvature of the
-    misfit, and for the posterior's standard deviation. It is projected on a Krylov space (Bui-Thanh
-    et al. 2013, SIAM J. Sci. Comput. 35, A2494-A2523) by at most `products` products at the case
-    itself and as many at the maximum, each a run and an adjoint pass. Directions beyond keep the
-    prior's standard deviation, which is too large rather than too small. Where cells are far
-    smaller than the correlation lengths, the fit starts on a coarser grid.
+    The maximum of the posterior is found by L-BFGS with exact gradients, in cosine modes of the
+    prior. The posterior's standard deviation is linearised: the Fisher information Jᵀ V⁻¹ J is
+    projected on a Krylov space (Bui-Thanh et al. 2013, SIAM J. Sci. Comput. 35, A2494-A2523) by at
+    most `products` products, each a run and an adjoint pass. Directions beyond keep the prior's
+    standard deviation, which is too large rather than too small. The information also
+    preconditions L-BFGS. Where cells are far smaller than the correlation lengths, the fit starts
+    on a coarser grid.
 
     `depths` has, by the name of the body, the mean depth of each cell at the end, in m, of the
     shape of `View.wear`, NaN where missing, and their standard deviations, to which `edge_sigma`
@@ -240,9 +239,9 @@ class _Posterior:
         """Return the most probable amplitudes, and the eigenpairs of the information."""
         coarse = self.halved()
         if coarse is None:
-            near = np.zeros(self.size)
+            near, none = np.zeros(self.size), np.zeros((0, self.size))
             self.weigh(near)
-            near = self.least(near, *self.information(near, products))
+            near = self.least(near, none, none[:, 0], FIRST_ITERATIONS)
             self.weigh(near)
             basis, values = self.information(near, products)
         else:
@@ -250,34 +249,29 @@ class _Posterior:
             near = self.raised(coarse, near)
             self.weigh(near)
             basis = np.array([self.raised(coarse, each) for each in basis])
-        return self.least(near, basis, values), basis, values
+        return self.least(near, basis, values, ITERATIONS), basis, values
 
-    def least(self, near: Array, basis: Array, values: Array) -> Array:
-        """Return the most probable amplitudes, given eigenpairs of the information nearby."""
+    def least(self, near: Array, basis: Array, values: Array, steps: int) -> Array:
+        """Return the most probable amplitudes, or the amplitudes after `steps`, by L-BFGS.
 
-        def posterior(z: Array) -> tuple[float, Array]:
+        The eigenpairs of the information, which are known nearby, precondition the steps.
+        """
+        less = (1 + values) ** -0.5 - 1
+
+        def preconditioned(y: Array) -> Array:
+            along = less * np.sum(basis * y, axis=1)
+            return np.asarray(y + np.sum(along[:, None] * basis, axis=0))
+
+        def posterior(y: Array) -> tuple[float, Array]:
+            z = near + preconditioned(y)
             logs = self.logs(z)
-            try:
-                if (most := float(np.max(np.abs(logs)))) > FURTHEST:
-                    raise NumericalError(f"a step went {most:.3g} away in a factor's logarithm")
-                value, slope = self.gradient(logs)
-            except NumericalError:
-                if np.array_equal(z, near):
-                    raise
-                # The trust region shrinks.
-                return math.inf, np.zeros_like(z)
+            if (most := float(np.max(np.abs(logs)))) > FURTHEST:
+                raise NumericalError(f"a step went {most:.3g} away in the logarithm of a factor")
+            value, slope = self.gradient(logs)
             self.tell(2 * value)
-            return value + 0.5 * float(np.sum(z * z)), self.adjoint(slope) + z
+            return value + 0.5 * float(np.sum(z * z)), preconditioned(self.adjoint(slope) + z)
 
-        def curved(_: Array, move: Array) -> Array:
-            along = values * np.sum(basis * move, axis=1)
-            return np.asarray(move + np.sum(along[:, None] * basis, axis=0))
-
-        options = {"maxiter": ITERATIONS, "gtol": LEVEL}
-        found = minimize(
-            posterior, near, jac=True, hessp=curved, method="trust-ncg", options=options
-        )
-        return np.asarray(found.x)
+        return np.asarray(near + preconditioned(descended(posterior, 0 * near, steps)))
 
     def logs(self, z: Array) -> Array:
         """Return ln(k/k₀) of amplitudes."""
