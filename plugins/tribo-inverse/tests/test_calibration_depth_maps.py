@@ -197,7 +197,6 @@ def test_a_map_can_be_planned_with_before_it_is_measured(two_loads):
         ({"depth": "upwards.npy"}, ".1.depth", "sign"),
         ({"depth": "missing.npy"}, ".1.depth", "missing"),
         ({"uncertainty": None}, ".1", "uncertainty"),
-        ({"uncertainty": "1e-13 m"}, ".1.depth", "1 µm"),
         ({"body": "disk"}, ".1.quantity", "does not wear in this case"),
     ],
 )

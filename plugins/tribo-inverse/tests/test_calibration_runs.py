@@ -197,13 +197,6 @@ def test_a_failing_run_says_with_what():
     assert f"with {BALL_K} = " in str(caught.value)
 
 
-def test_a_stop_by_depth_is_named_where_a_fit_fails():
-    """The ball's loss at that depth is the same whatever its coefficient."""
-    stopped = apply_settings(CASE, {"stop.depth": "0.1 um", "stop.body": "ball"})
-    with pytest.raises((CaseError, NumericalError), match=r"^leave out stop\.depth: it ends"):
-        calibrate(stopped, {"measured": [measured("ball", "depth", 2e-7)], "fit": fitting(BALL_K)})
-
-
 def test_a_forgotten_unit_is_refused_before_anything_is_fitted():
     entry = {"quantity": "mass", "before": 27.6445, "after": 27.6443, "resolution": 1e-4}
     runs = []

@@ -1,13 +1,10 @@
 """Objectives of a gradient: their values and slopes, and those that are refused."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from gradients import run
 from tribo.case import Stop
 from tribo.core.errors import CaseError
-from tribo.core.grid import Grid
 
 from tribo_inverse.adjoint.gradient import gradient
 from tribo_inverse.adjoint.objective import (
@@ -18,7 +15,6 @@ from tribo_inverse.adjoint.objective import (
     Misfit,
     Pressure,
     Volume,
-    Width,
 )
 from tribo_inverse.adjoint.view import Seeds
 
@@ -59,7 +55,6 @@ def test_what_a_run_does_not_answer_is_refused(words):
         (lambda: Depth("ball", "1 mm"), r"the place is x = '1 mm', y = 0\.0; give numbers, in m"),
         (lambda: Pressure(0.0, None), r"the place is x = 0\.0, y = None"),
         (lambda: Misfit("ball", [[1.0], [1.0, 2.0]]), "depth of ball is no array of numbers"),
-        (lambda: Width("ball", 5), "the axis of Width is 5; give 0 for along, or 1"),
         (lambda: Misfit("ball", np.zeros((3, 3)), 0.0), "the uncertainty of Misfit is 0.0"),
         (lambda: Misfit("ball", np.diag([INF, 1, 1])), "is infinite somewhere"),
     ],
@@ -89,22 +84,3 @@ def test_an_objective_that_gives_no_value_and_seeds_is_refused(answer, message):
 
     with pytest.raises(CaseError, match=message):
         gradient(run(), mine, [])
-
-
-@pytest.mark.parametrize("cells", [(40, 31), (1, 40)])
-def test_the_width_is_that_of_a_ball_worn_flat_and_has_its_derivative(cells):
-    grid, half = Grid(size=("1 mm", "1 mm"), cells=(40, cells[1])), 0.3e-3
-    x, y = np.zeros((1, 1)) if cells[0] == 1 else grid.mesh[0], grid.mesh[1]
-    worn = np.maximum(1e-6 * (1 - (x**2 + (y - 1e-5) ** 2) / half**2), 0.0)
-
-    def width(depth):
-        return Width("ball")(SimpleNamespace(wear=lambda body: depth, grid=grid))
-
-    value, seeds = width(worn)
-    assert value == pytest.approx(2 * half, rel=5e-3)
-    change = 1e-9 * np.random.default_rng(0).standard_normal(worn.shape)
-    difference = 0.5 * (width(worn + change)[0] - width(worn - change)[0])
-    assert np.sum(seeds.wear["ball"] * change) == pytest.approx(difference, rel=1e-4)
-    for nothing in (0 * worn, worn * (np.arange(worn.size).reshape(worn.shape) == worn.size // 2)):
-        value, seeds = width(nothing)
-        assert value == 0 == np.max(np.abs(seeds.wear["ball"]))

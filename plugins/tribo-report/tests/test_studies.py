@@ -2,9 +2,7 @@
 
 import json
 import re
-from dataclasses import replace
 
-import numpy as np
 import pandas as pd
 import pytest
 import tribo
@@ -13,8 +11,6 @@ from command_line import tribo as command
 from made_results import written
 from pages import Checked
 from tribo_inverse import calibrate
-from tribo_inverse.calibration.maps import FittedMaps, LocalMap
-from tribo_inverse.map_tables import maps_json
 
 import tribo_report
 
@@ -90,32 +86,3 @@ def test_another_json_file_is_refused(tmp_path):
         tribo_report.write_report(tmp_path / "other.json", tmp_path / "report.html")
     with pytest.raises(tribo.CaseError, match=r"^.*none\.json: there is no such file$"):
         tribo_report.write_report(tmp_path / "none.json", tmp_path / "report.html")
-
-
-def test_local_coefficients_are_told_with_their_fit(tmp_path):
-    """Half a coefficient in one cell of four; of one of them the data say nothing."""
-    logs, deviation = np.log([[1.0, 0.5], [1.2, 1.0]]), np.array([[0.1, 0.1], [0.1, 0.5]])
-    prior, depth = np.full((2, 2), 0.5), np.array([[1e-6, 5e-7], [1.2e-6, np.nan]])
-    found = FittedMaps(
-        maps={
-            "ball": LocalMap(
-                logs, deviation, prior, (1e-5, 1e-5), depth, 1e-6 + 0 * depth, 1e-8 + 0 * depth
-            )
-        },
-        gradients=3,
-        products=2,
-        chi_square=3.0,
-        degrees_of_freedom=1.5,
-        findings=(tribo.Finding("unknown", "one cell of four is unknown", 1.0, place="ball"),),
-    )
-    with (tmp_path / "maps.json").open("w") as file:
-        file.write(json.dumps(maps_json(found, 0.95)).replace("NaN", "null"))
-    path = tribo_report.write_report(tmp_path / "maps.json", tmp_path / "report.html")
-    (told,) = answers(path)
-    assert "The coefficient of the ball is 0.50 to 1.20 times the case" in told
-    assert "at 95 % it is lower in 33 % of these cells and higher in 0 %." in told
-    page = path.read_text(encoding="utf-8")
-    assert "one cell of four is unknown" in page
-    assert page.count("<figure") == 2
-    assert replace(found, chi_square=30.0).is_refuted
-    assert not replace(found, chi_square=1e-7, degrees_of_freedom=1e-4).is_refuted

@@ -8,7 +8,6 @@ from tribo_inverse.adjoint.objective import EndTime as EndTime
 from tribo_inverse.adjoint.objective import Misfit as Misfit
 from tribo_inverse.adjoint.objective import Pressure as Pressure
 from tribo_inverse.adjoint.objective import Volume as Volume
-from tribo_inverse.adjoint.objective import Width as Width
 from tribo_inverse.adjoint.view import Seeds as Seeds
 from tribo_inverse.adjoint.view import View as View
 from tribo_inverse.calibration.calibrate import Calibration as Calibration

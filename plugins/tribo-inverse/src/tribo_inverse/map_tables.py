@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import asdict
 from functools import partial
 from io import BytesIO
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
-from tribo import CaseError, Finding
+from tribo import CaseError
 from tribo.kernel_api import Console, DataTable, Heading, TableRow, check_new, write_file
 
 from tribo_inverse.calibration.maps import SILENT, FittedMaps, LocalMap
@@ -53,20 +53,6 @@ def _arrays(each: LocalMap, level: float) -> dict[str, Any]:
         "computed_m": each.computed,
         "uncertainty_m": each.uncertainty,
     }
-
-
-def read_maps(found: Mapping[str, Any]) -> tuple[FittedMaps, float]:
-    """Return fitted maps and the level of their intervals from the data of `maps_json`."""
-    maps = {}
-    for name, each in found["maps"].items():
-        keys = ("deviation", "prior_deviation", "measured_m", "computed_m", "uncertainty_m")
-        logs, (dx, dy) = np.log(np.array(each["factor"], dtype=float)), each["spacing_m"]
-        own, prior, measured, computed, sigma = (np.array(each[k], dtype=float) for k in keys)
-        maps[name] = LocalMap(logs, own, prior, (dx, dy), measured, computed, sigma)
-    numbers = {key: found[key] for key in ("gradients", "products")}
-    fit = {key: found[key] for key in ("chi_square", "degrees_of_freedom")}
-    findings = tuple(Finding(**each) for each in found["findings"])
-    return FittedMaps(maps=maps, **numbers, **fit, findings=findings), found["level"]
 
 
 def maps_table(found: FittedMaps, level: float) -> DataTable:

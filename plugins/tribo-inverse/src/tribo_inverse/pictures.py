@@ -7,14 +7,12 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.figure import Figure
 from tribo import Array
-from tribo.kernel_api import DIFFERENCES, SIGNIFICANT, Look, house_style, new_figure
+from tribo.kernel_api import DIFFERENCES, SIGNIFICANT, house_style, new_figure
 
 from tribo_inverse.calibration.maps import LocalMap
 
 DOUBLE = 140.0
 """Width of a picture with two panels, in mm."""
-SURE = 0.5
-"""Standard deviation, relative to the prior's, up to which intervals along y are shown whole."""
 Range = tuple[float | None, float | None]
 
 
@@ -37,31 +35,18 @@ def coefficient_map(found: LocalMap, level: float, title: str = "") -> Figure:
     if len(part) == 1:
         low, high = (known(each)[0] for each in found.interval(level))
         figure.axes[0].fill_between(_places(part, spacing), low, high, color="#d0d0d0", lw=0)
-        # Ends with hardly any information would flatten the rest.
-        if np.any(sure := part[0] < SURE):
-            figure.axes[0].set_ylim(0.95 * np.min(low[sure]), 1.05 * np.max(high[sure]))
     return figure
 
 
 def depth_fit(found: LocalMap, title: str = "") -> Figure:
-    """Draw a measured depth, and the residual of the fit.
-
-    On a map a solid line surrounds residuals above three standard deviations, a dashed line
-    residuals below minus three.
-    """
+    """Draw a measured depth, and the residual of the fit."""
     off = (found.computed - found.measured) / found.uncertainty
     largest = float(np.max(np.abs(off), initial=SIGNIFICANT, where=np.isfinite(off)))
     panels: dict[str, tuple[Array, Range]] = {
         "measured depth (µm)": (1e6 * found.measured, (None, None)),
         "fit − measured (deviations)": (off, (-largest, largest)),
     }
-    figure = _drawn(panels, found.spacing, title, "Blues", DIFFERENCES)
-    lines = [at for at in (-SIGNIFICANT, SIGNIFICANT) if np.nanmin(off) < at < np.nanmax(off)]
-    if len(off) > 1 and lines:
-        (image,) = figure.axes[1].images
-        look: Look = {"extent": image.get_extent(), "colors": "#202020", "linewidths": 0.7}
-        figure.axes[1].contour(off.T, lines, **look)
-    return figure
+    return _drawn(panels, found.spacing, title, "Blues", DIFFERENCES)
 
 
 def _places(values: Array, spacing: tuple[float, float]) -> Array:

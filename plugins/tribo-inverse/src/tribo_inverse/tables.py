@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
 FAR = 10.0
 """Ratio of an interval's end to the value above which no percentage is printed."""
-BLIND = 0.2
-"""Singular value of the Jacobian below which a combination of parameters counts as unknown."""
 LONGEST_NAME = 30
 """Characters of a name that fit in a table of 80 columns."""
 PER_NM = "mm³/(N·m)"
@@ -164,10 +162,6 @@ def quality_table(found: Calibration) -> DataTable:
         spread = f"{percent(found.repeatability)} %"
         rows.append((f"standard deviation from test to test, {how}", spread))
     paths = list(found.parameters["path"])
-    if len(paths) > 1:
-        best, worst = (_known(found.singular_values[i]) for i in (0, -1))
-        rows.append(("standard deviation of the best known combination", best))
-        rows.append(("standard deviation of the least known combination", worst))
     for i, first in enumerate(paths):
         for j, second in enumerate(paths[:i]):
             both = signed(found.correlation[i, j], 2)
@@ -177,14 +171,6 @@ def quality_table(found: Calibration) -> DataTable:
 
 def _columns(value: str, found: Calibration) -> list[str]:
     return [value, f"{100 * found.level:g} % interval", "relative"]
-
-
-def _known(singular_value: float) -> str:
-    """Return the standard deviation of a combination of parameters in words."""
-    if singular_value < BLIND:
-        return "unknown"
-    spread = 1 / singular_value
-    return f"{percent(spread)} %" if spread < 1 else f"a factor {math.exp(spread):.2g}"
 
 
 def _name(row: Any) -> str:

@@ -24,10 +24,8 @@ from tribo_inverse.calibration.calibrate import DATA, Calibration
 from tribo_inverse.calibration.quantities import in_si, p_words
 from tribo_inverse.findings import UNLIKELY, bound
 from tribo_inverse.fitted import fit_picture
-from tribo_inverse.map_tables import read_maps
 from tribo_inverse.tables import fit_tables
 
-from tribo_report.maps import maps_page
 from tribo_report.page import render, stills
 from tribo_report.printed import printed_by
 from tribo_report.result import facts, made_here
@@ -37,10 +35,8 @@ def calibration_file_page(path: Path) -> str:
     """Return the report of a file that ``tribo calibrate --json`` printed."""
     with printed_by("tribo calibrate --json", path):
         found = json.loads(path.read_text(encoding="utf-8"))
-        read = read_maps(found) if "maps" in found else _read(found)
-    if isinstance(read, Calibration):
-        return calibration_page(read, path.stem)
-    return maps_page(*read, path.stem)
+        read = _read(found)
+    return calibration_page(read, path.stem)
 
 
 def _read(found: dict[str, Any]) -> Calibration:

@@ -121,58 +121,6 @@ class Deepest:
 
 
 @dataclass(frozen=True)
-class Width:
-    """The width of a scar, in m, made smooth: the width of a parabola with the same second moment.
-
-    It is √20 times the standard deviation of the worn section through the middle. It is exact for a
-    parabola, the loss of a ball worn flat; for a groove with a toe it is some 6 % less than the
-    width between the edges. `axis` is 0 along the sliding direction, 1 across it. Its derivative
-    changes by some per cent as the edge passes from cell to cell.
-
-    Raises
-    ------
-    CaseError
-        If the axis is neither 0 nor 1.
-
-    Examples
-    --------
-    >>> from tribo_inverse import Width, gradient
-    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
-    >>> round(1e3 * gradient(case, Width("ball"), ["stop.depth"]).value, 2)  # in mm, across
-    0.32
-    """
-
-    body: str
-    axis: int = 1
-
-    def __post_init__(self) -> None:
-        if self.axis not in (0, 1):
-            raise CaseError(
-                f"the axis of Width is {self.axis!r}; give 0 for along, or 1 for across"
-            )
-
-    def __call__(self, view: View) -> tuple[float, Seeds]:
-        """Return the width, and its derivative."""
-        wear = view.wear(self.body)
-        lines, n = np.moveaxis(wear, self.axis, 0), wear.shape[self.axis]
-        if n == 1:
-            raise CaseError(f"{self.body} has no width along its track")
-        middle = slice((lines.shape[1] - 1) // 2, lines.shape[1] // 2 + 1)
-        profile, seed = np.mean(lines[:, middle], axis=1), np.zeros_like(lines)
-        if np.count_nonzero(profile) < 2:
-            return 0.0, Seeds({self.body: np.zeros_like(wear)})
-        total = np.sum(profile)
-        place = view.grid.spacing[self.axis] * np.arange(n)
-        part = profile / total
-        off = (place - np.sum(part * place)) ** 2
-        variance = float(np.sum(part * off))
-        width = (20 * variance) ** 0.5
-        seed[:, middle] = (10 / width * (off - variance) / total / lines[0, middle].size)[:, None]
-        return width, Seeds({self.body: np.moveaxis(seed, 0, self.axis)})
-
-
-@dataclass(frozen=True)
 class Misfit:
     """Half of the sum of squared differences of a body's depth from a measured map.
 

@@ -222,15 +222,7 @@ def calibrate(
         least = min(least, misfit)
         return found
 
-    try:
-        fitted = fit(responses, experiment.problem, experiment.start)
-    except (CaseError, NumericalError) as error:
-        if all(setup.model.case.stop.depth is None for setup in experiment.setups):
-            raise
-        words = (
-            "leave out stop.depth: it ends the run at different times for different coefficients"
-        )
-        raise type(error)(f"{words}; {error}") from error
+    fitted = fit(responses, experiment.problem, experiment.start)
     return _outcome(fitted, experiment, level)
 
 

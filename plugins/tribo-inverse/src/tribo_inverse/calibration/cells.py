@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 import pandas as pd
-from scipy.ndimage import binary_opening, correlate1d
+from scipy.ndimage import correlate1d
 from tribo import Array, CaseError, Heights, read_heights
 from tribo.kernel_api import Model, located
 
@@ -14,8 +14,6 @@ ROUNDING = 1e-6
 """Relative rounding of pixel pitch and cell size."""
 COVERED = 0.5 - 1e-6
 """Part of a cell that must be measured."""
-HOLES = 0.05
-"""Part of a cell that may lie in holes of 3 × 3 pixels or more."""
 MOST_BLOCKS = 600
 """Blocks that a map is averaged over where a few parameters are fitted to it."""
 
@@ -85,7 +83,7 @@ def on_cells(
 
     The point at `shift` from the middle of the map, in m, lies on the middle of the surface.
     Missing pixels are interpolated, except on a track. NaN in cells of which less than half was
-    measured, or that have a part in a larger hole. The second array is the noise of each cell
+    measured. The second array is the noise of each cell
     relative to a cell without missing pixels, 1 where NaN.
     """
     averaged = shape[0] == 1
@@ -117,9 +115,6 @@ def on_cells(
     total = total + offset_x @ slopes[0] @ in_y.T + in_x @ slopes[1] @ offset_y.T
     measured = in_x @ known @ in_y.T
     enough = measured >= COVERED * cell[0] * cell[1]
-    if not averaged:
-        in_holes = in_x @ binary_opening(~known, np.ones((3, 3))) @ in_y.T
-        enough &= in_holes <= HOLES * cell[0] * cell[1]
     covered = in_x @ used @ in_y.T
     found = np.divide(total, covered, out=np.full(shape, np.nan), where=enough)
     if not np.any(enough):

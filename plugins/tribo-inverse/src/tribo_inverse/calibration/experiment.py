@@ -149,7 +149,7 @@ class Experiment:
         """Return a row of the table for each block of cells of a map."""
         (each,) = row.itertuples()
         depth, noise = self.on_cells(each.Index, shift)
-        if error := data_error(DEPTH_MAP, each.entry.sigma, depth[np.isfinite(depth)]):
+        if error := data_error(each.entry.sigma, depth[np.isfinite(depth)]):
             raise CaseError(error, f"{each.place}.depth")
         blocks = block_means(depth, noise, self.setups[each.setup].model.grid.spacing)
         if each.entry.depth is None:

@@ -17,7 +17,6 @@ from tribo_inverse.calibration.cells import on_cells, read_map
 from tribo_inverse.calibration.maps import FittedMaps, fit_maps
 from tribo_inverse.calibration.measured import MapEntry, data_error
 from tribo_inverse.calibration.prior import Prior
-from tribo_inverse.calibration.quantities import DEPTH_MAP
 from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT, find_shift
 from tribo_inverse.findings import of_run
 
@@ -57,7 +56,7 @@ def calibrate_maps(
         with located(f"{place}.depth"):
             shift = find_shift(heights, worn, spacing)
             depth, noise = on_cells(heights, worn.shape, spacing, shift)
-            if error := data_error(DEPTH_MAP, entry.uncertainty, depth[np.isfinite(depth)]):
+            if error := data_error(entry.uncertainty, depth[np.isfinite(depth)]):
                 raise CaseError(error)
             _check_volume(entry, depth, worn)
         depths[entry.body] = depth, entry.uncertainty * noise

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from scipy.interpolate import Akima1DInterpolator
 from scipy.ndimage import binary_dilation, binary_erosion
-from tribo import Array, BodyResult, CaseError, Column, Result
+from tribo import Array, CaseError, Column, Result
 from tribo.kernel_api import (
     TRACK,
     Model,
@@ -188,7 +188,7 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
         value = float(np.max(depth)) + between_cells(depth)
         return value, DEPTH_SIGMA * value
     if name == "crown":
-        return _crown(result, body, save)
+        return _crown(result, asked.body, save)
     if name == "section":
         return track_section(result, body, save) or 0.0, 0.0
     if name in PROFILES:
@@ -238,8 +238,9 @@ def surface_depth(result: Result, body: str, save: int) -> Array:
     return np.asarray(depth)
 
 
-def _crown(result: Result, body: BodyResult, save: int) -> tuple[float, float]:
+def _crown(result: Result, name: str, save: int) -> tuple[float, float]:
     """Return the crown; its standard deviation is the chord ends' times the slope there."""
+    body = result.body(name)
     height, depth = profile(body.surface(save), 1), profile(body.wear_depth[save], 1)
     spacing = result.grid.spacing[1]
     half = 0.5 * diameter(body.wear_depth[save], 1, spacing)
