@@ -22,7 +22,7 @@ from tribo.simulation.positions import composed
 from tribo.surfaces.height_map import HeightMap
 from tribo.templates import template
 
-from tribo_inverse.adjoint.gradient import gradient, value_and_gradient
+from tribo_inverse.adjoint.gradient import gradient
 from tribo_inverse.adjoint.numbers import find
 from tribo_inverse.adjoint.objective import (
     Deepest,
@@ -31,6 +31,7 @@ from tribo_inverse.adjoint.objective import (
     Volume,
 )
 from tribo_inverse.adjoint.sensitivity import sensitivity
+from tribo_inverse.adjoint.unknowns import value_and_gradient
 from tribo_inverse.recording import tape
 
 NAN, INF = np.nan, np.inf

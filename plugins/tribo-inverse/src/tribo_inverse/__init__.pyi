@@ -1,6 +1,5 @@
 from tribo_inverse.adjoint.gradient import Gradient as Gradient
 from tribo_inverse.adjoint.gradient import gradient as gradient
-from tribo_inverse.adjoint.gradient import value_and_gradient as value_and_gradient
 from tribo_inverse.adjoint.objective import Deepest as Deepest
 from tribo_inverse.adjoint.objective import Depth as Depth
 from tribo_inverse.adjoint.objective import EndDistance as EndDistance
@@ -8,6 +7,7 @@ from tribo_inverse.adjoint.objective import EndTime as EndTime
 from tribo_inverse.adjoint.objective import Misfit as Misfit
 from tribo_inverse.adjoint.objective import Pressure as Pressure
 from tribo_inverse.adjoint.objective import Volume as Volume
+from tribo_inverse.adjoint.unknowns import value_and_gradient as value_and_gradient
 from tribo_inverse.adjoint.view import Seeds as Seeds
 from tribo_inverse.adjoint.view import View as View
 from tribo_inverse.calibration.calibrate import Calibration as Calibration

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 from tribo import Array, Case, CaseError, Explicit, Simulation, State
 from tribo.kernel_api import (
     DEPTH_ACCURACY,
@@ -21,15 +20,12 @@ from tribo.kernel_api import (
 )
 
 from tribo_inverse.adjoint.backwards import JUST, Derivatives, swept_back
-from tribo_inverse.adjoint.numbers import changed, find, listed
+from tribo_inverse.adjoint.numbers import find
 from tribo_inverse.adjoint.parameters import TURNS, Chain, at_turn, chain, of_length
 from tribo_inverse.adjoint.view import Objective, Seeds, View, is_finite, looked
 from tribo_inverse.increment.breaks import unreached
-from tribo_inverse.recording.local import factor_shape, localised
+from tribo_inverse.recording.local import localised
 from tribo_inverse.recording.tape import Tape, recorded
-
-FURTHEST = 30.0
-"""Largest change of the logarithm of a number that is evaluated."""
 
 
 @dataclass(frozen=True)
@@ -141,33 +137,58 @@ def gradient(
     >>> round(gradient(case, Volume("ball"), ["stop.depth"]).relative["stop.depth"], 1)  # % for 1 %
     1.2
     """
+    return gradients(case, [objective], wrt, factors=factors)[0]
+
+
+def gradients(
+    case: Case | Mapping[str, Any] | str | Path | Model,
+    objectives: Sequence[Objective | Mapping[float, Objective]],
+    wrt: Sequence[str] | None = None,
+    *,
+    factors: Mapping[str, Array] | None = None,
+) -> list[Gradient]:
+    """Run a case once; return the derivatives of several objectives, as `gradient` does of one."""
     factors = factors or {}
     model = localised(covered(Simulation(case).model), factors)
     model = unreached(model, model)
     chains, refused = _chains(model, wrt, factors)
-    looks = _looks(objective, model.end_time)
+    looks = [_looks(each, model.end_time) for each in objectives]
     with closing(Tape()) as tape:
-        states = recorded(model, list(looks), tape)
-        seen = {time: looked(look, View(model, states[time])) for time, look in looks.items()}
-        total = float(sum(value for value, _ in seen.values()))
-        seeds = {time: seed for time, (_, seed) in seen.items()}
-        end = states.get(model.end_time)
+        states = recorded(model, [*{time: None for each in looks for time in each}], tape)
         turning = at_turn(model, [state.time for state in states.values()])
         if wrt is not None and (asked := [c.path for c in chains if c.path in turning]):
             raise CaseError(TURNS, asked[0])
         refused |= {each.path: TURNS for each in chains if each.path in turning}
         chains = [each for each in chains if each.path not in turning]
+        end = states.get(model.end_time)
         if end is not None and end.time < model.end_time:
             chains = [each.until(end.time) for each in chains]
-            found, by_depth = _at_depth(model, tape, seeds, chains, end)
-        else:
-            found, by_depth = swept_back(model, tape, seeds, chains), 0.0
+        return [_differentiated(model, tape, states, each, chains, refused) for each in looks]
+
+
+def _differentiated(
+    model: Model,
+    tape: Tape,
+    states: Mapping[float, State],
+    looks: Mapping[float, Objective],
+    chains: Sequence[Chain],
+    refused: Mapping[str, str],
+) -> Gradient:
+    """Return the derivatives of a recorded run's objectives at saved times."""
+    seen = {time: looked(look, View(model, states[time])) for time, look in looks.items()}
+    total = float(sum(value for value, _ in seen.values()))
+    seeds = {**dict.fromkeys(states, Seeds()), **{time: seed for time, (_, seed) in seen.items()}}
+    end = states.get(model.end_time)
+    if end is not None and end.time < model.end_time:
+        found, by_depth = _at_depth(model, tape, seeds, chains, end)
+    else:
+        found, by_depth = swept_back(model, tape, seeds, chains), 0.0
     parameters = {}
     for each, through in zip(chains, found.parameters, strict=True):
         direct = sum(
-            variant.weight * looked(looks[time], View(variant.model, state))[0]
+            variant.weight * looked(look, View(variant.model, states[time]))[0]
             for variant in each.variants
-            for time, state in states.items()
+            for time, look in looks.items()
         )
         direct += sum(each.by_save(state.time, seeds[time]) for time, state in states.items())
         direct += each.by_stop(by_depth)
@@ -296,110 +317,3 @@ def _looks(
                 "EndTime or EndDistance, or a function of a View"
             )
     return looks
-
-
-def value_and_gradient(
-    case: Case | Mapping[str, Any] | str | Path | Model,
-    objective: Objective | Mapping[float, Objective],
-    wrt: Sequence[str] = (),
-    wear_rate: Sequence[str] = (),
-) -> ValueAndGradient:
-    """Return an objective with its gradient, for ``scipy.optimize.minimize(…, jac=True)``.
-
-    The unknowns are the logarithms of numbers of the case, relative to their values there, and of
-    factors on wear rates at each cell of bodies: one vector, whose `start` is all 0.
-
-    Parameters
-    ----------
-    case : Case, Mapping, str, Path or Model
-        As `gradient` takes it.
-    objective : callable, or Mapping of float to callable
-        As `gradient` takes it.
-    wrt : sequence of str, optional
-        Paths of the numbers.
-    wear_rate : sequence of str, optional
-        Bodies whose wear rate has a factor at each cell.
-
-    Returns
-    -------
-    callable
-        A function of the vector of unknowns, with `start` and `at`.
-
-    Raises
-    ------
-    CaseError
-        If a path leads to no number, or a body does not wear.
-
-    Examples
-    --------
-    >>> from tribo_inverse import EndDistance, value_and_gradient
-    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
-    >>> fit = value_and_gradient(case, EndDistance(), ["bodies.*.wear.k"])
-    >>> distance, slope = fit(fit.start)
-    >>> round(distance, 2), slope.round(2).tolist()  # half of it for twice k
-    (1.32, [-1.32])
-    """
-    return ValueAndGradient(case, objective, wrt, wear_rate)
-
-
-class ValueAndGradient:
-    """An objective with its gradient, a function of one vector; see `value_and_gradient`."""
-
-    def __init__(
-        self,
-        case: Case | Mapping[str, Any] | str | Path | Model,
-        objective: Objective | Mapping[float, Objective],
-        wrt: Sequence[str],
-        wear_rate: Sequence[str],
-    ) -> None:
-        self._model = Simulation(case).model
-        self._objective = objective
-        self._numbers = find(self._model.case, wrt)
-        self._shapes = {name: factor_shape(self._model, name) for name in listed(wear_rate)}
-
-    @property
-    def start(self) -> Array:
-        """The unknowns of the case itself: 0."""
-        return np.zeros(len(self._numbers) + sum(a * b for a, b in self._shapes.values()))
-
-    @np.errstate(over="ignore")
-    def at(self, unknowns: Array) -> tuple[Case, dict[str, Array]]:
-        """Return the case and the factors on wear rates, by body, for a vector of unknowns.
-
-        `CaseError` if its length differs from `start`, or the case refuses a number.
-        """
-        if np.shape(unknowns) != self.start.shape:
-            raise CaseError(f"{np.size(unknowns)} unknowns were given; start has {self.start.size}")
-        case, at = self._model.case, len(self._numbers)
-        for (path, places, value), log in zip(self._numbers, unknowns[:at], strict=True):
-            if abs(log) > FURTHEST:
-                raise CaseError(
-                    f"was asked for {log:+.3g} away in its logarithm: a step of the optimiser went "
-                    "too far; give it bounds, as method='L-BFGS-B', "
-                    "bounds=[(-2, 2)] * len(fit.start)",
-                    path,
-                )
-            number = float(value * np.exp(log))
-            try:
-                for place in places:
-                    case = changed(case, place, number)
-            except ValidationError as error:
-                raise CaseError(
-                    f"may not be {number:g}: {error.errors()[0]['msg']}", path
-                ) from None
-        factors = {}
-        for name, shape in self._shapes.items():
-            factors[name] = np.exp(unknowns[at : at + shape[0] * shape[1]]).reshape(shape)
-            at += factors[name].size
-        return case, factors
-
-    def __call__(self, unknowns: Array) -> tuple[float, Array]:
-        """Return the objective and its derivatives in the unknowns."""
-        case, factors = self.at(unknowns)
-        paths = [path for path, *_ in self._numbers]
-        found = gradient(case, self._objective, paths, factors=factors)
-        values = np.exp(unknowns[: len(paths)]) * [value for *_, value in self._numbers]
-        parts = values * [found.parameters[path] for path in paths]
-        maps = [found.wear_rate[name].ravel() for name in self._shapes]
-        return found.value, np.concatenate([parts, *maps])

@@ -9,8 +9,8 @@ import numpy as np
 from tribo import CaseError, Finding, NumericalError
 from tribo.kernel_api import WIDER, Model, coarsened, leaves
 
-from tribo_inverse.adjoint.gradient import gradient
-from tribo_inverse.adjoint.objective import Deepest, EndTime
+from tribo_inverse.adjoint.gradient import gradients
+from tribo_inverse.adjoint.objective import Deepest, EndTime, Volume
 from tribo_inverse.adjoint.view import Seeds, View
 
 CELLS = 24
@@ -42,6 +42,8 @@ class Sensitivity:
         finer grid.
     uncertainty : dict of float
         By path: the difference of the two grids, in % for 1 %.
+    volume : dict of float
+        By path: change of the volume worn off the body in % for 1 %, on the finer grid.
     cells : tuple of tuple of int
         Cells of the two grids, along x and y.
     """
@@ -50,6 +52,7 @@ class Sensitivity:
     of: Answer
     percent: dict[str, float]
     uncertainty: dict[str, float]
+    volume: dict[str, float]
     cells: tuple[tuple[int, int], tuple[int, int]]
 
 
@@ -107,7 +110,10 @@ def _of_two(coarse: Model, fine: Model) -> Sensitivity:
         body, of = asked[0]
         return EndTime()(view) if of == "end_time" else Deepest(body)(view)
 
-    before, after = gradient(coarse, answer), gradient(fine, answer)
+    def volume(view: View) -> tuple[float, Seeds]:
+        return Volume(asked[0][0])(view)
+
+    (before, _), (after, volumes) = (gradients(each, [answer, volume]) for each in (coarse, fine))
     if not (before.value > 0 and after.value > 0):
         raise CaseError("no body wears on a coarse grid", "bodies")
     # A number may have a derivative on one of the grids alone.
@@ -116,7 +122,9 @@ def _of_two(coarse: Model, fine: Model) -> Sensitivity:
     ranked = sorted(both.items(), key=lambda item: -abs(item[1]))
     percent = {p: float(value) for p, value in ranked if abs(value) >= LEAST}
     uncertainty = {path: float(off[path]) for path in percent}
-    return Sensitivity(*asked[0], percent, uncertainty, (coarse.grid.cells, fine.grid.cells))
+    volume_percent = {path: volumes.relative[path] for path in percent}
+    cells = coarse.grid.cells, fine.grid.cells
+    return Sensitivity(*asked[0], percent, uncertainty, volume_percent, cells)
 
 
 def _asked(view: View) -> tuple[str, Answer]:
@@ -149,24 +157,22 @@ def of_case(model: Model, half_width_x: float) -> list[Finding]:
     unknown = [path for path in found.percent if path not in known]
     words = "smaller than the error of the coarse grids, and left out: "
     return [
-        *(
-            _sensitivity(what, path, found.percent[path], found.uncertainty[path], kelvin.get(path))
-            for path in known[:MOST]
-        ),
+        *(_sensitivity(found, what, path, kelvin.get(path)) for path in known[:MOST]),
         *([Finding("sensitivity", words + ", ".join(unknown))] if unknown else []),
     ]
 
 
-def _sensitivity(
-    what: str, path: str, change: float, uncertainty: float, kelvin: float | None
-) -> Finding:
+def _sensitivity(found: Sensitivity, what: str, path: str, kelvin: float | None) -> Finding:
     """Word the change of an answer, in %, for 1 % more of a number, or 1 K more."""
     # A per cent of a temperature is one of its distance from absolute zero.
     more, per = ("1 %", 1.0) if kelvin is None else ("1 K", 100 / kelvin)
+    change, uncertainty, volume = (
+        per * each[path] for each in (found.percent, found.uncertainty, found.volume)
+    )
     return Finding(
         "sensitivity",
-        f"{what} {per * change:+.2f} ± {per * uncertainty:.2f} % for {more} more",
-        value=per * change,
-        uncertainty=per * uncertainty,
+        f"+{more}: {what} {change:+.2f} ± {uncertainty:.2f}, volume {volume:+.2f} %",
+        value=change,
+        uncertainty=uncertainty,
         place=path,
     )

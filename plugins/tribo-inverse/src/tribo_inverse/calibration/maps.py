@@ -16,7 +16,7 @@ from tribo import Array, Case, CaseError, Finding, Mask, NumericalError, Simulat
 from tribo.kernel_api import Model, assemble, begin, march, varied
 
 from tribo_inverse.adjoint.backwards import swept_back
-from tribo_inverse.adjoint.gradient import FURTHEST, ValueAndGradient
+from tribo_inverse.adjoint.unknowns import FURTHEST, ValueAndGradient
 from tribo_inverse.adjoint.view import Seeds, View
 from tribo_inverse.calibration.cells import cell_means, surface_shape
 from tribo_inverse.calibration.descent import descended
