@@ -88,6 +88,10 @@ def test_each_mistake_is_a_line(path):
     ("grid", "message"),
     [
         ({"size": 1e-3, "cells": 0}, "grid.cells: 0: must be at least 1"),
+        (
+            {"size": {}, "cells": 8},
+            "grid.size: a table is not a quantity; a length [m] is needed, as in '5 mm'",
+        ),
         ({"size": 1e-3, "cells": [4, 16385]}, "grid.cells.2: 16385: must be at most 16384"),
         ({"cells": 8}, "grid.size: missing; a length [m] is needed, as in '5 mm'"),
     ],

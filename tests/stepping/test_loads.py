@@ -16,6 +16,7 @@ from paper_models import (
 )
 
 from tribo import CaseError, Grid, Load, Simulation, Stage, load_case
+from tribo.core.loads import Loads
 
 GRID = Grid((0.7e-3, 0.7e-3), (32, 32))
 SPEED = 0.1
@@ -73,11 +74,17 @@ def test_a_run_that_is_stopped_at_a_jump_or_after_it_goes_on_to_the_same_bits(tm
     goes_on(loaded(BLOCKS), tmp_path, at_jump, at_jump + 2).close()
 
 
+def test_at_a_jump_the_loads_before_it_and_after_it_differ():
+    loads = Loads(Load(normal=BLOCKS).points, shares=(1.0, 0.5), weights=(0.5, 0.5))
+    assert (loads.before(6.0), loads.after(6.0)) == ((20.0, 10.0), (100.0, 50.0))
+
+
 def test_an_estimate_takes_few_stages_that_carry_as_much():
     times = np.linspace(0, 20, 1001)
     load = Load(normal=[{"at": t, "normal": 60 + 40 * np.sin(3 * t)} for t in times])
     few = load.thinned()
     assert len(few.normal) == 50
+    assert few.normal[0].until == times[20]
     carried = np.diff([0, *(stage.until for stage in few.normal)]) * [s.normal for s in few.normal]
     exact = np.trapezoid([stage.normal for stage in load.normal], times)
     assert np.sum(carried) == pytest.approx(exact, rel=1e-12, abs=0)
