@@ -29,7 +29,6 @@ def test_the_names_follow_from_the_distribution(distribution, package, component
         ("acme-3d", "as 'acme-fretting'"),
         ("acme-lambda", "'lambda', which is a keyword"),
         ("acme-wear-law", "'WearLaw', which is tri"),
-        ("acme-" + 26 * "x", "30 characters are allowed"),
     ],
 )
 def test_a_name_that_cannot_be_used_is_refused_with_a_remedy(given, remedy):

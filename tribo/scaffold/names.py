@@ -11,8 +11,6 @@ from tribo.core.lazy import homes
 
 _FORM = re.compile(r"[a-z][a-z0-9]*-[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _PACKAGE = Path(__file__).parents[1] / "__init__.py"
-_LONGEST = 30
-"""What keeps the lines of the files within 100 characters."""
 
 
 def plugin_names(distribution: str) -> dict[str, str]:
@@ -22,8 +20,7 @@ def plugin_names(distribution: str) -> dict[str, str]:
     ----------
     distribution : str
         As ``acme-fretting``: words of lower-case letters and digits joined by
-        hyphens, at most 30 characters. The first says whose plugin it is, the
-        others what it is.
+        hyphens. The first says whose plugin it is, the others what it is.
 
     Returns
     -------
@@ -35,16 +32,12 @@ def plugin_names(distribution: str) -> dict[str, str]:
     Raises
     ------
     CaseError
-        If it is not of that form or length, or Python or tribo needs one of the names.
+        If it is not of that form, or Python or tribo needs one of the names.
     """
     if not _FORM.fullmatch(distribution):
         raise CaseError(
             f"{distribution!r} is not allowed as a plugin's name; give its owner and subject in "
             "lower-case words joined by hyphens, as 'acme-fretting'"
-        )
-    if len(distribution) > _LONGEST:
-        raise CaseError(
-            f"{distribution!r} is too long for a plugin's name; {_LONGEST} characters are allowed"
         )
     prefix, _, module = distribution.replace("-", "_").partition("_")
     title = "".join(word.capitalize() for word in module.split("_"))
