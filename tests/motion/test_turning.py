@@ -70,8 +70,3 @@ def test_a_ring_is_round_and_as_large_as_its_track(ring, words):
 def test_a_ring_with_grooves_round_its_rim_stays_as_it_is():
     grooved = Waves(amplitude="1 nm", wavelength="1 mm", along="y", on=Cylinder(radius=RADIUS))
     assert block_on_ring(1.0, ring=grooved).cycle.maps["ring"].shape_stays
-
-
-def test_a_ring_has_no_positions():
-    with pytest.raises(CaseError, match="a body that turns is the same at all positions"):
-        block_on_ring(1.0, positions=9)

@@ -150,7 +150,7 @@ def unlike_the_period(body: str, length: float, period: float) -> Finding:
         f"the contact repeats every {1e3 * period:.4g} mm without an end, but the wear of "
         f"{body} by one period is averaged over a track of {1e3 * length:.4g} mm: "
         f"{body} wears {period / length:.3g} times as much as it would; make the track "
-        'as long as the window, or resolve it by kinematics.positions = "cells"',
+        'as long as the window, or resolve a stroke by kinematics.positions = "cells"',
         value=length,
         limit=period,
         place=f"bodies.{body}",

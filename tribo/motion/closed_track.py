@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Literal, Self
+from typing import Annotated, Self
 
 import numpy as np
-from pydantic import Field, Tag, field_validator, model_validator
+from pydantic import Tag, field_validator, model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
@@ -16,10 +16,9 @@ from tribo.core.loads import NUMBER, ONE_OR_STAGES, STAGES, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity, parse
 from tribo.motion.cycle import Position
-from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
+from tribo.motion.exposure import Exposure, Track, one_swept_body
 from tribo.motion.held import Held, held
 from tribo.motion.kinematics import Kinematics
-from tribo.motion.stroke import WHOLE, Stroke, odd
 
 
 class SpeedStage(Table):
@@ -153,8 +152,8 @@ class Unidirectional(ClosedTrack):
     The curvature of the track inside the contact is neglected: valid for contacts of less than a
     tenth of the track radius; `Rotating` has it.
 
-    For two bodies that repeat with the window, such as nominally flat rough ones, the path may be
-    resolved into `positions`: positions over the window's length represent the whole track.
+    Of two bodies that repeat with the window, such as nominally flat rough ones, `Reciprocating`
+    over the window's length resolves the track into positions.
 
     Examples
     --------
@@ -169,23 +168,14 @@ class Unidirectional(ClosedTrack):
     """Length of the closed track."""
     track_radius: Annotated[float, Quantity("m", above=0, usual=(1e-6, 1.0))] | None = None
     """Radius of a circular track; its length is 2πr."""
-    positions: Annotated[int, Field(ge=3)] | Literal["cells", "average"] = "average"
-    """In how many positions over the window's length the contact is solved, an odd number, or
-    ``"cells"`` for every cell, where the contact repeats with the window; ``"average"`` takes the
-    track average for all of them."""
-
     turns: bool = False
     """Whether the swept body turns about an axis along y, as a ring does on a block: its points
     pass, its shape stays."""
-
-    _middle = field_validator("positions")(odd)
 
     @model_validator(mode="after")
     def _one_track(self) -> Self:
         if (self.track_length is None) == (self.track_radius is None):
             raise ValueError("give exactly one of track_length and track_radius")
-        if self.turns and self.positions != "average":
-            raise ValueError('a body that turns is the same at all positions; use "average"')
         return self
 
     @property
@@ -196,36 +186,12 @@ class Unidirectional(ClosedTrack):
         assert self.track_radius is not None
         return 2 * math.pi * self.track_radius
 
-    def cycle(self, grid: Grid) -> Sequence[Position]:
-        """Return the one position of the average, or the positions over the window's length."""
-        if self.positions == "average":
-            return super().cycle(grid)
-        return [Position(float(share)) for share in self._stroke(grid).shares]
-
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
-        """Return the closed track for the swept body, or the rows of the window."""
+        """Return the closed track for the swept body."""
         if self.track_radius is not None and not self.turns:
             check_axis(self.track_radius, grid)
-        if self.positions == "average":
-            track = Track(grid, self.track_extent, shape_stays=self.turns)
-            return one_swept_body(grid, bodies, self.swept, track)
-        passing = Passing(grid, self._stroke(grid).starts, self.track_extent)
-        return one_swept_body(grid, bodies, self.swept, passing)
-
-    def _stroke(self, grid: Grid) -> Stroke:
-        if grid.period is None:
-            raise CaseError(
-                "a track is resolved only where the contact repeats with the window "
-                '(contact.type = "periodic"); use positions = "average"',
-                "kinematics.positions",
-            )
-        if self.track_extent < grid.size[0] * (1 - WHOLE):
-            raise CaseError(
-                f"{1e3 * self.track_extent:.4g} mm is shorter than the window of "
-                f"{1e3 * grid.size[0]:.4g} mm, after which the contact repeats",
-                f"kinematics.{self._given}",
-            )
-        return Stroke(grid.size[0], grid.spacing[0], self.positions, grid.period)
+        track = Track(grid, self.track_extent, shape_stays=self.turns)
+        return one_swept_body(grid, bodies, self.swept, track)
 
     @property
     def _given(self) -> str:

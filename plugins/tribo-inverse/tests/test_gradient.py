@@ -42,7 +42,7 @@ from tribo_inverse.adjoint.objective import Deepest, Depth, EndDistance, EndTime
 
 def flats():
     waves = Waves(wavelength="32 um", amplitude="0.2 um")
-    slides = Unidirectional(speed=0.1, distance=5.0, track_length=1.0, positions=5)
+    slides = motion(stroke="64 um", duration=None, distance=5.0, positions=5)
     return run(
         grid=Grid(("64 um", "64 um"), (16, 16)),
         load=1.0,
