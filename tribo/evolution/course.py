@@ -13,7 +13,7 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import ContactSolution
 from tribo.core.fields import WORN_DEPTH, Field, WearRate
 from tribo.evolution.interval import Interval
-from tribo.evolution.rates import CycleRates, rates_at_each, wear_rates
+from tribo.evolution.rates import CycleRates, friction_of, rates_at_each, wear_rates
 from tribo.evolution.states import Memory, laid, place
 from tribo.integration.division import Division, integrated
 from tribo.integration.kept import Kept, Sum, Values
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
 NUDGE = 1e-4
 """Part of the pressure by which it is varied to determine the slope of a wear rate."""
-COARSE = Division((0.25, 0.75), np.inf)
-"""Division to determine slopes, where an increment has more parts than these."""
 
 
 @dataclass(frozen=True)
@@ -93,6 +91,17 @@ def course(
     return Course(mean, before.with_values(iter(found.values)), found.plan, work, passed)
 
 
+def varying_work(
+    model: Model, before: Memory, contacts: Sequence[ContactSolution], interval: Interval
+) -> float:
+    """Return the work of friction over an interval without states, in J."""
+
+    def rates(_: Sequence[Array], passed: float) -> Values:
+        return _rates(model, before, contacts, interval, [], passed)[-1:]
+
+    return float(integrated(rates, [], interval.length, [], [Sum()]).sums[0])
+
+
 def in_stripes(
     contacts: Sequence[ContactSolution],
 ) -> tuple[list[ContactSolution], list[Array]]:
@@ -124,17 +133,11 @@ def sloped(
     if not before.values:
         return known.rates
     nudged, stripes = in_stripes(contacts)
-    # Slopes jump where points pass breaks: those over other parts mislead.
-    breaks = any(each.breaks for each in kept_in(model, before))
-    if len(known.plan.parts) > len(COARSE.parts) and not breaks:
-        same, plan = course(model, before, contacts, interval, COARSE), COARSE
-    else:
-        same, plan = known, replace(known.plan, accuracy=np.inf)
-    other = course(model, before, nudged, interval, plan)
+    other = course(model, before, nudged, interval, replace(known.plan, accuracy=np.inf))
     laws = wear_rates(model, contacts, known.memory, interval.end)
     sloped = [dict(rates) for rates in known.rates]
     for at, rates, higher, law, stripe in zip(
-        same.rates, sloped, other.rates, laws, stripes, strict=True
+        known.rates, sloped, other.rates, laws, stripes, strict=True
     ):
         for name, rate in rates.items():
             change = higher[name].depth_rate - at[name].depth_rate
@@ -172,12 +175,7 @@ def _rates(
         total = [value + share * rate for value, rate in pairs]
     total += [rate.depth_rate for rates in found for rate in rates.wear.values()]
     if model.laws.friction_by_point:
-        force = sum(
-            place.share * float(np.sum(rates.friction))
-            for place, rates in zip(model.cycle, found, strict=True)
-            if rates.friction is not None
-        )
-        total.append(np.array(force * model.grid.cell_area))
+        total.append(np.array(friction_of(model, found)))
     return total
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import partial, reduce
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
@@ -88,6 +88,16 @@ def rates_at_each(
     ]
 
 
+def friction_of(model: Model, rates: Sequence[Rates]) -> float:
+    """Return the mean energy that friction dissipates over a cycle per metre, in N."""
+    force = sum(
+        place.share * float(np.sum(each.friction))
+        for place, each in zip(model.cycle, rates, strict=True)
+        if each.friction is not None
+    )
+    return force * model.grid.cell_area
+
+
 def _resting(
     model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
 ) -> dict[str, Array]:
@@ -162,11 +172,16 @@ def by_reach(
 
 
 def _mean(rates: Sequence[tuple[float | Array, WearRate]]) -> WearRate:
-    keys = rates[0][1].state_rates
+    weights, each = zip(*rates, strict=True)
+    return _mapped(lambda *values: _sum(zip(weights, values, strict=True)), *each)
+
+
+def _mapped(function: Callable[..., Array], *rates: WearRate) -> WearRate:
+    """Return a function of the depths, slopes and changes of states of some rates."""
     return WearRate(
-        _sum((share, rate.depth_rate) for share, rate in rates),
-        _sum((share, rate.depth_slope) for share, rate in rates),
-        {key: _sum((share, rate.state_rates[key]) for share, rate in rates) for key in keys},
+        function(*[rate.depth_rate for rate in rates]),
+        function(*[rate.depth_slope for rate in rates]),
+        {key: function(*[rate.state_rates[key] for rate in rates]) for key in rates[0].state_rates},
     )
 
 
@@ -251,12 +266,8 @@ def _laws(
         if solid is not None:
             rate = replace(rate, depth_slope=solid * rate.depth_slope)
         if slip is not None:
-            states = {key: slip * values for key, values in rate.state_rates.items()}
-            rate = WearRate(slip * rate.depth_rate, slip * rate.depth_slope, states)
-        if not near.is_window:
-            states = {key: near.embed(values) for key, values in rate.state_rates.items()}
-            rate = WearRate(near.embed(rate.depth_rate), near.embed(rate.depth_slope), states)
-        rates[name] = rate
+            rate = _mapped(partial(np.multiply, slip), rate)
+        rates[name] = rate if near.is_window else _mapped(near.embed, rate)
     return rates
 
 
