@@ -54,8 +54,6 @@ class Kept:
 
     def hold(self, values: Array) -> Array:
         """Return values clipped to the limits."""
-        if math.isinf(self.least) and math.isinf(self.most):
-            return values
         return np.clip(values, self.least, self.most)
 
     def aside(self, values: Array, nudge: Field) -> Array:
@@ -65,19 +63,6 @@ class Kept:
         above = self.ends[np.searchsorted(self.breaks, values, side="right") + 1]
         crosses = np.where(above == self.most, values + nudge > above, values + nudge >= above)
         return np.where(crosses, values - nudge, values + nudge)
-
-    def changes(self, values: Array, others: Array) -> bool:
-        """Whether a break or a limit lies between values and others."""
-        if self.ends is None:
-            return False
-        if np.any((others <= self.least) & (others < values)):
-            return True
-        if np.any((others >= self.most) & (others > values)):
-            return True
-        if not self.breaks:
-            return False
-        one, other = (np.searchsorted(self.breaks, each, side="right") for each in (values, others))
-        return not np.array_equal(one, other)
 
     def end(self, number: Numbers) -> Array:
         """Return breaks by their numbers; the limits have the numbers before and after them."""

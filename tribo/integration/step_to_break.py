@@ -68,7 +68,11 @@ def stepped(
     most = 1 + sum(len(each.breaks) + 1 for each in kept if each.ends is not None)
     while True:
         spans, ended = dict(left), dict[int, tuple[Mask, Numbers]]()
-        coming = _coming(states, found, slopes, kept, left) if len(pieces) < most else []
+        coming = [
+            (at, *each.next(states[at], found[at], slopes[at]))
+            for at, each in enumerate(kept)
+            if each.ends is not None and len(pieces) < most
+        ]
         for at, _, _, time in coming:
             place = kept[at].place
             if np.any((time <= left[place]) & (left[place] > 0)):
@@ -105,21 +109,6 @@ def stepped(
 def places_passing(kept: Sequence[Kept], pieces: Iterable[Stretch]) -> set[str]:
     """Return the places at which a state reaches a break or a limit in some pieces."""
     return {kept[at].place for piece in pieces for at in piece.ended}
-
-
-def _coming(
-    states: Sequence[Array],
-    rates: Values,
-    slopes: Sequence[Field],
-    kept: Sequence[Kept],
-    left: Mapping[str, Field],
-) -> list[tuple[int, Array, Numbers, Array]]:
-    """Return the number and `Kept.next` of each state that may reach a break or a limit."""
-    return [
-        (at, *each.next(states[at], rates[at], slopes[at]))
-        for at, each in enumerate(kept)
-        if each.changes(states[at], states[at] + left[each.place] * rates[at])
-    ]
 
 
 def stepped_back(

@@ -63,8 +63,6 @@ class Exposure(ABC):
         """Return the mean length of the track of its points, in m; 0 if they are stationary."""
         if not self.swept:
             return 0.0
-        if self.starts is not None:
-            return (max(self.starts) - min(self.starts)) * window.spacing[0]
         # What one metre of depth all along it takes, over the breadth of the window.
         return self.volume(np.ones((1, window.cells[1]))) / window.size[1]
 
@@ -100,20 +98,20 @@ class Exposure(ABC):
         mean = part * self.average(rate)
         return mean if total is None else total + mean
 
-    @abstractmethod
     def average(self, rate: Array) -> Array:
         """Return the mean rate at each point of the body per metre of sliding, on its surface.
 
-        It is the mean over a whole motion of a rate in the contact frame, shape (nx, ny). With
-        `starts` it is `rate` itself, which `gather` maps to the body at each position of the cycle.
+        It is the mean over a whole motion of a rate in the contact frame, shape (nx, ny): `rate`
+        itself, unless overridden for an averaged track.
         """
+        return rate
 
-    @abstractmethod
     def envelope(self, field: Array) -> Array:
         """Return the largest value of a field that each point of the body meets, on its surface.
 
-        The field lies there; for an averaged track, in the contact frame.
+        The field lies there, and is the answer; for an averaged track, it is in the contact frame.
         """
+        return field
 
     @abstractmethod
     def volume(self, depth: Array) -> float:
@@ -143,14 +141,6 @@ class Stationary(Exposure):
         self._grid = grid
         self.rows = grid.cells[0]
         self._cell_area = grid.cell_area
-
-    def average(self, rate: Array) -> Array:
-        """Return `rate` itself: every point sees its own."""
-        return rate
-
-    def envelope(self, field: Array) -> Array:
-        """Return `field` itself."""
-        return field
 
     def volume(self, depth: Array) -> float:
         """Return the integral of `depth` over the body's rows, in m³."""
