@@ -15,8 +15,6 @@ from tribo.core.errors import NumericalError
 # Where the minimum along a step onto a bound lies beyond this part of the step, all of it is
 # taken; that lowers the energy if the part is more than 1/2.
 _NEAR_ENOUGH = 0.75
-# Iterations within which a method must halve the residual, or the other takes over.
-_PATIENCE = 12
 
 
 def solve_bounded(
@@ -34,8 +32,7 @@ def solve_bounded(
 
     Preconditioned conjugate gradients on the cells strictly within the bounds. A step as long as
     the last one is projected onto the bounds, and the minimum sought along the projected step.
-    Where that stalls, as when nearly all cells are at a bound, projected Barzilai-Borwein steps
-    take over until they stall in turn.
+    Where that leads uphill, a projected step of Barzilai and Borwein's length is taken.
 
     Parameters
     ----------
@@ -124,7 +121,6 @@ def solve_together(
     shares = compliance.shares if isinstance(compliance, CycleCompliance) else None
 
     iterate = _Iterate(operator, gap, total, limit, start, shares)
-    best, waited = np.inf, 0
     for iteration in range(max_iterations + 1):
         reached = iterate.judge()
         worst = max(each.worst for each in reached)
@@ -132,13 +128,7 @@ def solve_together(
             return iterate.solutions(iteration, reached)
         if iteration == max_iterations:
             break
-        waited += 1
-        if worst < 0.5 * best:
-            best, waited = worst, 0
-        if waited > _PATIENCE:
-            best, waited = worst, 0
-            iterate.switch()
-        if not (iterate.conjugate and iterate.conjugate_step()):
+        if not iterate.conjugate_step():
             iterate.spectral_step()
     raise NumericalError(
         f"the contact did not converge in {max_iterations} iterations: the residual is "
@@ -168,7 +158,6 @@ class _Iterate:
         self.pressure = _feasible(start, gap.shape, total, limit)
         self.displacement = operator.apply(self.pressure)
         self.full = np.zeros(gap.shape, dtype=bool)
-        self.conjugate = True
         # Overwritten in each iteration: new memory costs as much as what is computed in it.
         self.deformed, self.residual, self.gradient, self.direction = np.zeros((4, *gap.shape))
         self.change, self.ahead, self.moved = np.empty((3, *gap.shape))
@@ -266,11 +255,6 @@ class _Iterate:
             # Alternating the two keeps the steps from settling into a cycle.
             self.rate = long if self.lengthen else short
             self.lengthen = not self.lengthen
-
-    def switch(self) -> None:
-        self.conjugate = not self.conjugate
-        self.decrease = np.inf
-        self.rate = 1.0 / float(self.symbol.max())
 
     def solutions(self, iterations: int, reached: list[Residuals]) -> list[ContactSolution]:
         overlap = np.where(self.full, np.maximum(-self.deformed, 0.0), 0.0)
