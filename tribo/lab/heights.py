@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import scipy.ndimage as ndimage
+from numpy.typing import NDArray
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, warn
@@ -25,6 +26,8 @@ AROUND = 4.0
 OUTLIER = 6.0
 """Mean deviations by which an outlier lies beyond its neighbours; without outliers 1 of 1.2 million
 pixels of `benchmarks/studies/scar_coverage.py` does, and 9 at 5."""
+ROUND_OFF = 1e-12
+"""Part of the heights' range below which the residual of a form is taken as 0."""
 
 
 @dataclass(frozen=True)
@@ -229,3 +232,47 @@ def _along_rows(heights: Array) -> tuple[Array, Array]:
     # The error of a chord of a parabola is the product of the distances to its ends.
     counts = np.where(between, 1 / np.maximum(left * right, 1) ** 2, 0.0)
     return np.where(between, ends[0] + part * (ends[1] - ends[0]), 0.0), counts
+
+
+def without_form(height: Array, order: int = 2) -> Array:
+    """Return heights less the polynomial of least squares in x and y.
+
+    Parameters
+    ----------
+    height : ndarray, shape (nx, ny)
+        In m; NaN where missing.
+    order : int, optional
+        Largest total power. 0 removes the mean, 1 the plane, and 2 the curvature as well, of a
+        ball or a cylinder up to the square of the map's half-width over the radius.
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        In m; NaN where `height` is, and all NaN where it has fewer cells than the polynomial has
+        terms.
+    """
+    known = np.isfinite(height)
+    relief = np.full(height.shape, np.nan)
+    powers = [(i, j) for i in range(order + 1) for j in range(order + 1 - i)]
+    if np.count_nonzero(known) < len(powers):
+        return relief
+    heights = height[known] - np.mean(height[known])
+    along, across = (
+        np.polynomial.legendre.legvander(_scaled(cells), order).T for cells in np.nonzero(known)
+    )
+    terms = np.stack([along[i] * across[j] for i, j in powers])
+    # By sums, whose bits, unlike a product's, do not depend on the number of threads.
+    products = np.einsum("kn,ln->kl", terms, terms)
+    # A map that is one line wide leaves the powers across it open.
+    inverse = np.linalg.pinv(products, hermitian=True)
+    weights = np.einsum("kl,l->k", inverse, np.einsum("kn,n->k", terms, heights))
+    left = heights - np.einsum("k,kn->n", weights, terms)
+    left[np.abs(left) <= ROUND_OFF * np.ptp(heights)] = 0.0
+    relief[known] = left
+    return relief
+
+
+def _scaled(cells: NDArray[np.intp]) -> Array:
+    """Return numbers of cells as positions between -1 and 1."""
+    first, last = int(np.min(cells)), int(np.max(cells))
+    return np.asarray((2.0 * cells - first - last) / max(last - first, 1))

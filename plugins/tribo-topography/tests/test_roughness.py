@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from tribo import Cylinder, Grid, Rough, Sphere
+from tribo.kernel_api import without_form
 
 from tribo_topography.roughness import (
     areal_parameters,
@@ -12,7 +13,6 @@ from tribo_topography.roughness import (
     material_ratio,
     profile_parameters,
     roughness,
-    without_form,
 )
 
 GRID = Grid("1 mm", 100)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from tribo import Array, CaseError
-from tribo.kernel_api import interpolated
+from tribo.kernel_api import interpolated, without_form
 
 from tribo_topography.config import MeasuredFile
-from tribo_topography.roughness import without_form
 
 ORDERS = {"mean": 0, "tilt": 1, "curvature": 2}
 

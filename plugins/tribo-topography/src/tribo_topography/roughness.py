@@ -9,11 +9,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from tribo import Array
+from tribo.kernel_api import without_form
 
-ROUND_OFF = 1e-12
-"""Part of the heights' range below which the residual of a form is taken as 0."""
 FINE_FORM = 6
 """Order of the polynomial that removes a ball or cylinder in a contact's window."""
 ROUGH = 1e-5
@@ -54,44 +52,6 @@ def parameters(relief: Array) -> Roughness:
     return Roughness(
         *areal_parameters(relief), *profile_parameters(relief, 0), *profile_parameters(relief, 1)
     )
-
-
-def without_form(height: Array, order: int = 2) -> Array:
-    """Return heights less the polynomial of least squares in x and y.
-
-    Parameters
-    ----------
-    height : ndarray, shape (nx, ny)
-        In m; NaN where missing.
-    order : int, optional
-        Largest total power. 0 removes the mean, 1 the plane, and 2 the curvature as well, of a
-        ball or a cylinder up to the square of the map's half-width over the radius.
-
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        In m; NaN where `height` is, and all NaN where it has fewer cells than the polynomial has
-        terms.
-    """
-    known = np.isfinite(height)
-    relief = np.full(height.shape, np.nan)
-    powers = [(i, j) for i in range(order + 1) for j in range(order + 1 - i)]
-    if np.count_nonzero(known) < len(powers):
-        return relief
-    heights = height[known] - np.mean(height[known])
-    along, across = (
-        np.polynomial.legendre.legvander(_scaled(cells), order).T for cells in np.nonzero(known)
-    )
-    terms = np.stack([along[i] * across[j] for i, j in powers])
-    # By sums, whose bits, unlike a product's, do not depend on the number of threads.
-    products = np.einsum("kn,ln->kl", terms, terms)
-    # A map that is one line wide leaves the powers across it open.
-    inverse = np.linalg.pinv(products, hermitian=True)
-    weights = np.einsum("kl,l->k", inverse, np.einsum("kn,n->k", terms, heights))
-    left = heights - np.einsum("k,kn->n", weights, terms)
-    left[np.abs(left) <= ROUND_OFF * np.ptp(heights)] = 0.0
-    relief[known] = left
-    return relief
 
 
 def areal_parameters(height: Array) -> tuple[float, float, float, float, float]:
@@ -150,9 +110,3 @@ def is_rough(height: Array) -> bool:
     span = float(np.nanmax(height) - np.nanmin(height))
     # The fit to a flat would take more memory than any other part of its run.
     return span > 0 and areal_parameters(without_form(height, FINE_FORM))[1] > ROUGH * span
-
-
-def _scaled(cells: NDArray[np.intp]) -> Array:
-    """Return numbers of cells as positions between -1 and 1."""
-    first, last = int(np.min(cells)), int(np.max(cells))
-    return np.asarray((2.0 * cells - first - last) / max(last - first, 1))

@@ -7,8 +7,9 @@ from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 from tribo import Array, BodyResult, CaseError, Mask, Result
+from tribo.kernel_api import without_form
 
-from tribo_topography.roughness import Roughness, is_rough, parameters, without_form
+from tribo_topography.roughness import Roughness, is_rough, parameters
 
 T = TypeVar("T")
 FORM = 4
