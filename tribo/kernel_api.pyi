@@ -80,8 +80,6 @@ from tribo.lab.formulas import circular_groove_area as circular_groove_area
 from tribo.lab.formulas import reciprocating_track_volume as reciprocating_track_volume
 from tribo.lab.heights import interpolated as interpolated
 from tribo.lab.heights import nearest_filled as nearest_filled
-from tribo.lab.heights import outliers as outliers
-from tribo.lab.heights import smoothed as smoothed
 from tribo.lab.heights import without_form as without_form
 from tribo.lab.inferred import UNWORN as UNWORN
 from tribo.lab.inferred import ball_volumes as ball_volumes

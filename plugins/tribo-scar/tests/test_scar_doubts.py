@@ -5,9 +5,9 @@ import pytest
 import scipy.ndimage as ndimage
 from scar_maps import PITCH, RADIUS, of_flat, pair, places, volume
 from tribo import Heights, TriboWarning
-from tribo.lab import heights
 
 from tribo_scar import measured_scar
+from tribo_scar.smoothing import outliers
 
 
 def test_spikes_are_left_out_and_counted():
@@ -30,7 +30,7 @@ def test_neither_steep_sides_nor_relief_are_outliers(standard):
     assert standard[3].outliers == 0
     for radius in (25.0e-6, 25.3e-6):
         pin = of_flat(1e-5 * (np.hypot(*places()) >= radius), 1e-8, seed=2)
-        assert not heights.outliers(pin.heights).any()
+        assert not outliers(pin.heights).any()
 
 
 def test_a_map_twice_as_wide_as_its_scar_is_large_enough():

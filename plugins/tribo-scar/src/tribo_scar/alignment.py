@@ -9,7 +9,9 @@ import scipy.fft
 import scipy.ndimage as ndimage
 from scipy.stats import median_abs_deviation
 from tribo import Array, Heights
-from tribo.kernel_api import nearest_filled, smoothed
+from tribo.kernel_api import nearest_filled
+
+from tribo_scar.smoothing import smoothed
 
 OVERLAP = 0.2
 """Smallest overlap of the maps."""

@@ -7,9 +7,10 @@ import math
 import numpy as np
 import scipy.ndimage as ndimage
 from tribo import Array, CaseError, Mask
-from tribo.kernel_api import nearest_filled, smoothed
+from tribo.kernel_api import nearest_filled
 
 from tribo_scar.registration import Registration, quadratic
+from tribo_scar.smoothing import smoothed
 
 BOTTOM = 0.8
 """Part of the largest depth above which a pixel belongs to the bottom of the scar."""

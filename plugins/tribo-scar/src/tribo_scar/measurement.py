@@ -16,7 +16,6 @@ from tribo.kernel_api import (
     ball_volumes,
     circular_groove_area,
     inferred,
-    outliers,
     reciprocating_track_volume,
     without_form,
 )
@@ -24,6 +23,7 @@ from tribo.kernel_api import (
 from tribo_scar.depth import deepest, sum_uncertainty
 from tribo_scar.findings import check_measured, check_scales, warn, warn_of_area
 from tribo_scar.registration import Registration, register
+from tribo_scar.smoothing import outliers
 from tribo_scar.widths import LINES, WidthReading, scar_width
 from tribo_scar.worn_area import MARGIN, WornArea, worn_area
 

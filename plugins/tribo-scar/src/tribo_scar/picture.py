@@ -17,11 +17,11 @@ from tribo.kernel_api import (
     field_picture,
     height_unit,
     size,
-    smoothed,
     style,
 )
 
 from tribo_scar.measurement import MOST_DIGITS, MeasuredScar
+from tribo_scar.smoothing import smoothed
 
 MISSING = "#e0b080"
 """Colour of missing pixels, which no depth has."""

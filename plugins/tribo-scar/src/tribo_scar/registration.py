@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.ndimage as ndimage
 from tribo import Array, CaseError, Heights, Mask
-from tribo.kernel_api import nearest_filled, smoothed
+from tribo.kernel_api import nearest_filled
 
 from tribo_scar.alignment import OVERLAP, align, robust_deviation, rotation
+from tribo_scar.smoothing import smoothed
 
 SAME = 1e-3
 """Relative difference up to which two pitches are the same."""

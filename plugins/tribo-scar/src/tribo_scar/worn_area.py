@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.ndimage as ndimage
 from tribo import Array, CaseError, Mask
-from tribo.kernel_api import interpolated, smoothed
+from tribo.kernel_api import interpolated
 
 from tribo_scar.alignment import robust_deviation
 from tribo_scar.registration import BLURS, DEEP, ROUNDED, Registration
+from tribo_scar.smoothing import smoothed
 from tribo_scar.widths import LOWEST, WidthReading, track_across
 
 SPOT = 0.1
