@@ -22,7 +22,7 @@ def names(figure):
 
 
 def test_a_map_is_the_result_less_the_first(results):
-    figure = difference_map(results, "three", 3600.0)
+    figure = difference_map(results, "three", 3600.0).figure()
     images = [axes.images[0] for axes in figure.axes if axes.images]
     pressure, wear = (np.ma.filled(image.get_array(), 0.0).T for image in images)
     one, three = results["one"], results["three"]
@@ -40,7 +40,9 @@ def test_a_map_is_the_result_less_the_first(results):
 
 
 def test_the_largest_difference_has_its_sign(results):
-    turned = difference_map({n: results[n] for n in ("three", "one")}, "one", 3600.0).axes[0]
+    turned = (
+        difference_map({n: results[n] for n in ("three", "one")}, "one", 3600.0).figure().axes[0]
+    )
     pressure = turned.images[0].get_array().compressed()
     lowest = pressure.min()
     assert -lowest > pressure.max()

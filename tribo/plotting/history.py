@@ -41,15 +41,9 @@ def _from_zero(axes: Axes, _: Array) -> None:
     axes.ticklabel_format(axis="y", useMathText=True)
 
 
-def _around(axes: Axes, values: Array) -> None:
-    """Take a scale with zero but for values that vary far from it, as a temperature."""
-    low = float(np.min(values))
-    if steady(values):
-        # The limits of matplotlib would show rounding.
-        axes.update_datalim([(0.0, 0.0)])
-        axes.autoscale_view()
-    if low >= 0 and (steady(values) or low < 0.5 * np.max(values)):
-        _from_zero(axes, values)
+def _as_it_varies(axes: Axes, _: Array) -> None:
+    """Leave the scale to matplotlib: a temperature varies far from zero, a rate may be negative."""
+    axes.yaxis.set_major_locator(ticks(6))
 
 
 def _fit_scale(axes: Axes, values: Array) -> None:
@@ -182,7 +176,7 @@ def _friction(result: Result) -> list[TimePanel]:
 
 
 def _fields(result: Result) -> list[TimePanel]:
-    """Return the largest value of each field of the models and its mean in the contact."""
+    """Return the largest value of each field that varies with time, and its mean in the contact."""
     looks = [
         {**look, **AT_SAVES, "marker": mark, "markersize": size}
         for look, mark, size in ((LARGEST, "o", 6.0), (OVER, "s", 3.0))
@@ -191,9 +185,11 @@ def _fields(result: Result) -> list[TimePanel]:
     for field in kept_fields(result) if len(result.times) > 1 else ():
         values = field.over_time(result).items()
         curves = {label: (result.times, each) for label, each in values}
+        if all(steady(each) for _, each in curves.values()):
+            continue
         title = "" if panels else "at the saves; not known between"
         name = field.name.capitalize()
-        panels.append(TimePanel(name, field.unit, curves, looks, _around, title=title))
+        panels.append(TimePanel(name, field.unit, curves, looks, _as_it_varies, title=title))
     return panels
 
 

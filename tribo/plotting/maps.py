@@ -21,8 +21,6 @@ _AROUND = 19.0
 """Height of the title and of the labels, in mm."""
 _LINE = 3.6
 """Height of a line of text, in mm."""
-_LABEL = 32.0
-"""Longest label, in mm; a lower map breaks it."""
 _WIDEST, _TALLEST = 41.0, 60.0
 """Most width and height of a map, in mm."""
 _THINNEST = 2.5
@@ -84,7 +82,7 @@ class Layout(NamedTuple):
         axes.yaxis.set_major_locator(ticks(max(2, int(height / 7.0))))
         along, across = self.labels
         axes.set_xlabel(along)
-        axes.set_ylabel(across if height >= _LABEL else across.replace(", ", ",\n"))
+        axes.set_ylabel(across.replace(", ", ",\n"))
 
 
 class Scale(NamedTuple):

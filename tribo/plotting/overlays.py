@@ -42,7 +42,7 @@ def comparison_picture(
     along an axis along which nothing varies. `ax` are axes to draw on, one for each panel.
     """
     looks, labels = overlay_looks(len(results)), list(results)
-    names = ["", *_worn_in_all(results, time)] if parts is None else list(parts)
+    names = ["", *_worn(results, time)] if parts is None else list(parts)
     every = results.values()
     drawn = {name: [_surface(result, time, name) for result in every] for name in names}
     worn = (_field(result, time, name) for name in names for result in every)
@@ -88,17 +88,13 @@ def _surface(result: Result, time: float, name: str) -> tuple[Grid, Array, Mask]
     return grid, result.body(name).surface(result.save_at(time)) if name else field, marked
 
 
-def difference_map(results: Results, label: str, time: float) -> Figure:
+def difference_map(results: Results, label: str, time: float) -> Picture:
     """Draw the difference of a result from the first: pressure, and depth of stationary bodies.
 
     `results` are by label; `label` is the result to draw, `time` a saved time of both, in s. Fields
     that vary along one axis only are left out: `comparison_picture` shows them. CaseError if the
     two have different grids, or `NothingToDraw` if they differ along one axis at most.
     """
-    return _difference(results, label, time).figure()
-
-
-def _difference(results: Results, label: str, time: float) -> Picture:
     first_label, first = next(iter(results.items()))
     result, grid = results[label], first.grid
     if (grid.size, grid.cells) != (result.grid.size, result.grid.cells):
@@ -108,7 +104,7 @@ def _difference(results: Results, label: str, time: float) -> Picture:
         )
     bodies = [name for name in result.body_names if not result.body(name).swept]
     pictures: list[Picture] = []
-    for name in ("", *filter(first.body_names.__contains__, bodies)):
+    for name in ("", *bodies):
         (_, other, below), (_, field, above) = (
             _field(each, time, name) for each in (first, result)
         )
@@ -138,19 +134,16 @@ def save_overlays(
         pictures[f"comparison_{time:g}s"] = partial(comparison_picture, results, time)
         for number, label in enumerate(results, start=1):
             with suppress(CaseError):
-                drawn = _difference(results, label, time)
+                drawn = difference_map(results, label, time)
                 pictures[f"difference_{number}_{time:g}s"] = drawn.figure
     return write_figures(pictures, folder, suffix)
 
 
-def _worn_in_all(results: Results, time: float) -> list[str]:
-    """Return the names of bodies that all results have and one at least has worn by then."""
-    first = next(iter(results.values()))
+def _worn(results: Results, time: float) -> list[str]:
+    """Return the names of the bodies that one result at least has worn by then."""
+    every = results.values()
     return [
         name
-        for name in first.body_names
-        if all(name in result.body_names for result in results.values())
-        and any(
-            np.any(removed(result, name)[result.save_at(time)] > 0) for result in results.values()
-        )
+        for name in next(iter(every)).body_names
+        if any(np.any(removed(result, name)[result.save_at(time)] > 0) for result in every)
     ]
