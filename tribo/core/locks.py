@@ -17,12 +17,8 @@ _BYTE = 2**31 - 1
 """Byte that is locked on Windows: the last possible one, so that the file stays readable."""
 
 
-class BusyError(Exception):
-    """Another process, or thread, holds the lock."""
-
-
 def lock(handle: int) -> bool:
-    """Lock an open file; False if the system has no locks, `BusyError` if it is locked."""
+    """Lock an open file; False if the system has no locks, `BlockingIOError` if it is locked."""
     try:
         if sys.platform == "win32":
             os.lseek(handle, _BYTE, os.SEEK_SET)
@@ -32,7 +28,7 @@ def lock(handle: int) -> bool:
         else:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except (BlockingIOError, PermissionError):
-        raise BusyError from None
+        raise BlockingIOError from None
     except OSError:
         # Some network file systems have no locks.
         return False

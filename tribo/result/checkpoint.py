@@ -26,7 +26,7 @@ from pydantic.dataclasses import dataclass
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, TriboError, warn
-from tribo.core.locks import BusyError, lock
+from tribo.core.locks import lock
 from tribo.core.state import State
 from tribo.core.writing import make_folder, move, open_lock, remove, remove_empty, writing
 from tribo.result.layout import Rows
@@ -82,7 +82,7 @@ class RunFolder:
             )
         try:
             self._lock = hold(place)
-        except BusyError:
+        except BlockingIOError:
             raise CaseError(f"{self.result} is in use: another process is writing it") from None
         # What a process was writing that was killed.
         remove(*(path for path in self.path.glob("*.new") if _OWN.fullmatch(path.name)))
@@ -118,7 +118,7 @@ class RunFolder:
                 return not lock(file.fileno())
         except FileNotFoundError:
             return False
-        except (OSError, BusyError):
+        except OSError:
             return True
 
     def clear(self) -> None:
@@ -208,7 +208,7 @@ class RunFolder:
 def hold(path: Path) -> IO[bytes]:
     """Lock a file, made if there is none, until it is closed or the process ends.
 
-    BusyError if another process or thread holds it, or has just removed it.
+    `BlockingIOError` if another process or thread holds it, or has just removed it.
     """
     file = open_lock(path)
     try:
@@ -218,10 +218,10 @@ def hold(path: Path) -> IO[bytes]:
                 "writing the same results; see that none does",
             )
         if not os.path.samestat(os.fstat(file.fileno()), path.stat()):
-            raise BusyError
-    except (BusyError, FileNotFoundError):
+            raise BlockingIOError
+    except (BlockingIOError, FileNotFoundError):
         file.close()
-        raise BusyError from None
+        raise BlockingIOError from None
     return file
 
 

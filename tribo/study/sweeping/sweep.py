@@ -15,7 +15,6 @@ import pandas
 from tribo.case import Case
 from tribo.config.load import case_tables
 from tribo.core.errors import CaseError
-from tribo.core.locks import BusyError
 from tribo.core.writing import make_folder, remove, write_file, writing
 from tribo.result.checkpoint import fingerprint, hold
 from tribo.simulation.run import Simulation
@@ -193,15 +192,16 @@ def plan(
 @contextmanager
 def _holding(folder: Path) -> Iterator[None]:
     """Create the folder, and lock it against other sweeps."""
+    with writing(folder):
+        make_folder(folder / "results")
+        # This raises if the folder cannot be entered.
+        os.listdir(folder / "results")
     try:
-        with writing(folder):
-            make_folder(folder / "results")
-            # This raises if the folder cannot be entered.
-            os.listdir(folder / "results")
-            with hold(folder / LOCK):
-                remove(folder / STOP)
-                yield
-    except BusyError:
+        lock = hold(folder / LOCK)
+    except BlockingIOError:
         raise CaseError(
             f"another sweep is writing to {folder}; wait for it, or choose another folder with -o"
         ) from None
+    with lock, writing(folder):
+        remove(folder / STOP)
+        yield
