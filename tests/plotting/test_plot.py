@@ -1,7 +1,5 @@
 """Pictures and tables of a result on one's own axes, in one's own style."""
 
-from inspect import signature
-
 import matplotlib
 import numpy as np
 import pytest
@@ -57,7 +55,7 @@ def test_every_kind_that_dir_names_draws(result):
         (lambda plot: plot.scar(), "ball, disk"),
         (lambda plot: plot.history("contacts"), "wear, contact"),
         (lambda plot: plot.pressure(time=7), "0, 200, 500, 1500, 3600"),
-        (lambda plot: plot.profiles("ball", saves=(1, 9)), "name, time, ax, axis"),
+        (lambda plot: plot.profiles("ball", saves=(1, 9)), "it takes time, ax, axis"),
         (lambda plot: plot.pressure(axis=0), "time, ax"),
         (lambda plot: plot.history("wear", time=200), "leave time out"),
     ],
@@ -70,8 +68,6 @@ def test_what_is_not_there_is_answered_with_what_is(draw, there, result):
 
 
 def test_a_picture_of_curves_takes_several_times_and_a_map_takes_one(result):
-    assert str(signature(result.plot.profiles)) == "(name: 'str', *, time=None, ax=None, axis=None)"
-    assert "time" not in signature(result.plot.history).parameters
     axes = result.plot.profiles("ball", time=[200, "1 h"], axis=0)
     assert [line.get_label() for line in axes.lines] == ["200 s", "3600 s"]
     with pytest.raises(CaseError, match=r"plot\.scar.*a list"):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial, wraps
-from inspect import Parameter, Signature, signature
+from functools import partial
+from inspect import signature
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -110,10 +110,7 @@ class Plot:
     def __getattr__(self, name: str) -> Any:
         if name not in KINDS or not KINDS[name].each(self._result):
             raise AttributeError(unknown("picture", name, dir(self)))
-        draw = KINDS[name].draw
-        on_axes: Any = wraps(draw)(partial(self._on_axes, name))
-        on_axes.__signature__ = _on_axes_signature(draw)
-        return on_axes
+        return partial(self._on_axes, name)
 
     def _on_axes(
         self, name: str, *of: str, time: Any = None, ax: Any = None, **options: Any
@@ -126,10 +123,10 @@ class Plot:
         if kind.of and (len(of) != 1 or of[0] not in there):
             given = ", ".join(of) or "none"
             raise CaseError(unknown(kind.what, given, there), f"plot.{name}")
-        known = _on_axes_signature(kind.draw).parameters
-        if other := [option for option in options if option not in known]:
-            takes = ", ".join(known)
-            raise CaseError(f"there is no {other[0]!r}; it takes {takes}", f"plot.{name}")
+        takes = ["time", "ax", *({"axis"} & signature(kind.draw).parameters.keys())]
+        if other := options.keys() - takes:
+            words = f"there is no {other.pop()!r}; it takes {', '.join(takes)}"
+            raise CaseError(words, f"plot.{name}")
         if time is not None:
             with located(f"plot.{name}"):
                 options |= _saves(self._result, kind.draw, time)
@@ -141,16 +138,6 @@ class Plot:
         figure = pyplot.figure(layout="constrained")
         figure.set_figheight(figure.get_figheight() * len(picture.rows))
         return picture.fill(figure)
-
-
-def _on_axes_signature(draw: Callable[..., Picture]) -> Signature:
-    """Return the arguments of a picture on axes: it takes times instead of indices of saves."""
-    known = signature(draw).parameters
-    of = [known[name] for name in ("name",) if name in known]
-    times = [] if draw is history else ["time"]
-    options = [*times, "ax", *(name for name in ("axis",) if name in known)]
-    keywords = [Parameter(name, Parameter.KEYWORD_ONLY, default=None) for name in options]
-    return Signature([*of, *keywords])
 
 
 def _saves(result: Result, draw: Callable[..., Picture], time: Any) -> dict[str, Any]:
