@@ -104,7 +104,7 @@ def layer_ends(result: Result, name: str, deepest: float) -> dict[str, float]:
 
 def groove_length(result: Result, name: str) -> float | None:
     """Return the length of a body's groove on its track at the end, in m; None if all along it."""
-    if result.has(TRACK):
+    if TRACK in dir(result):
         depth = np.nan_to_num(result.field(TRACK, len(result.times) - 1, name))
     elif result.case_tables.get("kinematics", {}).get("positions", "average") != "average":
         # In a window that repeats.
