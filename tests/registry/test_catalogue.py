@@ -34,8 +34,6 @@ def test_each_claim_on_a_name_has_a_row(registry):
         ("", "cat_c"): "broken",
     }
     assert "offered by cat_a 1.0 and cat_b" in rows["cat.calm", "cat_a"]["reason"]
-    # Of what is not imported, only the summary of its distribution is known.
-    assert rows["cat_a.own", "cat_a"]["summary"] == "(all of cat_a) A cat_a for tests."
 
 
 def test_components_are_found_by_name_or_distribution(registry):

@@ -26,7 +26,7 @@ def plugin(folder, module, code):
 @pytest.mark.parametrize("limit", ["abc", "0", "nan", ""])
 def test_a_time_limit_that_is_none_is_one_clear_error(folder, monkeypatch, limit):
     monkeypatch.setenv("TRIBO_PLUGIN_TIME_LIMIT", limit)
-    with pytest.raises(CaseError, match=f"TRIBO_PLUGIN_TIME_LIMIT.* {limit!r} was given"):
+    with pytest.raises(CaseError, match=f"TRIBO_PLUGIN_TIME_LIMIT is {limit!r}; "):
         probe_all([plugin(folder, "limited", CALM)])
 
 
@@ -50,8 +50,9 @@ def test_a_time_limit_that_is_none_is_one_clear_error(folder, monkeypatch, limit
         ("ends_badly", "import atexit, os; atexit.register(os.abort)" + CALM, "broken", "SIGABRT"),
     ],
 )
-def test_a_plugin_cannot_hold_up_who_tries_it(folder, name, code, status, reason):
-    (tried,) = probe_all([plugin(folder, name, code)], 0.3 if "hangs" in name else 60.0)
+def test_a_plugin_cannot_hold_up_who_tries_it(folder, monkeypatch, name, code, status, reason):
+    monkeypatch.setenv("TRIBO_PLUGIN_TIME_LIMIT", "0.3" if "hangs" in name else "60")
+    (tried,) = probe_all([plugin(folder, name, code)])
     assert tried.status == status
     assert not tried.usable or status == "loaded"
     assert reason in tried.reason

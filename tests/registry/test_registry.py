@@ -109,7 +109,7 @@ BROKEN = {
     "hook with an argument": (CALM.replace("nts()", "nts(x)"), "'tribo_components'", None),
     "hook that returns nothing": (CALM.replace("[Calm]", "None"), "returns nothing", None),
     "another name": (observer("two.clam"), "returns two.clam", None),
-    "abstract": (HOT.replace("def rate", "def rates"), "write 'def rate(self, local)'", None),
+    "abstract": (HOT.replace("def rate", "def rates"), "no method rate; help(tribo.WearLaw)", None),
     "names as fields": (HOT.replace("requires = ()", "state_fields = ('a',)"), "of Field", 6),
 }
 

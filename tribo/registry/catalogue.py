@@ -35,9 +35,8 @@ FACTS = {
 def catalogue(registry: Registry) -> list[dict[str, str]]:
     """Return a row for every component, and for every plugin that cannot be used.
 
-    No plugin is imported: for a component of a plugin not imported yet, the kind is empty and the
-    summary is its distribution's. A name that several plugins claim has a row for each, with the
-    status ``conflict``.
+    No plugin is imported: for a component of a plugin not imported yet, kind and summary are empty.
+    A name that several plugins claim has a row for each, with the status ``conflict``.
     """
     known = registry.components
     names = [name for kind in KINDS for name in registry.names(kind)] + registry.waiting
@@ -97,7 +96,7 @@ def _row(name: str, plugin: Plugin, cls: type[Component] | None = None) -> dict[
     facts = {key: plugin.facts[key] for key in ("distribution", "version", "status", "reason")}
     if plugin.status == "available" and (lacks := unmet(plugin.distribution)):
         facts |= {"status": "incompatible", "reason": lacks}
-    kind, summary = "", f"(all of {plugin.distribution}) {plugin.summary}".rstrip()
+    kind, summary = "", ""
     if cls is not None:
         kind, summary = _words(cls), about(cls).partition("\n")[0]
     return {"name": name, "kind": kind, **facts, "summary": summary}

@@ -26,15 +26,15 @@ _CHILD = f"from {__name__} import answer; answer()"
 
 
 def in_child(
-    function: Callable[..., Any], calls: Sequence[tuple[Any, ...]], limit: float | None = None
+    function: Callable[..., Any], calls: Sequence[tuple[Any, ...]]
 ) -> tuple[list[Any], str]:
     """Return what some calls of a function return, and how its process ended if not well.
 
-    Each may take `limit` seconds of CPU time, and wait ten times as long; by default the
-    environment variable TRIBO_PLUGIN_TIME_LIMIT, or 30 times tribo's own import. Where no process
-    can be started, or it cannot import what it is sent, the function is called in this one.
+    Each may take 30 times the CPU time of tribo's own import, or TRIBO_PLUGIN_TIME_LIMIT in s, and
+    wait ten times as long. Where no process can be started, or it cannot import what it is sent,
+    the function is called in this one.
     """
-    limit = _limit(limit)
+    limit = _limit()
     # The child finds what this process would find.
     path = os.pathsep.join(each or os.getcwd() for each in sys.path)
     # To a file: what a plugin starts may outlive the child, and would hold a pipe open.
@@ -103,9 +103,9 @@ def _loaded(data: bytes) -> tuple[list[Any], bytes]:
         return came, data[end:]
 
 
-def _limit(given: float | None) -> float | None:
+def _limit() -> float | None:
     """Return the seconds of CPU time that a call has, if they are set."""
-    chosen = os.environ.get(LIMIT) if given is None else given
+    chosen = os.environ.get(LIMIT)
     if chosen is None:
         return None
     try:
@@ -113,10 +113,7 @@ def _limit(given: float | None) -> float | None:
     except ValueError:
         limit = math.nan
     if not 0 < limit < math.inf:
-        raise CaseError(
-            f"the time limit of a plugin ({LIMIT}) must be a number of seconds above 0; "
-            f"{str(chosen)!r} was given"
-        )
+        raise CaseError(f"{LIMIT} is {chosen!r}; it must be a number of seconds above 0")
     return limit
 
 

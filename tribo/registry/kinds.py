@@ -5,11 +5,9 @@ from __future__ import annotations
 import inspect
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
-from typing import Any
 
 from tribo.component import Component
 from tribo.contact.solver import ContactSolver
-from tribo.core.words import did_you_mean
 from tribo.effects.effect import Effect
 from tribo.motion.kinematics import Kinematics
 from tribo.observers.observer import Observer
@@ -30,22 +28,12 @@ def check_class(cls: object) -> None:
         names = ", ".join(base.__name__ for base in _BASES)
         raise TypeError(f"{cls.__qualname__} must be a subclass of exactly one of {names}")
     if inspect.isabstract(cls):
-        missing = sorted(getattr(cls, "__abstractmethods__", ()))
-        raise TypeError("; ".join(_lacking(cls, name) for name in missing))
-
-
-def _lacking(cls: Any, name: str) -> str:
-    """Return the message of an abstract method, or property, that a class does not define."""
-    declared = getattr(cls, name)
-    method = getattr(declared, "fget", declared)
-    mark, given = "" if method is declared else "@property ", inspect.signature(method)
-    like = did_you_mean(name, vars(cls))
-    meant = f" (it has {like!r})" if like else ""
-    return (
-        f"{cls.kind().replace('_', ' ')} {cls.__qualname__} has no method {name}{meant}; write "
-        f"'{mark}def {name}({', '.join(given.parameters)})', which returns "
-        f"{given.return_annotation}"
-    )
+        missing = ", ".join(sorted(getattr(cls, "__abstractmethods__", ())))
+        base = bases[0]
+        raise TypeError(
+            f"{base.kind().replace('_', ' ')} {cls.__qualname__} has no method {missing}; "
+            f"help(tribo.{base.__name__}) shows its form"
+        )
 
 
 def offered(answers: Iterable[object]) -> dict[str, type[Component]]:

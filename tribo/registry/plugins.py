@@ -67,13 +67,6 @@ class Plugin:
         left_out = ("names", "load", "classes")
         return {key: value for key, value in vars(self).items() if key not in left_out}
 
-    @property
-    def summary(self) -> str:
-        """The summary of its distribution; empty if it has none."""
-        with suppress(metadata.PackageNotFoundError, KeyError, ValueError):
-            return metadata.metadata(self.distribution)["Summary"] or ""
-        return ""
-
 
 def builtin() -> Plugin:
     """Return the plugin that offers the components of tribo itself."""
