@@ -74,6 +74,13 @@ class ContactSolverChecks(Checks):
         pressure = self._solve(**other).pressure
         expect_close(f"pressure {what}", pressure, needed, TOLERANCE)
 
+    def _expect_as_in_gap(self, what: str, found: ContactSolution, depth: Array) -> None:
+        """Fail unless a solution has the pressure and approach of one with a depth in its gap."""
+        again = self._solve(gap=ball(GRID) + depth)
+        for name in ("pressure", "approach"):
+            where = f"{name} {what}, and that with the depth in the gap"
+            expect_close(where, getattr(found, name), getattr(again, name), 10 * TOLERANCE)
+
     def answers_fit_a_run(self) -> None:
         """Pressures are finite, not negative, carry the load, and leave small residuals."""
         for load in (0.5 * LOAD, LOAD):
@@ -143,10 +150,9 @@ class ContactSolverChecks(Checks):
             ("a swept", WearCompliance(np.zeros((nx, ny)), swept)),
             ("a local and a swept", WearCompliance(local, swept)),
         ):
-            worn = self._solve(wear=wear).pressure
-            again = self._solve(gap=ball(GRID) + wear.depth(worn, dx)).pressure
-            what = f"pressure under {what} compliance, and that with its depth in the gap"
-            expect_close(what, worn, again, 10 * TOLERANCE)
+            worn = self._solve(wear=wear)
+            depth = wear.depth(worn.pressure, dx)
+            self._expect_as_in_gap(f"under {what} compliance", worn, depth)
 
     def positions_share_their_wear(self) -> None:
         """Solved as one, each position of a cycle is in contact with what all of them wear."""
@@ -161,9 +167,8 @@ class ContactSolverChecks(Checks):
         contacts = GuardedSolver(solver).solve_cycle(problems, [self._plain] * 3, coupling)
         worn = coupling.depth(np.stack([each.pressure for each in contacts]), GRID.spacing[0])
         for position, (gap, contact) in enumerate(zip(gaps, contacts, strict=True)):
-            again = self._solve(gap=gap + worn[position]).pressure
-            what = f"pressure at position {position} of three, and that with its depth in the gap"
-            expect_close(what, contact.pressure, again, 10 * TOLERANCE)
+            depth = gap + worn[position] - ball(GRID)
+            self._expect_as_in_gap(f"at position {position} of three", contact, depth)
 
     def cap_acts_where_it_is_reached(self) -> None:
         """Overlap is where the pressure is at the cap; one out of reach changes nothing."""
@@ -175,11 +180,7 @@ class ContactSolverChecks(Checks):
             require(not idle, "there is overlap where the cap does not act")
             acts = np.any(solution.overlap) or cap > self._peak
             require(acts, "nothing overlaps although the cap acts")
-            flat = self._solve(gap=ball(GRID) + solution.overlap)
-            for name in ("pressure", "approach"):
-                what = f"{name} under a cap, and that without with the overlap in the gap"
-                found, needed = getattr(solution, name), getattr(flat, name)
-                expect_close(what, found, needed, 10 * TOLERANCE)
+            self._expect_as_in_gap("under a cap", solution, solution.overlap)
         expect_close(
             "pressure under a high cap", solution.pressure, self._plain.pressure, TOLERANCE
         )

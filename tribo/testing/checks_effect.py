@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -36,6 +37,8 @@ _LONGEST = 60.0
 """Time for which a state has been there at most, in s."""
 _FAR = 100.0
 _FINER, _ROUND_OFF = 0.1, 1e-9
+_FOLLOWED = ("pressure", "state", "wear_rates")
+"""What answers follow at each point."""
 _NUDGE = 1e-5
 """Part by which all that fields follow is varied."""
 
@@ -97,38 +100,29 @@ class EffectChecks(LocalChecks):
                 effect.fields(replace(at, wear_rates={}))
                 effect.state_rates(at)
 
-    def larger_window_has_the_same_fields(self) -> None:
-        """A wider rim round the contact, without pressure, changes nothing within."""
+    def another_window_changes_little(self) -> None:
+        """In a wider window, and on finer cells, the same points follow their conditions alike."""
         effect, inner = self._make(), samples.wider(GRID, -1)
-        for given in self._samples():
-            usual, wide = (
-                self._call(effect, _on(grid, given)) for grid in (GRID, samples.wider(GRID))
+        windows = (
+            (samples.wider(GRID), samples.inside, 0.0),
+            (samples.finer(GRID, (3, 5)), lambda values: values[1::3, 2::5], _FINER),
+        )
+        for given, what, (grid, at_same, part) in product(self._samples(), _FOLLOWED, windows):
+            usual, less, other, other_less = (
+                values_in(self._call(effect, _on(window, given, halved)))
+                for window in (GRID, grid)
+                for halved in ("", what)
             )
-            needed = mapped(usual, lambda _, v: samples.inside(v, inner))
-            found = mapped(wide, lambda _, v: samples.inside(samples.inside(v), inner))
-            expect_close("in a larger window", found, needed, 1e-9)
-
-    def finer_cells_change_little(self) -> None:
-        """On finer cells the same fields have the same answers at the same points."""
-        effect, (along, across) = self._make(), samples.FINE
-        fine, inner = samples.finer(GRID, samples.FINE), samples.wider(GRID, -1)
-        for given in self._samples():
-            usual, less, usual_fine, less_fine = (
-                values_in(self._call(effect, _on(grid, given, part)))
-                for grid in (GRID, fine)
-                for part in (1.0, 0.5)
-            )
-            # How it follows pressure, state and wear: to a temperature of the air all is small.
+            # How it follows that: to a temperature of the air all is small.
             for where, value in usual.items():
                 needed = np.broadcast_to(value - less[where], GRID.cells)
-                found = np.broadcast_to(usual_fine[where] - less_fine[where], fine.cells)
-                same_points = found[along // 2 :: along, across // 2 :: across]
-                off = np.max(np.abs(samples.inside(same_points - needed, inner)))
+                found = np.broadcast_to(other[where] - other_less[where], grid.cells)
+                off = np.max(np.abs(samples.inside(at_same(found) - needed, inner)))
                 size = np.max(np.abs(needed))
                 require(
-                    off <= _FINER * size + _ROUND_OFF * np.max(np.abs(value)),
-                    f"{where} follows pressure, state and wear by up to {size:.3g}, and differs by "
-                    f"{off:.3g} from that where {along} x {across} cells take the place of each",
+                    off <= part * size + _ROUND_OFF * np.max(np.abs(value)),
+                    f"{where} follows {what} by up to {size:.3g}, and differs by {off:.3g} from "
+                    f"that in a window of {grid.size} m with {grid.cells} cells",
                 )
 
     def state_is_all_that_remembers(self) -> None:
@@ -190,21 +184,21 @@ def _beside(value: Any, by: float) -> Any:
     return by * value * (0.5 + samples.pattern(np.shape(value))) if np.ndim(value) else by * value
 
 
-def _on(grid: Grid, given: ContactConditions, part: float = 1.0) -> ContactConditions:
-    """Return conditions in another window, with a part of what varies, which is smooth there."""
+def _on(grid: Grid, given: ContactConditions, halved: str) -> ContactConditions:
+    """Return conditions in another window, smooth there, with half of one of what it follows."""
     x, y = (axis / length for axis, length in zip(grid.mesh, GRID.size, strict=True))
     wave = 0.5 + 0.5 * np.sin(4 * x + 3 * y + 1) * np.cos(3 * y - 2 * x)
+    # With an edge without a jump of its slope.
+    pressure = np.max(given.pressure) * (samples.hertz_pressure(grid) / samples.PEAK) ** 4
 
     def smooth(path: tuple[Any, ...], value: Any) -> Any:
         if not isinstance(value, np.ndarray):
             return value
-        whole = 1.0 if path[0] == "fields" else part
-        return whole * (np.min(value) + np.ptp(value) * wave if value.size > 1 else value)
+        new = np.min(value) + np.ptp(value) * wave if value.size > 1 else value
+        return (0.5 if path[0] == halved else 1.0) * (pressure if path[0] == "pressure" else new)
 
-    # With an edge without a jump of its slope.
-    pressure = part * np.max(given.pressure) * (samples.hertz_pressure(grid) / samples.PEAK) ** 4
     system = replace(given.system, grid=grid)
-    return locked(replace(mapped(given, smooth), system=system, pressure=pressure))
+    return locked(replace(mapped(given, smooth), system=system))
 
 
 def _gone_far(effect: GuardedEffect, given: ContactConditions) -> ContactConditions:

@@ -50,23 +50,18 @@ class SurfaceChecks(Checks):
         for sample in (grid, Grid(grid.size, (9, 16)), samples.finer(grid)):
             GuardedSurface(self._make(), BODIES[0], sample)
 
-    def finer_cells_sample_the_same_surface(self) -> None:
-        """On cells of a third of the size, the points in common have the same heights."""
-        fine = self._make().height(samples.finer(self._grid(), (3, 3)))
-        usual = self._make().height(self._grid())
-        self._expect_same("on cells of a third of the size", fine[1::3, 1::3], usual)
+    def another_window_changes_little(self) -> None:
+        """In a smaller window, on cells of a third of the size, the same points have their heights.
 
-    def smaller_window_sees_the_same_surface(self) -> None:
-        """In a smaller window the points in common have the same heights."""
-        small = samples.wider(self._grid(), -1)
-        needed = samples.inside(self._make().height(self._grid()), small)
-        self._expect_same("in a smaller window", self._make().height(small), needed)
-
-    def _expect_same(self, where: str, found: Array, needed: Array) -> None:
-        """Fail unless heights are those that are needed, up to a constant."""
-        hint = "; sample the surface at the grid's own x and y, in m"
+        But for a constant.
+        """
+        grid = self._grid()
+        small = samples.wider(grid, -1)
+        found = self._make().height(samples.finer(small, (3, 3)))[1::3, 1::3]
+        needed = samples.inside(self._make().height(grid), small)
         heights = found - np.mean(found), needed - np.mean(needed)
-        expect_close(f"heights {where}{hint}", *heights, _TOLERANCE)
+        hint = "; sample the surface at the grid's own x and y, in m"
+        expect_close(f"heights in a smaller window of finer cells{hint}", *heights, _TOLERANCE)
 
     def curvature_is_that_of_the_heights(self) -> None:
         """The curvature is that at the highest point, positive where the body is convex."""

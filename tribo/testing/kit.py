@@ -41,7 +41,6 @@ SUITES: Mapping[str, type[Checks]] = MappingProxyType(
 """The checks of each kind of component."""
 
 Config = Component | Mapping[str, Any]
-_NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -172,10 +171,7 @@ def check(cls: type[Component], configs: Sequence[Config] | None = None) -> Repo
 
 
 def parametrize_checks(
-    cls: type[Component],
-    configs: Sequence[Config] | None = None,
-    *,
-    expected_failures: Mapping[str, str] = _NOTHING,
+    cls: type[Component], configs: Sequence[Config] | None = None
 ) -> Callable[..., None]:
     """Return a test function with which pytest runs each check with each configuration.
 
@@ -187,20 +183,17 @@ def parametrize_checks(
     ----------
     cls, configs
         As in `check`.
-    expected_failures : Mapping[str, str], optional
-        The reason why a check, by name, cannot pass. If it passes, the test
-        fails.
 
     Returns
     -------
     callable
         A test, parametrized by check and configuration. A check that does not
-        apply is skipped, an expected failure is an xfail.
+        apply is skipped.
 
     Raises
     ------
     TypeError, ValueError
-        As `check`; also if `expected_failures` names no check.
+        As `check`.
 
     Examples
     --------
@@ -210,18 +203,10 @@ def parametrize_checks(
     import pytest
 
     check_class(cls)
-    suite = SUITES[cls.kind()]
-    for name in expected_failures:
-        if name not in names_of(suite):
-            raise ValueError(f"expected_failures: {suite.__name__} has no check {name!r}")
-    marks = {
-        name: [pytest.mark.xfail(reason=reason, strict=True)]
-        for name, reason in expected_failures.items()
-    }
     tests = [
-        pytest.param(checks, name, id=f"{name}-{number}", marks=marks.get(name, ()))
+        pytest.param(checks, name, id=f"{name}-{number}")
         for number, checks in enumerate(suites(cls, configs))
-        for name in names_of(suite)
+        for name in names_of(type(checks))
     ]
 
     @pytest.mark.parametrize(("checks", "name"), tests)

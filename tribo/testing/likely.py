@@ -5,12 +5,11 @@ work in place, a global seed, or numpy.seterr: calls_leave_no_trace
 a cache, a counter, a buffer used again, or fresh noise: same_inputs_give_same_bits
 a number of the code, or of another unit: units_may_be_rescaled
 a mean, a shift, or swapped axes: reach_is_as_declared
-a mean over the window, or swapped axes: larger_window_has_the_same_fields window_changes_no_average
-a zero or a scale by the window, or swapped axes: smaller_window_sees_the_same_surface
+a mean or scale of the window, a cell for a length, swapped axes: another_window_changes_little
 a length of the track, a mean, or swapped axes: averages_are_linear_and_keep_the_volume
 a mean in place of the largest value: envelope_covers_the_field
 swapped axes, a symmetry, or another zero of the gap: pressure_goes_with_the_gap
-a cell for a length or an area: finer_cells_change_little finer_cells_sample_the_same_surface
+a cell for a length or an area: finer_cells_change_little
 a factor left out in one of the two: slopes_are_derivatives
 a factor or a sign left out in one of the two: curvature_is_that_of_the_heights
 a number or a sign left out in one of the two: product_is_that_of_differences

@@ -34,6 +34,7 @@ def process_restored() -> Iterator[None]:
     before = process_state()
     try:
         with process_kept():
+            warnings.simplefilter("ignore")
             # A filter of a warning that never comes: another that is put first is seen.
             warnings.filterwarnings("ignore", "a sample of tribo's checks")
             yield

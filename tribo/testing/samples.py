@@ -51,8 +51,6 @@ from tribo.wear.law import WearLaw
 GRID = Grid((0.72e-3, 0.8e-3), (24, 20))
 RIM = (3, 5)
 """Cells on each side, along x and y, by which a window is wider; `GRID` becomes square by them."""
-FINE = (3, 5)
-"""Cells along x and y that replace a cell; the middle one has its centre."""
 LOAD = 100.0
 RADIUS = 5e-3
 SOLVERS = (Winkler, DcFft)
