@@ -209,7 +209,7 @@ def test_an_import_leaves_folder_warnings_numpy_and_stdout_alone(folder, capfd):
     assert capfd.readouterr() == ("", "from the import\nfrom the hook\n")
 
 
-@pytest.mark.parametrize("off", ["Five_Tribo", "five", "five.calm", "*"])
+@pytest.mark.parametrize("off", ["Five_Tribo", "*"])
 def test_plugins_can_be_turned_off(folder, monkeypatch, off):
     distribute(folder, "five-tribo", "1.0", {"five.calm": "five_calm"}, five_calm="1/0")
     monkeypatch.setenv("TRIBO_DISABLE_PLUGINS", f" {off}, ")

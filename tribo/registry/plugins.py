@@ -92,8 +92,8 @@ def installed() -> list[Plugin]:
     module ``acme_tribo`` offers a component of that name; an entry point named after its
     distribution, as ``acme-tribo = "acme_tribo.hooks"``, that it has hooks and no component. The
     number is the contract's: a distribution that has only other groups is ``incompatible``. The
-    environment variable TRIBO_DISABLE_PLUGINS lists distributions, or names or prefixes of
-    components, to leave out, ``*`` for all; TRIBO_PLUGINS the only ones that may take part.
+    environment variable TRIBO_DISABLE_PLUGINS lists distributions to leave out, ``*`` for all;
+    TRIBO_PLUGINS the only ones that may take part.
     """
     found: dict[tuple[str, str], Plugin] = {}
     declared = list(entry_points(PROJECT))
@@ -133,15 +133,13 @@ def _choose(plugins: list[Plugin]) -> None:
         {canonicalize_name(part.strip()) for part in os.environ.get(variable, "").split(",")}
         for variable in (DISABLED, ONLY)
     )
-    known = {"*", ""}
+    names = {canonicalize_name(plugin.distribution) for plugin in plugins}
     for plugin in plugins:
-        prefixes = [name.split(".")[0] for name in plugin.names]
-        own = set(map(canonicalize_name, (plugin.distribution, *plugin.names, *prefixes)))
-        known |= own
-        if off & {*own, "*"}:
+        name = canonicalize_name(plugin.distribution)
+        if off & {name, "*"}:
             plugin.status, plugin.reason = "disabled", f"turned off by {DISABLED}"
-        elif ONLY in os.environ and not only & own:
+        elif ONLY in os.environ and name not in only:
             reason = f"not among those that {ONLY} names"
             plugin.status, plugin.reason = "disabled", reason
-    for name in sorted((off | only) - known):
+    for name in sorted((off | only) - names - {"*", ""}):
         warn(f"no plugin is called {name!r}")
