@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import pickle
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import redirect_stdout
 from copy import deepcopy
 from importlib.util import find_spec
@@ -127,26 +127,19 @@ class Checks(ABC):
         )
 
     def configuration_survives_a_file(self) -> None:
-        """Written to a file, with or without its defaults, and read back, it is the same."""
-        config = self._config
-        for how, text in (
-            ("as JSON", config.model_dump_json()),
-            ("without its defaults", config.model_dump_json(exclude_defaults=True)),
-        ):
-            again = self._cls.model_validate_json(text)
-            require(again == config, f"written {how} and read back, {config!r} is {again!r}")
-
-    def configuration_can_be_pickled(self) -> None:
-        """An object can be sent to another process, as parallel sweeps need it."""
-        apply_if(self._cls.__module__ != "__main__", "it is defined in a script or a notebook")
-        try:
-            again = pickle.loads(pickle.dumps(self._config))
-            find_spec(self._cls.__module__)
-        except (pickle.PicklingError, AttributeError, TypeError, ValueError) as error:
-            raise CheckFailed(
-                f"{error}; put the class in a module that can be imported by its name"
-            ) from error
-        require(again == self._config, f"{self._config!r} arrived as {again!r}")
+        """Written to a file, with or without its defaults, or pickled, and read, it is the same."""
+        config, module = self._config, self._cls.__module__
+        read = self._cls.model_validate_json
+        ways: dict[str, Callable[[], Any]] = {
+            "as JSON": lambda: read(config.model_dump_json()),
+            "without its defaults": lambda: read(config.model_dump_json(exclude_defaults=True)),
+        }
+        if module != "__main__":
+            # As parallel sweeps send it; a module that is not found is a ValueError.
+            ways["pickled"] = lambda: find_spec(module) and pickle.loads(pickle.dumps(config))
+        for how, again in ways.items():
+            found = again()
+            require(found == config, f"written {how} and read back, {config!r} is {found!r}")
 
     def name_has_a_prefix(self) -> None:
         """Its name carries a prefix, as in acme.fretting; only tribo's own do without."""

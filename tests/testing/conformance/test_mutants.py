@@ -63,8 +63,8 @@ MUTANTS = [
     ("configuration_is_described", Undescribed),
     ("configuration_survives_a_file", MillimetresEachTime),
     ("configuration_survives_a_file", AnotherWithoutDefaults),
-    ("configuration_can_be_pickled", _local()),
-    ("configuration_can_be_pickled", here.OnlyHere),
+    ("configuration_survives_a_file", _local()),
+    ("configuration_survives_a_file", here.OnlyHere),
 ]
 MUTANTS += [
     (check, copy_of(model, mistake))
