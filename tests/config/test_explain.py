@@ -8,7 +8,7 @@ from tribo.core.explain import case_error
 
 STEEL = {"young": "207 GPa", "poisson": 0.3}
 LINEAR = {"type": "linear", "k": 1e-15}
-LAWS = "blend, linear, none (dummies 1.0)"
+LAWS = "blend, linear, none"
 PRESSURE = "a pressure [Pa] is needed, as in '2 GPa'"
 
 

@@ -1,12 +1,10 @@
 """What is installed, as lists and descriptions."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 import pytest
 from fake_distributions import distribute, observer, plugins
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from tribo import CaseError, Observer, Quantity, Registry
 from tribo.registry.catalogue import catalogue, describe, matching
@@ -46,29 +44,15 @@ def test_components_are_found_by_name_or_distribution(registry):
         matching(registry, "cat.clam")
 
 
-class Place(BaseModel):
-    model_config = ConfigDict(use_attribute_docstrings=True)
-
-    depth: Annotated[float, Quantity("m")]
-    """How deep."""
-    below: Place | None = None
-    """The next one."""
-
-
 class Sensor(Observer):
     type = "cat.sensor"
     names: list[str] = Field(default_factory=list)
     """What to call them."""
-    places: dict[str, Place] | None = None
-    """Where they sit."""
+    depth: Annotated[float, Quantity("m")]
+    """How deep."""
 
 
-def test_a_description_has_keys_and_units_of_nested_tables_and_says_where_the_code_is():
+def test_a_description_has_keys_and_units_and_says_where_the_code_is():
     described = describe(Sensor, given(Sensor))
-    assert (
-        "names (optional): What to call them.\n"
-        "places (optional): Where they sit.\n"
-        "    depth [m] (needed): How deep.\n"
-        "    below (optional): The next one.\n"
-    ) in described
+    assert "names (optional): What to call them.\ndepth [m] (needed): How deep.\n" in described
     assert described.endswith(f"File: {__file__}")

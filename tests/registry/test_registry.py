@@ -59,13 +59,10 @@ def test_a_name_belongs_to_the_kind_of_its_class():
         Registry.with_plugins(GOOD).lookup("surface", "quiet")
 
 
-def test_an_unknown_name_suggests_one_and_says_who_provides_what():
-    versioned = plugin("acme", Loud)
-    versioned.__version__ = "1.2"
-    with pytest.raises(
-        CaseError, match=r"did you mean 'quiet'\?.* loud \(acme 1\.2\).* quiet \(good\)"
-    ):
-        Registry.with_plugins(GOOD, versioned).lookup("observer", "quite")
+def test_an_unknown_name_suggests_one_and_lists_what_there_is():
+    registry = Registry.with_plugins(GOOD, plugin("acme", Loud))
+    with pytest.raises(CaseError, match=r"did you mean 'quiet'\? Installed: loud, .*quiet"):
+        registry.lookup("observer", "quite")
 
 
 def test_a_given_plugin_must_keep_the_contract():
@@ -87,7 +84,7 @@ def test_a_plugin_is_imported_when_one_of_its_names_is_looked_up(folder):
     registry = found("pair")
     assert registry.waiting == ["pair.one", "pair.two"]
     assert [(str(p), p.status) for p in registry.plugins] == [("pair 1.0", "available")]
-    with pytest.raises(CaseError, match=r"'pair\.one'\? Installed: see tribo plugins l"):
+    with pytest.raises(CaseError, match=r"'pair\.one'\? Installed: more: tribo plugins l"):
         registry.lookup("observer", "pair.oen")
     assert "pair" not in sys.modules
     for name in ("pair.one", "pair.two"):

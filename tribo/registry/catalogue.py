@@ -12,24 +12,17 @@ from tribo.component import Component
 from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError
 from tribo.core.table import about, descriptions
-from tribo.core.units import Quantity, parts
+from tribo.core.units import quantities
 from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.kinds import KINDS
 from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry
 
-FACTS = {
-    "requires": "Requires",
-    "provides": "Provides",
-    "state_fields": "Keeps per point",
-    "material_properties": "Needs of materials",
-    "accepts_wear_compliance": "Takes a wear compliance (implicit steps)",
-    "honours_cap": "Limits the pressure to a hardness",
-    "takes_cap_map": "Limits it to the hardness of the layer at the surface",
-    "takes_coatings": "Takes elastic layers on the bodies",
-    "periodic": "Repeats with the window",
-}
-"""Labels of the attributes in the description of a class."""
+FACTS = (
+    *("requires", "provides", "state_fields", "material_properties"),
+    *("accepts_wear_compliance", "honours_cap", "takes_cap_map", "takes_coatings", "periodic"),
+)
+"""Attributes in the description of a class."""
 
 
 def catalogue(registry: Registry) -> list[dict[str, str]]:
@@ -76,12 +69,11 @@ def describe(cls: type[Component], plugin: Plugin) -> str:
     if parameters := list(_parameters(cls)):
         lines += ["", "Parameters", "----------", *parameters]
     lines.append("")
-    for attribute, words in FACTS.items():
+    for attribute in FACTS:
         value = getattr(cls, attribute, ())
-        if isinstance(value, bool):
-            lines.append(f"{words}: {'yes' if value else 'no'}")
-        elif value and not isinstance(value, property):
-            lines.append(f"{words}: {'; '.join(map(str, value))}")
+        if isinstance(value, bool) or (value and not isinstance(value, property)):
+            shown = value if isinstance(value, bool) else "; ".join(map(str, value))
+            lines.append(f"{attribute}: {shown}")
     lines.append(f"Class: {cls.__module__}.{cls.__qualname__}")
     with suppress(TypeError, OSError):
         lines.append(f"File: {inspect.getfile(cls)}")
@@ -102,17 +94,12 @@ def _row(name: str, plugin: Plugin, cls: type[Component] | None = None) -> dict[
     return {"name": name, "kind": kind, **facts, "summary": summary}
 
 
-def _parameters(table: type[BaseModel], within: tuple[type[BaseModel], ...] = ()) -> Iterator[str]:
-    """Yield a line for each key of a table; keys of tables inside follow, indented."""
-    within = (*within, table)
+def _parameters(table: type[BaseModel]) -> Iterator[str]:
+    """Yield a line for each key of a table."""
     texts = descriptions(table)
     for name, field in table.model_fields.items():
-        found = list(parts(field))
-        unit = next((f" [{mark.unit}]" for mark in found if isinstance(mark, Quantity)), "")
+        unit = next((f" [{mark.unit}]" for mark in quantities(field)), "")
         needed = "needed" if field.is_required() else f"default {field.default!r}"
         if field.default is None or field.default_factory is not None:
             needed = "optional"
         yield f"{name}{unit} ({needed}): {texts.get(name, 'no description')}"
-        for part in found:
-            if inspect.isclass(part) and issubclass(part, BaseModel) and part not in within:
-                yield from (f"    {line}" for line in _parameters(part, within))

@@ -234,14 +234,10 @@ class Registry:
         return items
 
     def choices(self, kind: str) -> str:
-        """Return the usable names of one kind as text, each with its plugin."""
-        by_plugin = defaultdict(list)
-        for name in self.names(kind):
-            by_plugin[str(self.claimants(name)[0])].append(name)
-        texts = [f"{', '.join(own)} ({plugin})" for plugin, own in by_plugin.items()]
+        """Return the usable names of one kind as text."""
         # Which are of this kind is not known before they are imported.
-        more = [f"{'more:' if texts else 'see'} tribo plugins list"] if self.waiting else []
-        return "; ".join([*texts, *more]) or "none"
+        more = ["more: tribo plugins list"] if self.waiting else []
+        return "; ".join(filter(None, [", ".join(self.names(kind)), *more])) or "none"
 
     def load(self, plugin: Plugin) -> None:
         """Import a plugin once; its status says whether that succeeded."""
