@@ -1,7 +1,6 @@
 """From nothing to a result: new, wheel, fresh environment, its own tests, a case."""
 
 import os
-import shutil
 import subprocess
 import sys
 import sysconfig
@@ -75,35 +74,6 @@ def test_their_own_tests_pass_untouched(fresh):
     # Where it is not installed, as here, it says what to do.
     untold = run(sys.executable, "-m", "pytest", *quiet, tests[0], folder=fresh.scratch, code=4)
     assert "install it first" in untold
-
-
-LAW = '''
-    examples = ({"wear_rate": 1e-15, "mild": "1 GPa"},)
-    type = "acme.fretting"
-    wear_rate: Annotated[float, Quantity("1/Pa", at_least=0)]
-    """Specific wear rate at the mild pressure."""
-    mild: Annotated[float, Quantity("Pa", above=0)]
-    """Pressure, above which it grows."""
-
-    def rate(self, local: LocalConditions) -> WearRate:
-        return WearRate(self.wear_rate * local.pressure**2 / self.mild)
-'''
-
-
-def test_the_tests_pass_of_a_law_with_other_keys(fresh, tmp_path):
-    copied = Path(shutil.copytree(fresh.folders["wear-law"], tmp_path / "other"))
-    model = copied / "src" / "acme_fretting" / "fretting.py"
-    before, _ = model.read_text().split("\n    examples")
-    model.write_text(before + LAW)
-    example = (copied / "example.toml").read_text()
-    renamed = example.replace('k = "1e-15 1/Pa"', 'wear_rate = 1e-15, mild = "1 GPa"')
-    (copied / "example.toml").write_text(renamed)
-    said = run(
-        *(fresh.python, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-W", "error"),
-        *("-o", "pythonpath=src", "tests"),
-        folder=copied,
-    )
-    assert " passed" in said
 
 
 def test_their_types_are_right(fresh):
