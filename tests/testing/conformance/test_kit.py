@@ -83,12 +83,6 @@ class Unknown(Hill):
         return None
 
 
-def test_what_is_not_declared_does_not_apply():
-    report = check(Unknown, [{}])
-    assert statuses(report)[CURVATURE] == "not applicable"
-    assert report.ok
-
-
 @pytest.mark.parametrize("run", [check, parametrize_checks])
 @pytest.mark.parametrize(
     ("cls", "configs", "error", "message"),
