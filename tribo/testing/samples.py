@@ -6,7 +6,7 @@ import math
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from itertools import islice, product
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -56,8 +56,6 @@ RADIUS = 5e-3
 SOLVERS = (Winkler, DcFft)
 STEPS = 2000
 """Of a run, at most; most take fewer than a hundred."""
-RESUMED = 3
-"""Steps that are made again after a run is resumed."""
 LONG_STEPS = Implicit(depth_tolerance=0.01, pressure_tolerance=0.3)
 """Few of them in a run, for what a run tries is not how exact it is."""
 SPEED = 0.1
@@ -254,7 +252,7 @@ def run(parts: Callable[[], dict[str, Any]]) -> None:
         Watch(model).snapshot(states[-1])
         middle = len(states) // 2
         later = zip(states[middle + 1 :], march(resumed, states[middle]), strict=True)
-        for state, again in islice(later, RESUMED):
+        for state, again in later:
             where = first_difference(state, again.state)
             lost = f"{where} differs in a run that was resumed: what no state keeps is lost then"
             require(where is None, lost)
