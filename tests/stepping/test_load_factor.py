@@ -5,9 +5,7 @@ import pytest
 from paper_models import (
     K,
     archard,
-    case,
     foundation,
-    goes_on,
     last,
     motion,
     pair,
@@ -154,11 +152,6 @@ def test_half_of_a_ramp_is_the_ramp_of_half_the_load_where_laws_remember_and_fri
     for name, body in halved.bodies.items():
         np.testing.assert_allclose(factor.bodies[name].wear, body.wear, rtol=1e-7, atol=1e-16)
     assert factor.friction_energy == pytest.approx(halved.friction_energy, rel=1e-9)
-
-
-def test_a_resumed_run_has_the_same_bits(tmp_path):
-    of = {"grid": GRID, "contact": foundation(), "kinematics": motion(duration=5)}
-    goes_on(case(effects=[Spring(relaxes=5e5)], **of), tmp_path, 3).close()
 
 
 @pytest.mark.parametrize("factor", [-0.5, 0.0, float("nan"), float("inf")])

@@ -7,7 +7,6 @@ from paper_models import (
     archard,
     case,
     foundation,
-    goes_on,
     half_space,
     motion,
     pair,
@@ -35,18 +34,6 @@ def volumes(model, state):
     return [model.cycle.maps[name].volume(body.wear) for name, body in state.bodies.items()]
 
 
-def test_a_ramp_wears_the_integral_of_the_load_though_its_contacts_carry_that_at_each_end():
-    model = loaded(RAMP, duration=30)
-    found = states(model)
-    carried = SPEED * (60 * 8 + 0.5 * (100 + 100 - 90 * 22 / 52) * 22)
-    assert volumes(model, found[-1]) == pytest.approx([K * carried] * 2, rel=1e-10, abs=0)
-    for state in found:
-        load = np.interp(state.time, [0, 8, 60], [20, 100, 10])
-        pressure = state.contact.pressure
-        assert np.sum(pressure) * GRID.cell_area == pytest.approx(load, rel=1e-8, abs=0)
-    assert 8.0 in [state.time for state in found]
-
-
 @pytest.mark.slow
 def test_a_save_at_a_jump_shows_the_load_before_it_and_the_run_goes_on_under_the_next():
     with Simulation(loaded(BLOCKS, save_times=(3, 6, 7))).run() as result:
@@ -65,13 +52,6 @@ def test_a_jump_to_a_higher_load_yields_anew_up_to_the_hardness():
     deepest = {state.time: state.bodies["disk"].plastic.max() for state in found}
     assert deepest[20.0] > 2 * deepest[6.0] > 0
     assert all(state.contact.pressure.max() <= 1.2e9 * (1 + 1e-9) for state in found)
-
-
-@pytest.mark.slow
-def test_a_run_that_is_stopped_at_a_jump_or_after_it_goes_on_to_the_same_bits(tmp_path):
-    found = states(loaded(BLOCKS))
-    at_jump = next(state.steps for state in found if state.time == 6)
-    goes_on(loaded(BLOCKS), tmp_path, at_jump, at_jump + 2).close()
 
 
 def test_at_a_jump_the_loads_before_it_and_after_it_differ():
