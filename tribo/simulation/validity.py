@@ -24,7 +24,6 @@ from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.lab.against_hertz import hertz_contact
 from tribo.model.model import Model
-from tribo.motion.stroke import check_spacing
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.registry import from_packages
 from tribo.stepping.measure import cycle_error
@@ -146,11 +145,9 @@ def check_stroke(model: Model, state: State) -> None:
     half_width = half_widths(state.contact, model.grid)[0]
     with located("kinematics"):
         resolved = any(each.swept and not each.averaged for each in model.cycle.maps.values())
+        # Positions of a contact that repeats lie over the window, not over the stroke.
         if not (model.case.contact.periodic and resolved):
             model.motion.check_contact(half_width)
-        elif not is_endless(model, half_width) and model.cycle.apart > model.grid.spacing[0]:
-            gaps = len(model.cycle) - 1
-            check_spacing(gaps * model.cycle.apart, gaps + 1, half_width)
 
 
 def limitation(model: Model, state: State) -> Finding | None:
