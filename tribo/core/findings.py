@@ -212,11 +212,6 @@ def positions_chosen(count: int) -> Finding:
     return Finding("positions", words, value=count, place="kinematics.positions")
 
 
-def would_stop(words: str, time: float, end: float) -> Finding:
-    """Word why a run would stop at a time before its end, both in s."""
-    return Finding("stop", f"the run would stop {words}", value=time, limit=end)
-
-
 def outgrown(size: tuple[float, float], time: float | None, end: float) -> Finding:
     """Word a window (m) that the contact outgrows at a time before the end, both in s."""
     lx, ly = (1e3 * edge for edge in size)

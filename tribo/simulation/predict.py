@@ -11,23 +11,19 @@ import numpy as np
 from tribo.case import Case, Output
 from tribo.component import components
 from tribo.core.errors import CaseError, NumericalError, PluginError, TooWorn, TriboError
-from tribo.core.findings import Finding, outgrown, trial_failed, worn_through, would_stop
+from tribo.core.findings import Finding, outgrown, trial_failed, worn_through
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
-from tribo.core.state import State
 from tribo.evolution.local_fields import effect_fields
 from tribo.guards.guard import Guard
 from tribo.lab.against_hertz import HertzContact, hertz_contact, softer_known
 from tribo.model.model import Model
 from tribo.result.provenance import stated_facts
 from tribo.simulation.assembly import as_it_repeats, assemble, varied
-from tribo.simulation.beginning import first_state
-from tribo.simulation.gap_filling import check_filling
 from tribo.simulation.hardness import at_surface
 from tribo.simulation.march import begin, march
 from tribo.simulation.memory import memory_needed
 from tribo.simulation.validity import (
-    check_stroke,
     doubting,
     few_cells,
     limitation,
@@ -92,10 +88,14 @@ class CoarseRun:
 
 
 def predict(model: Model) -> Prediction:
-    """Estimate what `model` will do, in about a second."""
+    """Estimate what `model` will do, in about a second.
+
+    `CaseError` or `NumericalError` if the run would stop at once.
+    """
+    state = begin(model)
     with doubting(model.case):
-        state = first_state(model)
-        check_stroke(model, state)
+        effect_fields(model, state)
+        start_sliding(model, state)
     first = measure(model, state)
     system = softer_known(model.contact.system, at_surface(model.case.bodies))
     hertz = None if model.case.begin else hertz_contact(system)
@@ -104,7 +104,13 @@ def predict(model: Model) -> Prediction:
     last = coarse.last
     holds = None if last is None else _inside(model, last) or model.contact.may_reach_edge
     across = None if hertz is None else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
-    stopping = _stopping(model, state, coarse, window_holds=holds)
+    stopping = list[tuple[int, Finding]]()
+    if holds is False:
+        found = outgrown(model.grid.size, coarse.outgrown, model.end_time)
+        stopping.append((NumericalError.exit_code, found))
+    if coarse.error is not None:
+        code = coarse.error.exit_code if coarse.on_any_cells else 0
+        stopping.append((code, trial_failed(coarse.error, on_any_cells=coarse.on_any_cells)))
     doubts, ends = unusual(model.case), [(code, found) for code, found in stopping if code]
     problems = (
         *(found for _, found in stopping),
@@ -128,33 +134,6 @@ def predict(model: Model) -> Prediction:
         exit_code=ends[0][0] if ends else 0,
         stops=" ".join(each.words for each in (*doubts, ends[0][1])) if ends else None,
     )
-
-
-def _stopping(
-    model: Model, state: State, coarse: CoarseRun, *, window_holds: bool | None
-) -> list[tuple[int, Finding]]:
-    """Return the findings that would end a run, as it would reach them, with exit codes."""
-    stopping, end = list[tuple[int, Finding]](), model.end_time
-    try:
-        check_filling(model, state)
-        model.case.stepping.check(model, state)
-        effect_fields(model, state)
-    except (CaseError, NumericalError) as error:
-        stopping.append((error.exit_code, would_stop(f"at once: {error}", 0.0, end)))
-    try:
-        start_sliding(model, state)
-    except NumericalError as error:
-        words = f"when sliding starts: {error}"
-        stopping.append((error.exit_code, would_stop(words, state.time, end)))
-    if window_holds is False:
-        finding = outgrown(model.grid.size, coarse.outgrown, end)
-        stopping.append((NumericalError.exit_code, finding))
-    if coarse.error is not None and not any(
-        str(coarse.error) in found.words for _, found in stopping
-    ):
-        code = coarse.error.exit_code if coarse.on_any_cells else 0
-        stopping.append((code, trial_failed(coarse.error, on_any_cells=coarse.on_any_cells)))
-    return stopping
 
 
 def _inside(model: Model, measures: Measures) -> bool:
