@@ -19,7 +19,7 @@ from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.evolution.course import Course, course, sloped
 from tribo.evolution.friction import with_friction_work
-from tribo.evolution.interval import Moment, interval_from
+from tribo.evolution.interval import interval_from
 from tribo.evolution.rates import wear_rates
 from tribo.evolution.states import filling, remembered
 from tribo.stepping.contacts import counted, extrapolated, solve_cycle, undeformed
@@ -112,7 +112,7 @@ class Implicit(Scheme):
         """
         settle = self.settle if until in model.saves else 0.0
         remaining = target - state.distance
-        natural = state.increment or _first_increment(model, state, remaining)
+        natural = state.increment or _first_increment(model, state, remaining, until)
         rejected = 0
         while True:
             increment = _fitted(natural, remaining, settle * target)
@@ -326,9 +326,9 @@ def _guess(
     return Guess(contacts, slid, worn, depths, filled)
 
 
-def _first_increment(model: Model, state: State, remaining: float) -> float:
+def _first_increment(model: Model, state: State, remaining: float, until: float) -> float:
     """Return a first increment, in m, that wears a small part of the elastic approach."""
-    moment = Moment(state.time, state.distance, remaining / (model.end_time - state.time))
+    moment = interval_from(state, remaining, until).at(0.0)
     rates = wear_rates(model, state.contacts, remembered(model, state), moment)
     fastest = _largest(rate.depth_rate for of_bodies in rates for rate in of_bodies.values())
     first = FIRST * state.reference_depth / fastest if fastest > 0 else 0.0
