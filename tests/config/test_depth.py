@@ -12,17 +12,11 @@ CASE = template("ball_on_disk")
 FILES = {
     "case.toml": CASE,
     "tables.toml": CASE + TABLES,
-    "many_lists.toml": CASE + "\n[odd]\nq = " + 4000 * "[" + 4000 * "]",
-    "measured.toml": "fit = ['bodies.ball.wear.k']\n[[measured]]\nbody = 'ball'\n"
-    f"quantity = 'depth'\nvalue = 1\n{TABLES}",
 }
 COMMANDS = {
     "tables": "check tables.toml",
-    "many lists": "check many_lists.toml",
     "path": f"check case.toml --set {PATH}=1",
-    "values": f"compare case.toml --vary load.normal={{{PATH}=1}},{{a=2}}",
     "axis": f"sweep case.toml --vary {PATH}=1,2",
-    "measured": "calibrate case.toml --measured measured.toml",
 }
 
 

@@ -62,28 +62,6 @@ def test_the_mark_that_some_editors_add_is_no_fault(tmp_path):
     assert read_toml(path) == {"x": 1}
 
 
-@pytest.fixture
-def path(tmp_path):
-    path = tmp_path / "case.toml"
-    path.write_text(template("ball_on_disk"))
-    return path
-
-
-def test_a_case_survives_being_written_and_read(path):
-    case = load_case(path)
-    for options in ({}, {"exclude_defaults": True}, {"exclude_unset": True}, {"mode": "json"}):
-        assert validate_case(case.model_dump(**options)) == case
-
-
-def test_each_mistake_is_a_line(path):
-    with pytest.raises(CaseError) as caught:
-        load_case(path, overrides=["bodies.ball.material.young=-1", "contact.tolerence=1"])
-    lines = str(caught.value).splitlines()
-    assert caught.value.path == "contact.tolerence"
-    assert lines[0].startswith("contact.tolerence: unknown key; did you mean")
-    assert lines[1:] == ["bodies.ball.material.young: -1 Pa: must be greater than 0, as in '2 GPa'"]
-
-
 @pytest.mark.parametrize(
     ("grid", "message"),
     [
