@@ -10,25 +10,6 @@ from tribo.motion.exposure import Passing
 from tribo.motion.stroke import Stroke
 from tribo.simulation.march import begin
 
-STROKES = [
-    Stroke(2e-3, 1e-4, 9),
-    Stroke(1.97e-3, 1e-4, 7),
-    Stroke(2.31e-3, 1e-4),
-    Stroke(3e-5, 1e-4),
-]
-
-
-@pytest.mark.parametrize("stroke", STROKES)
-def test_the_path_is_shared_evenly_about_mid_stroke(stroke):
-    cells, shares = stroke.cells, stroke.shares
-    assert sum(shares) == pytest.approx(1, abs=1e-14)
-    assert min(shares) > 0
-    np.testing.assert_allclose(shares, shares[::-1], rtol=1e-12)
-    np.testing.assert_array_equal(cells, -cells[::-1])
-    np.testing.assert_array_equal(cells, np.round(cells))
-    assert cells[len(cells) // 2] == 0
-    assert cells[-2] * stroke.dx < 0.5 * stroke.length <= cells[-1] * stroke.dx * (1 + 1e-12)
-
 
 def test_every_cell_of_the_stroke_is_a_position():
     np.testing.assert_array_equal(Stroke(6e-4, 1e-4).cells, np.arange(-3, 4))

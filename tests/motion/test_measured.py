@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from paper_models import case, foundation, last, motion, small
+from paper_models import case, foundation, last, small
 
-from tribo import CaseError, Effect, Field, Grid, Measured, Reciprocating
+from tribo import CaseError, Effect, Field, Grid, Measured
 from tribo.config.load import validate_case
 from tribo.core.grid import RepeatingGrid
 
@@ -37,30 +37,6 @@ def test_a_whole_pass_ends_before_the_rest_with_which_the_next_begins(cycles):
     measured = Measured(path=path, cycles=cycles)
     for distance in (2e-3 * cycles, 2e-3 * cycles * (1 + 4e-16)):
         assert measured.time_at(distance) == pytest.approx(3 * cycles)
-
-
-@pytest.mark.parametrize("positions", [9, "cells"])
-def test_a_triangle_in_time_is_a_stroke_at_constant_speed(positions):
-    grid = Grid(1e-3, 50)
-    triangle = Measured(path=[(0, 0), (0.02, 4e-4), (0.04, 0)], positions=positions)
-    stroke = Reciprocating(stroke=4e-4, frequency=25, cycles=1, positions=positions)
-    found, expected = triangle.cycle(grid), stroke.cycle(grid)
-    assert [p.share for p in found] == pytest.approx([p.share for p in expected])
-    assert [p.speeds for p in found] == [[(pytest.approx(0.02), 1.0)]] * len(expected)
-    bodies = ["ball", "disk"]
-    rows = [m.exposures(grid, bodies)["disk"].starts for m in (triangle, stroke)]
-    assert rows[0] == rows[1]
-
-
-def test_a_position_has_the_speed_at_which_it_is_passed():
-    # Slowly over the first half and fast over the second, with a rest where they meet.
-    path = [(0, 0), (4, 4e-4), (9, 4e-4), (10, 8e-4), (11, 4e-4), (15, 0)]
-    cycle = Measured(path=path, positions=9).cycle(Grid(1e-3, 50))
-    speeds = [position.speeds for position in cycle]
-    slow, fast = [(pytest.approx(1e-4), 1.0)], [(pytest.approx(4e-4), 1.0)]
-    # The one in the middle half of the path at each speed.
-    both = [(pytest.approx(1e-4), 0.5), (pytest.approx(4e-4), 0.5)]
-    assert speeds == [slow] * 4 + [both] + [fast] * 4
 
 
 @pytest.mark.parametrize(
@@ -105,18 +81,6 @@ def test_what_relaxes_in_time_goes_on_in_rests():
     assert last(model).between["warmth"][0, 0] == pytest.approx(
         10 * 1000 * speed * (1 - np.exp(-4)), rel=1e-4
     )
-
-
-def test_a_sampled_sine_spends_its_path_as_the_sine_does():
-    t = np.linspace(0, 0.04, 400)
-    samples = list(zip(t, -1e-3 * np.cos(2 * np.pi * 25 * t), strict=True))
-    grid = Grid(1e-3, 50)
-    sine = motion(waveform="sinusoidal", positions=21).cycle(grid)
-    found = Measured(path=samples, positions=21).cycle(grid)
-    assert [p.share for p in found] == pytest.approx([p.share for p in sine], rel=2e-3)
-    for power in (1, -1):
-        means = [[sum(s * v**power for v, s in p.speeds) for p in c] for c in (sine, found)]
-        assert means[0] == pytest.approx(means[1], rel=0.03)
 
 
 @pytest.mark.parametrize("name", ["path.csv", "path.npy"])

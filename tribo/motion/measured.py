@@ -19,7 +19,6 @@ from tribo.core.units import Quantity
 from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Passing, one_swept_body
 from tribo.motion.kinematics import Kinematics
-from tribo.motion.reciprocating import Reciprocating
 from tribo.motion.stroke import Stroke, check_spacing, odd
 
 CLOSED = 0.01
@@ -147,18 +146,6 @@ class Measured(Kinematics):
     def check_contact(self, half_width_x: float) -> None:
         """Refuse positions further apart than half the half-width."""
         check_spacing(self.track_extent, self.positions, half_width_x)
-
-    def coarsened(self, half_width_x: float) -> Kinematics:
-        """Return back and forth sliding over the range of the path at its mean speed."""
-        slid = float(self._samples[2][-1])
-        strokes = Reciprocating(
-            stroke=self.track_extent,
-            frequency=slid / (2 * self.track_extent * self._period),
-            duration=self.end_time,
-            positions="cells",
-            swept=self.swept,
-        )
-        return strokes.coarsened(half_width_x)
 
     def _stroke(self, grid: Grid) -> Stroke:
         stroke = Stroke(self.track_extent, grid.spacing[0], self.positions, grid.period)
