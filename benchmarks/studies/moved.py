@@ -1,6 +1,6 @@
 """A ball moved along a flat, cell by cell: the contact that the track average stands for.
 
-It gives the values that the cases ring_average, stroke_* and groove_excess of `tribo verify`
+It gives the values that the cases ring_average and stroke_* of `tribo verify`
 expect, extrapolated in the number of passes:
 
     python -m benchmarks.studies.moved
@@ -165,7 +165,6 @@ def main() -> None:
         ("stroke_resolved", Grid(0.65e-3, 28), free, 24, 5.0, 48),
         ("stroke_positions", Grid((1.2e-3, 0.75e-3), (128, 12)), springs, 48, 0.2, 32),
         ("stroke_average", Grid(1.3e-3, 28), free, 43, 360.0, 48),
-        ("groove_excess, 5 mm", Grid(1.3e-3, 28), free, 108, 360.0, 48),
         ("stroke_long", Grid(0.65e-3, 28), free, 128, 4.0, 16),
     ):
         model = on_flat(grid, contact)
