@@ -18,10 +18,6 @@ VISIBLE = 1e-4
 """Depth, relative to the largest, above which a cell is worn."""
 STEEPEST = 2.0
 """Largest exponent of the depth in the distance from the edge."""
-SHALLOW = 0.05
-"""Depth, relative to the largest, up to which a wide rim is not part of the scar."""
-NARROWER = 0.8
-"""Width without the rim, relative to that with it, below which the rim is wide."""
 
 
 class Scar(NamedTuple):
@@ -63,9 +59,7 @@ def diameter(depth: Array, axis: int, spacing: float) -> float:
     bodies, end in a flat toe: there the parabola goes through a root of the depths,
     whose exponent follows from a fourth cell. The error is a tenth of a cell for a
     scar ten cells wide, and a third of a cell in its first nanometres. A cell is
-    worn if it is deeper than 10⁻⁴ of the largest depth. The limit is a twentieth
-    where that makes the scar less than 0.8 times as wide, as on a ball that also
-    touches the ends of its track: no microscope shows such shallow wear.
+    worn if it is deeper than 10⁻⁴ of the largest depth.
 
     Parameters
     ----------
@@ -158,13 +152,10 @@ def crown(height: Array, depth: Array) -> float:
 
 def _ends(line: Array) -> tuple[float, float] | None:
     """Return the edges of the scar on a line, in cells from the centre of the first."""
-    deepest = max(float(np.max(line)), 0.0)
-    index, deep = (np.flatnonzero(line > part * deepest) for part in (VISIBLE, SHALLOW))
+    index = np.flatnonzero(line > VISIBLE * max(float(np.max(line)), 0.0))
     if index.size == 0:
         return None
     first, last = int(index[0]), int(index[-1])
-    if deep[-1] - deep[0] + 1 < NARROWER * (last - first + 1) - 2:
-        first, last = int(deep[0]), int(deep[-1])
     worn = np.maximum(line[first : last + 1], 0.0)
     below = _beyond(worn, 0.5 if first == 0 else 1.0)
     above = _beyond(worn[::-1], 0.5 if last == line.size - 1 else 1.0)
