@@ -8,16 +8,13 @@ from functools import cached_property
 from typing import Self
 
 import numpy as np
-from tribo import Array, Box, ContactSolution, LocalConditions, Residuals
+from tribo import Array, Box, ContactSolution, Residuals
 from tribo.kernel_api import (
     CELLS,
     Kept,
-    Memory,
     Model,
     Sum,
-    by_reach,
     kept_in,
-    local_fields,
     over,
     place,
     rates_at_each,
@@ -29,9 +26,6 @@ from tribo_inverse.increment.across import EffectFields, held, held_effects
 from tribo_inverse.increment.carriers import Carrier, carriers_between
 from tribo_inverse.increment.response import ASIDE, Arrays
 from tribo_inverse.recording.tape import Slid
-
-AT_ONCE = 1 << 18
-"""Largest number of cells in one call of a law, so that memory does not grow with a step."""
 
 
 @dataclass(frozen=True)
@@ -193,8 +187,7 @@ class Stages:
     ) -> Arrays:
         """Return the rates at each position at some stages, (stages, positions, nx, ny).
 
-        After them come the inputs of effects with a `pull_back`. Laws are pointwise: without
-        effects they are evaluated at all stages at once.
+        After them come the inputs of effects with a `pull_back`.
 
         Parameters
         ----------
@@ -210,15 +203,11 @@ class Stages:
         model = model or self.model
         if told is None:
             told = self.told(passed)
-        most = 1 if model.laws.effects else max(1, AT_ONCE // told[0].size)
-        groups = [slice(i, i + most) for i in range(0, len(passed), most)]
-        ask, found = self._in_window if model.laws.effects else self._of_laws, list[Arrays]()
-        for group in groups:
-            own = [state[group] for state in states]
-            found.append(ask(model, own, passed[group], told[group]))
-        return [
-            each[0] if len(each) == 1 else np.concatenate(each) for each in zip(*found, strict=True)
+        each = [
+            self._at_one(model, [state[i] for state in states], share, told[i])
+            for i, share in enumerate(passed)
         ]
+        return together(each)
 
     def holding(self, stage: RateStage) -> Self:
         """Return the same stages, with effects held at their answers of a stage."""
@@ -236,13 +225,11 @@ class Stages:
         ]
         return [np.concatenate(of_stages) for of_stages in zip(*each, strict=True)]
 
-    def _in_window(
-        self, model: Model, states: Arrays, passed: Sequence[float], told: Array
-    ) -> Arrays:
+    def _at_one(self, model: Model, states: Sequence[Array], passed: float, told: Array) -> Arrays:
         """Return the rates of laws and effects at one stage, with the whole window as input."""
-        memory = self.slid.before.with_values(state[0] for state in states)
-        moment = self.slid.interval.at(passed[0])
-        shown = told[0] if self.box.is_window else self.embedded(told[0])
+        memory = self.slid.before.with_values(iter(states))
+        moment = self.slid.interval.at(passed)
+        shown = told if self.box.is_window else self.embedded(told)
         for effect in held_effects(model):
             effect.noted.clear()
         found = rates_at_each(model, _contacts(shown), memory, moment)
@@ -259,77 +246,7 @@ class Stages:
         rates = [np.stack(each) for each in (*depths, *of_laws, *between)]
         answers = (answer for effect in held_effects(model) for answer in effect.noted)
         rates += [value[None] for answer in answers for value in answer.told.values()]
-        return [each[(None, slice(None), *self.box.slices)] for each in rates]
-
-    def _of_laws(
-        self, model: Model, states: Arrays, passed: Sequence[float], told: Array
-    ) -> Arrays:
-        """Return the rates of the laws at some stages."""
-        depths, changes = Arrays(), Arrays()
-        each = iter(states)
-        laws = {n: {key: next(each) for key in of} for n, of in self.slid.before.laws.items()}
-        for name in model.laws.wear:
-            own = laws.get(name, {})
-            seen = {key: self.carriers[name].seen(of, self.box) for key, of in own.items()}
-            found = [
-                self._pointwise(
-                    model,
-                    name,
-                    position,
-                    told[:, position],
-                    {key: of[:, position] for key, of in seen.items()},
-                )
-                for position in range(len(model.cycle))
-            ]
-            depth, *of_states = (
-                np.stack(rates, axis=1) if len(found) > 1 else rates[0][:, None]
-                for rates in zip(*found, strict=True)
-            )
-            depths.append(depth)
-            changes += of_states
-        return depths + changes
-
-    def _pointwise(
-        self,
-        model: Model,
-        name: str,
-        position: int,
-        pressure: Array,
-        state: Mapping[str, Array],
-    ) -> Arrays:
-        """Return the rates of a law at a position: its depth's and its states'."""
-        law, place, mean = model.laws.wear[name], model.cycle[position], self.slid.interval.speed
-        keys = list(self.slid.before.laws.get(name, {}))
-        if mean == 0:
-            return [np.zeros(pressure.shape)] * (1 + len(keys))
-
-        def tall(values: Array) -> Array:
-            if values.shape != pressure.shape:
-                values = np.broadcast_to(values, pressure.shape)
-            return readonly(values.reshape(-1, self.box.shape[1]))
-
-        given: Mapping[str, Mapping[str, Array]] = {}
-        if law.requires:
-            window = np.broadcast_to(0.0, self.box.window)
-            given = local_fields(model, window, self.slid.interval.end, position, Memory({}, {}))
-        told = LocalConditions(
-            pressure=tall(pressure),
-            speed=mean,
-            material=law.material,
-            fields={
-                key: tall(given[key][name][self.box.slices] if key in given else state[key])
-                for key in law.requires
-            },
-            state={key: tall(values) for key, values in state.items()},
-        )
-        total = Arrays()
-        for speed, part, _ in by_reach(place.speeds or [(mean, 1.0)], place.reach):
-            rate = law.rate(replace(told, speed=speed))
-            counts = part[self.box.slices] if isinstance(part, np.ndarray) else part
-            each = (rate.depth_rate, *(rate.state_rates[key] for key in keys))
-            rates = [counts * values.reshape(pressure.shape) for values in each]
-            total = [a + b for a, b in zip(total, rates, strict=True)] if total else rates
-        return total
+        return [each[(slice(None), *self.box.slices)] for each in rates]
 
 
 def together(states: Sequence[Sequence[Array]]) -> Arrays:
