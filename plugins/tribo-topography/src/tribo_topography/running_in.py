@@ -79,6 +79,8 @@ def rough_bodies(result: Result) -> list[str]:
     """Return the names of the bodies whose surfaces are more than a smooth form."""
     # A class that is not installed leaves its result without roughness.
     with suppress(CaseError):
-        unsure = [name for name, body in result.case.bodies.items() if not body.surface.smooth]
+        surfaces = {name: body.surface for name, body in result.case.bodies.items()}
+        # A form states its curvature.
+        unsure = [n for n, form in surfaces.items() if not form.smooth and form.curvature is None]
         return [name for name in unsure if is_rough(result.body(name).height)]
     return []
