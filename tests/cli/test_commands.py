@@ -105,7 +105,7 @@ def test_check_foretells_the_depth_of_rough_bodies_but_for_their_roughness(tmp_p
 @pytest.mark.parametrize(
     ("changes", "foretold"),
     [
-        ([], r"bodies.ball.wear.k depth of ball \+0\.\d\d ± 0\.\d\d %"),
+        ([], r"bodies.ball.wear.k \+1 %: depth of ball \+0\.\d\d ± 0\.\d\d"),
         (["stop.depth=0.5 um"], r"0.5 µm, about reached after [\d.]+ s"),
         (["stop={depth='1 mm', body='disk'}"], r"1000 µm, about not reached, [\d.]+ µm at"),
     ],
