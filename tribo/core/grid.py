@@ -5,14 +5,22 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
-from pydantic import Field, field_validator
+from pydantic import AfterValidator, field_validator
 
 from tribo.core.arrays import Array
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 
 Length = Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
-Cells = Annotated[int, Field(ge=1, le=16384)]
+
+
+def _some(cells: int) -> int:
+    if not 1 <= cells <= 16384:
+        raise ValueError(f"{cells}: must be from 1 to 16384, as in 128")
+    return cells
+
+
+Cells = Annotated[int, AfterValidator(_some)]
 """Cells along an axis."""
 
 
