@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from tribo.core.arrays import Array
+from tribo.core.errors import CaseError
 from tribo.core.fields import WORN_DEPTH, LocalConditions, names_of
 from tribo.guards.parts import GuardedLaw
 from tribo.testing import samples
@@ -82,13 +83,20 @@ class WearLawChecks(LocalChecks):
 
         However far its points have slid.
         """
-        guarded = self._guarded()
-        for local in self._samples():
-            for at in (local, self._old(local)):
-                rate = guarded.rate(at)
-                stated = guarded.component.rate(at).state_rates.get(WORN_DEPTH.name)
-                same = stated is None or np.array_equal(stated, rate.depth_rate)
-                require(same, f"the rate of {WORN_DEPTH.name!r} is not depth_rate")
+        for bare in (samples.STEEL, samples.BARE):
+            material = samples.for_models(bare, self._config)
+            try:
+                guarded = GuardedLaw(self._make(), BODIES[0], material)
+            except CaseError:
+                if bare is samples.BARE:
+                    return
+                raise
+            for local in self._samples():
+                for at in (local, self._old(local)):
+                    rate = guarded.rate(replace(at, material=material))
+                    stated = guarded.component.rate(at).state_rates.get(WORN_DEPTH.name)
+                    same = stated is None or np.array_equal(stated, rate.depth_rate)
+                    require(same, f"the rate of {WORN_DEPTH.name!r} is not depth_rate")
 
     def depth_does_not_jump(self) -> None:
         """The depth follows the pressure without a jump, at which implicit steps have no answer."""

@@ -61,6 +61,7 @@ LONG_STEPS = Implicit(depth_tolerance=0.01, pressure_tolerance=0.3)
 SPEED = 0.1
 SPEEDS = (SPEED, 3e-3, 2.0)
 PEAK = 2e9
+BARE = Material(young=207e9, poisson=0.3)
 STEEL = Material(
     young=207e9,
     poisson=0.3,
