@@ -82,6 +82,19 @@ def few_cells(cells: float) -> Finding:
     )
 
 
+def broken_period(body: str, along: str, jump: float) -> Finding:
+    """Word a surface with a jump (m) where the contact repeats along an axis."""
+    return Finding(
+        "period",
+        f"the surface of {body} does not repeat with the window: along {along} it "
+        f"jumps by {1e9 * jump:.3g} nm (root mean square) from one period to the next, "
+        "and presses there; give it a period of the window's length or a part of it",
+        value=jump,
+        limit=0.0,
+        place=f"bodies.{body}.surface",
+    )
+
+
 def too_wide(body: str, ratio: float, radius: float, time: float) -> Finding:
     """Word a contact whose half-width over a radius (m) is too large at a time (s)."""
     return Finding(

@@ -14,6 +14,7 @@ from tribo.case import Case
 from tribo.component import components
 from tribo.config.overrides import leaves
 from tribo.core import findings
+from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError, NumericalError, PluginError, TooWorn, located
 from tribo.core.explain import path
@@ -26,6 +27,9 @@ from tribo.model.model import Model
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.registry import from_packages
 from tribo.stepping.measure import cycle_error
+
+SEAM = 4
+"""How many times more a surface bends at the edge of a window than inside if it ends there."""
 
 
 def unusual(case: Case) -> list[Finding]:
@@ -72,13 +76,8 @@ def few_cells(model: Model, first: ContactSolution) -> Finding | None:
 
 @hookimpl(trylast=True)
 def tribo_findings(model: Model) -> list[Finding]:
-    """Report a run that slides over a part of a body's track only."""
-    distance = model.end_distance
-    for name in [name for name in model.laws.wear if name in model.cycle.swept]:
-        length = model.cycle.maps[name].track(model.grid)
-        if distance < (1 - ROUND_OFF) * length:
-            return [findings.short_of_a_lap(name, distance, length)]
-    return []
+    """Report surfaces that do not repeat with the window, and a path that is no whole track."""
+    return [each for each in (broken_period(model), short_of_a_lap(model)) if each]
 
 
 def findings_of(model: Model, half_width_x: float) -> list[Finding]:
@@ -89,6 +88,30 @@ def findings_of(model: Model, half_width_x: float) -> list[Finding]:
     own, types = sys.modules[__name__], {each.type for _, each in components(model.case)}
     given = {"model": model, "half_width_x": half_width_x}
     return from_packages("tribo_findings", own, types=types, **given)
+
+
+def broken_period(model: Model) -> Finding | None:
+    """Return a finding if the contact repeats with the window, but the surface of a body not."""
+    if not model.case.contact.periodic:
+        return None
+    for name, surface in model.surfaces.items():
+        for axis, along in enumerate("xy"):
+            jump = _jump(np.moveaxis(surface.height, axis, 0))
+            if jump > 0:
+                return findings.broken_period(name, along, jump)
+    return None
+
+
+def _jump(height: Array) -> float:
+    """Return the jump of the height from the last row to the first; 0 if it is periodic."""
+    steps = np.diff(height, axis=0, append=height[:1])
+    bends = steps - 0.5 * (np.roll(steps, 1, axis=0) + np.roll(steps, -1, axis=0))
+    # Those beside the last step have it in them.
+    inside, last = bends[1:-2], bends[-1:]
+    if len(inside) < SEAM or np.mean(last**2) <= SEAM**2 * np.mean(inside**2):
+        return 0.0
+    jump = float(np.sqrt(np.mean(steps[-1] ** 2)))
+    return jump if jump > ROUND_OFF * float(np.ptp(height)) else 0.0
 
 
 def too_wide(model: Model, measures: Measures) -> list[Finding]:
@@ -103,6 +126,16 @@ def too_wide(model: Model, measures: Measures) -> list[Finding]:
         if ratio > findings.STEEP:
             found.append(findings.too_wide(name, ratio, 1 / curvature, measures.time))
     return found
+
+
+def short_of_a_lap(model: Model) -> Finding | None:
+    """Return a finding if the whole run slides over a part of a body's track only."""
+    distance = model.end_distance
+    for name in [name for name in model.laws.wear if name in model.cycle.swept]:
+        length = model.cycle.maps[name].track(model.grid)
+        if distance < (1 - ROUND_OFF) * length:
+            return findings.short_of_a_lap(name, distance, length)
+    return None
 
 
 def check_stroke(model: Model, state: State) -> None:
