@@ -18,9 +18,9 @@ from tribo.contact.projection import CELLS as CELLS
 from tribo.contact.projection import over as over
 from tribo.contact.residuals import check_bearable as check_bearable
 from tribo.contact.residuals import check_finite as check_finite
-from tribo.core.arrays import add_from as add_from
 from tribo.core.arrays import bounds as bounds
 from tribo.core.arrays import readonly as readonly
+from tribo.core.arrays import region as region
 from tribo.core.arrays import union as union
 from tribo.core.box import around as around
 from tribo.core.box import whole as whole

@@ -152,16 +152,16 @@ def test_check_ends_with_the_exit_code_of_the_run(case, settings, code):
 
 
 @pytest.mark.slow
-def test_check_predicts_the_short_stroke_that_the_run_ends_with(case):
+def test_check_predicts_what_the_stroke_average_costs_and_the_run_ends_with(case):
     coarse = setting("grid.size=1.3 mm", "grid.cells=48")
     (problem,) = json.loads(tribo("check", "my.toml", *coarse, "--json").stdout)["problems"]
     ran = tribo("run", "my.toml", *coarse)
     end = [line for line in ran.stderr.splitlines() if "averaging: at 3600 s" in line]
     # What was printed as it ran is not printed again.
     assert "averaging" not in ran.stdout
-    foreseen, found = (re.search(r"and (\S+) lengths", text)[1] for text in (problem, *end))
-    assert float(foreseen) == pytest.approx(2.05, abs=0.11)
-    assert float(found) == pytest.approx(2.05, abs=0.11)
+    foreseen, found = (re.search(r"about (\d+) % too deep", text)[1] for text in (problem, *end))
+    assert int(foreseen) == pytest.approx(17.7, abs=1.5)
+    assert int(found) == pytest.approx(17.7, abs=1.5)
 
 
 @pytest.mark.parametrize("command", ["", *OWN])

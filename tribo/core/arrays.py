@@ -58,21 +58,11 @@ def union(first: Region, second: Region) -> Region:
     )
 
 
-def part_from(field: Array, first: Cell, count: Cell) -> Array:
-    """Return `count` rows and columns of a field, starting at the cell `first`.
+def region(field: Array, first: Cell, count: tuple[int, ...]) -> Any:
+    """Return the index of `count` rows and columns of a periodic field, from the cell `first` on.
 
-    The field is periodic: its first row follows its last, and so do its columns.
+    The first row of the field follows its last, and so do its columns.
     """
-    return np.asarray(field[_region(field, first, count)])
-
-
-def add_from(field: Array, part: Array, first: Cell) -> None:
-    """Add `part` to a field in place, from the cell `first` on, as `part_from` counts them."""
-    field[_region(field, first, part.shape)] += part
-
-
-def _region(field: Array, first: Cell, count: tuple[int, ...]) -> Any:
-    """Return the index of rows and columns from a cell on; slices, unless they go round."""
     (rows, columns), (along, across) = field.shape, count
     row, column = first[0] % rows, first[1] % columns
     if row + along <= rows and column + across <= columns:

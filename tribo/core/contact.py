@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from tribo.core.arrays import Array, Cell, Region, add_from, bounds, part_from
+from tribo.core.arrays import Array, Cell, Region, bounds, region
 from tribo.core.box import Box
 from tribo.core.coating import Coating
 from tribo.core.grid import Grid
@@ -107,7 +107,7 @@ class CycleCompliance:
         for share, part, *cells in zip(self.shares, pressure, *starts, strict=True):
             weighed = share * part
             for own, (row, column) in zip(worn, cells, strict=True):
-                add_from(own, weighed, (first + row, column))
+                own[region(own, (first + row, column), count)] += weighed
         if self.mirrored:
             worn = [own + own[::-1] for own in worn]
         for own, (compliance, _) in zip(worn, self.bodies, strict=True):
@@ -115,7 +115,7 @@ class CycleCompliance:
         depth = np.zeros_like(pressure)
         for part, *cells in zip(depth, *starts, strict=True):
             for own, (row, column) in zip(worn, cells, strict=True):
-                part += part_from(own, (first + row, column), count)
+                part += own[region(own, (first + row, column), count)]
         return depth
 
     def on(self, box: Box) -> CycleCompliance:

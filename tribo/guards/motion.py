@@ -202,7 +202,7 @@ class GuardedMotion(Guard[Kinematics]):
         """Raise `CaseError` if its averaging makes no sense for the first contact."""
         self.ask(self.component.check_contact, half_width_x)
 
-    def limitation(self, half_width_x: float) -> str | None:
+    def limitation(self, *seen: Any) -> str | None:
         """Return why its averaging no longer holds, if so; see `Kinematics.limitation`."""
-        answer = self.ask(self.component.limitation, half_width_x)
+        answer = self.ask(self.component.limitation, *seen)
         return None if answer is None else self.typed(answer, str, "its limitation")

@@ -124,7 +124,9 @@ class ClosedTrack(Steady):
         """Key that the length of the track was given by."""
         return "track_radius"
 
-    def limitation(self, half_width_x: float) -> str | None:
+    def limitation(
+        self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
+    ) -> str | None:
         """Return a warning once the contact is longer than the track."""
         if 2 * half_width_x <= self.track_extent:
             return None

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tribo.core.arrays import Array, Cell, add_from, part_from
+from tribo.core.arrays import Array, Cell, region
 from tribo.core.contact import WearCompliance
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
@@ -158,7 +158,7 @@ class Track(Exposure):
     of Andersson, Almqvist & Larsson (2010) with N = L. Fields on the body have shape (1, ny).
 
     Valid on a closed track. Where the contact reverses inside the track it is an approximation, too
-    deep at mid-track.
+    deep at mid-track (see `tribo.motion.averaging_error.groove_excess`).
 
     Parameters
     ----------
@@ -266,12 +266,13 @@ class Passing(Stationary):
     def see(self, field: Array, position: int) -> Array:
         """Return the rows of the window, from the start of the position on."""
         count = self._grid.cells[0], field.shape[1]
-        return part_from(field, self._cells[position], count)
+        seen: Array = field[region(field, self._cells[position], count)]
+        return seen
 
     def lay(self, field: Array, position: int) -> Array:
         """Return the field on the body's rows, from the start of the position on."""
         own = np.zeros((self.rows, *field.shape[1:]))
-        add_from(own, field, self._cells[position])
+        own[region(own, self._cells[position], field.shape)] += field
         return own
 
     def gather(
@@ -280,7 +281,7 @@ class Passing(Stationary):
         """Return the rate's part on the body's rows, added to `total` in place."""
         if total is None:
             return self.lay(part * rate, position)
-        add_from(total, part * rate, self._cells[position])
+        total[region(total, self._cells[position], rate.shape)] += part * rate
         return total
 
     def compliance(self, derivative: Array, pressure: Array) -> WearCompliance:

@@ -10,10 +10,12 @@ import numpy as np
 from pydantic import Field, Tag, field_validator, model_validator
 
 from tribo.core.errors import CaseError
+from tribo.core.findings import COARSE
 from tribo.core.grid import Grid
 from tribo.core.loads import NUMBER, ONE_OR_STAGES, STAGES, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
+from tribo.motion.averaging_error import groove_excess, too_deep
 from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
 from tribo.motion.held import Held, held
@@ -26,9 +28,6 @@ PHASES = 6
 """Speeds of a sinusoidal cycle: means of its powers up to the third are exact to 1e-6."""
 SAMPLES = 16
 """Of a sinusoidal half cycle, between two positions."""
-CLEAR = 5.0
-"""Stroke in lengths of the contact from which its average makes a groove as deep as the elastic
-approach less than 4 % too deep: by ``benchmarks/studies/moving_contact.py``."""
 
 
 class FrequencyStage(Table):
@@ -58,9 +57,10 @@ class Reciprocating(Kinematics):
 
     The track average is the paper's model, and makes a groove too deep at mid-stroke. One as deep
     as the elastic approach is 4 % too deep where S is 10 half-widths of the contact and 12 % where
-    it is 4; one several times deeper, twice as much, where both bodies wear alike. Resolved into
-    `positions`, as a run does by itself where the stroke is shorter than 20 lengths of the first
-    contact, it holds for any stroke of two cells and more, gross slip in fretting among them.
+    it is 4; one several times deeper, twice as much, where both bodies wear alike (see
+    `tribo.motion.averaging_error`). Resolved into `positions`, as a run does by itself where the
+    stroke is shorter than 20 lengths of the first contact, it holds for any stroke of two cells and
+    more, gross slip in fretting among them.
 
     Examples
     --------
@@ -218,15 +218,20 @@ class Reciprocating(Kinematics):
             stroke.check_cells("kinematics.stroke")
         return stroke
 
-    def limitation(self, half_width_x: float) -> str | None:
-        """Return a warning where the stroke is averaged and short beside the contact."""
-        lengths = self.stroke / (2 * half_width_x)
-        if lengths >= CLEAR or not self._averages:
+    def limitation(
+        self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
+    ) -> str | None:
+        """Return what the stroke average costs, once that is more than 5 % of the depth."""
+        stroke, widths = self.stroke, self.stroke / half_width_x
+        excess = groove_excess(stroke, half_width_x, depth, approach, volume_ratio, line)
+        if depth <= 0 or excess < COARSE or not self._averages:
             return None
+        many = f"{widths:.2g} half-width" + ("" if f"{widths:.2g}" == "1" else "s")
         return (
-            f"the stroke of {1e3 * self.stroke:.3g} mm is averaged, and {lengths:.2g} lengths of "
-            f"the contact; below {CLEAR:g} a groove as deep as the elastic approach comes out 4 % "
-            "or more too deep; resolve the stroke by kinematics.positions = 33 or more"
+            f"the groove{f' of {self.swept}' if self.swept else ''} is {too_deep(excess)} at "
+            f"mid-stroke, because tribo averages over the stroke ({1e3 * stroke:.3g} mm, {many} of "
+            f"the {2e3 * half_width_x:.3g} mm contact); resolve the stroke by "
+            "kinematics.positions = 33 or more"
         )
 
     def check_contact(self, half_width_x: float) -> None:

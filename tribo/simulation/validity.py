@@ -152,10 +152,10 @@ def check_stroke(model: Model, state: State) -> None:
 
 def limitation(model: Model, state: State) -> Finding | None:
     """Return why averaging over a track does not hold for the contact in `state`, if so."""
-    half_width = half_widths(state.contact, model.grid)[0]
+    seen = half_width, *_ = track_average(model, state)
     if is_endless(model, half_width):
         return _unlike_the_period(model)
-    words = model.motion.limitation(half_width)
+    words = model.motion.limitation(*seen)
     return findings.averaged(words) if words else None
 
 
@@ -169,6 +169,21 @@ def _unlike_the_period(model: Model) -> Finding | None:
         if unlike and name in model.laws.wear:
             return findings.unlike_the_period(name, length, period)
     return None
+
+
+def track_average(model: Model, state: State) -> tuple[float, float, float, float, bool]:
+    """Return half-width, depth, approach (m), ratio of volumes and line for `limitation`."""
+    depths = [float(np.max(state.bodies[name].wear)) for name in model.changing]
+    contact = state.contact
+    half_width = half_widths(contact, model.grid)[0]
+    # Worn off the bodies that stay over that off those that are swept.
+    lost = {True: 0.0, False: 0.0}
+    for name, body in state.bodies.items():
+        lost[name in model.cycle.swept] += model.cycle.maps[name].volume(body.wear)
+    stays, swept = lost[False], lost[True]
+    ratio = stays / swept if swept else (np.inf if stays else 1.0)
+    across = bool(np.all(np.any(contact.pressure > 0, axis=0)))
+    return half_width, max(depths, default=0.0), state.reference_depth, ratio, across
 
 
 def is_endless(model: Model, half_width: float) -> bool:

@@ -75,7 +75,7 @@ class KinematicsChecks(Checks):
         few = _PARTS[::10]
         motion.check_distance(end, sorted([*few, *0.01 * few]))
         for half_width in (1e-6, 1e-4, 1e-2):
-            motion.limitation(half_width)
+            motion.limitation(half_width, 1e-5, 1e-6, 1.0, False)
             with suppress(CaseError):
                 motion.check_contact(half_width)
         for grid in (GRID, RepeatingGrid(size=GRID.size, cells=GRID.cells)):

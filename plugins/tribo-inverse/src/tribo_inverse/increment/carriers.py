@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from tribo import Array, Box, CaseError
-from tribo.kernel_api import Model, add_from
+from tribo.kernel_api import Model, region
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,8 @@ class Carrier:
             own[0, columns] = np.sum(parts, axis=(0, 1))
             return own
         for part, start in zip(parts, self.starts, strict=True):
-            add_from(own[:, columns], part, (start + along.start, 0))
+            rows = own[:, columns]
+            rows[region(rows, (start + along.start, 0), part.shape)] += part
         return own
 
     def seen(self, own: Array, box: Box) -> Array:
