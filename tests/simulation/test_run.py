@@ -150,6 +150,7 @@ def test_a_contact_that_reaches_the_edge_stops_the_run_with_what_was_saved(tmp_p
     ("k", "failure"), [(1e-2, "miss their tolerances"), (1e-6, "reached the edge of the window")]
 )
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:wear rate")
 def test_a_run_that_fails_asks_for_the_unit_of_a_wear_coefficient_that_is_absurd(k, failure):
     bodies = pair(archard(k=k))
     with pytest.raises(NumericalError, match=failure) as failed:

@@ -57,32 +57,37 @@ def sliding(metres, k, **changes):
     return pin(archard(k), kinematics=motion, **changes)
 
 
-def test_wear_that_is_too_deep_is_warned_of_once_with_its_place_and_time():
-    metres, limit = 1, 0.2e-3
-    model = sliding(metres, 3e-11)
-    with pytest.warns(TriboWarning, match="depth: at ") as warned:
+@pytest.mark.parametrize(
+    ("metres", "k", "kind", "limit"),
+    [(1, 3e-11, "depth", 0.2e-3), (1e-3, 2e-9, "wear rate", 1e-9)],
+)
+def test_implausible_wear_is_warned_of_once_with_its_place_and_time(metres, k, kind, limit):
+    model = sliding(metres, k)
+    with pytest.warns(TriboWarning, match=f"{kind}: at ") as warned:
         result = Simulation(model).run()
     (found,) = result.findings
-    assert (found.kind, found.place, found.limit) == ("depth", "bodies.pin", limit)
+    assert (found.kind, found.place, found.limit) == (kind, "bodies.pin", limit)
     assert found.value > found.limit
     assert 0 < found.time < metres / 0.1
     assert 0 < found.distance < metres
     assert len(warned) == 1
     assert result.status == "done"
-    assert [(each.kind, each.limit) for each in predict(model).problems] == [("depth", limit)]
+    assert [(each.kind, each.limit) for each in predict(model).problems] == [(kind, limit)]
 
 
 @pytest.mark.filterwarnings("ignore::tribo.TriboWarning")
-@pytest.mark.parametrize(("metres", "k"), [(1, 5.2e8), (10, 3e-11)])
-def test_impossible_wear_stops_a_run_and_a_check(tmp_path, metres, k):
+@pytest.mark.parametrize(
+    ("metres", "k", "limit"), [(1, 5.2e8, 0.2e-3), (10, 3e-11, 0.2e-3), (1e-9, 2e-5, 1e-9)]
+)
+def test_impossible_wear_stops_a_run_and_a_check(tmp_path, metres, k, limit):
     model, path = sliding(metres, k), tmp_path / "pin.h5"
     with pytest.raises(TooWorn) as failure:
         Simulation(model).run(path)
     # A fit takes a shorter step there.
     assert isinstance(failure.value, OutOfWindow)
     stopped = failure.value.finding
-    assert (stopped.place, stopped.limit) == ("bodies.pin", 0.2e-3)
-    assert stopped.value >= 2e-3
+    assert (stopped.place, stopped.limit) == ("bodies.pin", limit)
+    assert stopped.value >= 10 * limit
     assert 0 < stopped.time < metres / 0.1
     with Result.open(path) as result:
         assert result.status == "failed"

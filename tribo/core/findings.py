@@ -16,6 +16,9 @@ STEEP = 0.3
 """Half-width of a contact over the radius of a body, above which a half-space is inaccurate."""
 DEEP = 0.1
 """Part of the window's edge or of a radius that wear may reach, as slopes are small."""
+FAST, IMPOSSIBLE = 1e-9, 1e-5
+"""Specific wear rates in 1/Pa: K = kH = 0.1, the most in abrasive wear, at H = 100 MPa, and
+Archard's K ≤ 1 at 0.1 MPa."""
 COARSE, FINE = 0.05, 0.01
 """Error of the depth by too few positions that is reported, and the error at the number advised."""
 
@@ -117,6 +120,15 @@ def too_deep(body: str, depth: float, size: float) -> Finding:
         "stops"
     )
     return Finding("depth", words, value=depth, limit=DEEP * size, place=f"bodies.{body}")
+
+
+def too_fast(body: str, rate: float) -> Finding:
+    """Word a specific wear rate (1/Pa) that no test has."""
+    words = (
+        f"the specific wear rate of {body} is {1e9 * rate:.4g} mm³/(N m), above {1e9 * FAST:g}; at "
+        f"{1e9 * IMPOSSIBLE:g} a run stops: is the unit of a wear coefficient wrong or missing?"
+    )
+    return Finding("wear rate", words, value=rate, limit=FAST, place=f"bodies.{body}")
 
 
 def unusual(place: str, question: str, value: float, limit: float) -> Finding:

@@ -26,8 +26,8 @@ from tribo.simulation.memory import memory_needed
 from tribo.simulation.validity import (
     doubting,
     few_cells,
+    implausible,
     limitation,
-    too_deep,
     too_wide,
     unusual,
 )
@@ -82,7 +82,7 @@ class CoarseRun:
     outgrown: float | None = None
     limitation: Finding | None = None
     worn_through: tuple[Mapping[str, Any], ...] = ()
-    said: tuple[Finding, ...] = ()
+    implausible: tuple[Finding, ...] = ()
     error: TriboError | None = None
     on_any_cells: bool = False
 
@@ -116,7 +116,7 @@ def predict(model: Model) -> Prediction:
         *(found for _, found in stopping),
         few_cells(model, state.contact),
         *(too_wide(model, first) or too_wide(model, last or first)),
-        *coarse.said,
+        *coarse.implausible,
         coarse.limitation,
     )
     facts = {place: Guard(c).ask(stated_facts, c) for place, c in components(model.case)}
@@ -169,7 +169,7 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
         limitation(replace(coarse, motion=model.motion), state),
         tuple(worn_through(state.findings)),
         (
-            *(finding for finding, _ in too_deep(coarse, state)),
+            *(finding for finding, _ in implausible(coarse, state)),
             *(replace(each, words=f"at {each.time:.3g} s {each.words}") for each in watch.said),
         ),
     )

@@ -203,25 +203,31 @@ def coarse_cycle(model: Model, state: State) -> Finding | None:
 
 
 def hold_wear(model: Model, state: State) -> State:
-    """Return a state with findings on wear that is too deep; `TooWorn` if it is impossible."""
-    for finding, impossible in too_deep(model, state):
+    """Return a state with each implausible wear as a finding; `TooWorn` if it is impossible."""
+    for finding, impossible in implausible(model, state):
         if impossible:
             when = f"at {state.time:.6g} s ({state.distance:.6g} m)"
             error = TooWorn(f"{when} {finding.words}")
             error.finding = replace(finding, time=state.time)
             raise error
-        if finding.place not in {each.place for each in state.findings if each.kind == "depth"}:
+        if (finding.kind, finding.place) not in {
+            (each.kind, each.place) for each in state.findings
+        }:
             state = state.from_here(finding)
     return state
 
 
-def too_deep(model: Model, state: State) -> Iterator[tuple[Finding, bool]]:
-    """Yield a finding for each body that is worn too deep, and whether that is impossible."""
+def implausible(model: Model, state: State) -> Iterator[tuple[Finding, bool]]:
+    """Yield a finding for each implausible wear depth and rate, and whether it is impossible."""
     # A window that repeats is a part of a larger contact.
     edges = () if model.case.contact.periodic else model.grid.size
     for name in model.laws.wear:
+        wear, exposure = state.bodies[name].wear, model.cycle.maps[name]
         radii = (1 / abs(each) for each in model.surfaces[name].curvature or () if each)
         size = min((*edges, *radii, model.case.contact.layer_thickness))
-        depth = float(np.max(state.bodies[name].wear))
+        depth = float(np.max(wear))
         if depth > findings.DEEP * size:
             yield findings.too_deep(name, depth, size), depth >= size
+        if (volume := exposure.volume(wear)) > findings.FAST * state.load_distance:
+            rate = volume / state.load_distance
+            yield findings.too_fast(name, rate), rate >= findings.IMPOSSIBLE

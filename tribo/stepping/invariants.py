@@ -90,8 +90,9 @@ def hold(before: State | None, after: State) -> State:
 
 def broken_by(state: State) -> str | None:
     """Name the broken invariant of `state`, its deviation and a remedy."""
-    if not isfinite(state.invariants.volume):
-        return "the wear depth is not finite; find what diverges: a wear law, or the kinematics"
+    lost = _not_finite(state)
+    if lost is not None:
+        return f"the {lost} is not finite; find what diverges: a wear law, or the kinematics"
     contact, step = [each.residuals for each in state.contacts], state.invariants
     force = max(each.force for each in contact)
     complementarity = max(each.complementarity for each in contact)
@@ -141,3 +142,13 @@ def _chattering(before: Array, between: ContactSolution, after: ContactSolution)
     # Where neither of the last two presses, nothing comes back.
     near = union(between.extent, after.extent)
     return handed_back(before[near], between.pressure[near], after.pressure[near])
+
+
+def _not_finite(state: State) -> str | None:
+    if not isfinite(state.invariants.volume):
+        return "wear depth"
+    for name, body in state.bodies.items():
+        for what, values in (("plastic depth", body.plastic), *body.law.items()):
+            if not isfinite(np.sum(values)):
+                return f"{what} of {name}"
+    return None
