@@ -15,8 +15,8 @@ Length = Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
 
 
 def _some(cells: int) -> int:
-    if not 1 <= cells <= 16384:
-        raise ValueError(f"{cells}: must be from 1 to 16384, as in 128")
+    if not 1 <= cells <= 32768:
+        raise ValueError(f"{cells}: must be from 1 to 32768, as in 128")
     return cells
 
 
