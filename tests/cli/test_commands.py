@@ -9,6 +9,8 @@ from command_line import tribo
 
 from tribo import load_case
 from tribo.cli.commands import OWN
+from tribo.core.errors import CaseError
+from tribo.packages import COMMANDS, how_to_install
 from tribo.templates import TEMPLATES, template
 
 CASE = template("ball_on_disk")
@@ -40,6 +42,17 @@ def case(tmp_path, monkeypatch):
     path = Path("my.toml")
     path.write_text(CASE)
     return path
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_command_not_installed_is_answered_in_one_line(monkeypatch, name):
+    package, _ = COMMANDS[name]
+    monkeypatch.setattr("tribo.cli.main.offered", dict)
+    monkeypatch.setattr("tribo.cli.main.refused", lambda package: [])
+    done = tribo(name, "my.toml")
+    assert done.returncode == CaseError.exit_code
+    assert done.stderr.count("\n") == 1
+    assert how_to_install(package) in done.stderr
 
 
 def test_a_run_ends_with_a_lab_table(ran):

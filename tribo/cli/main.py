@@ -34,7 +34,7 @@ class LazyGroup(click.Group):
         if cmd_name in COMMANDS:
             package, _ = COMMANDS[cmd_name]
             what = "; ".join(refused(package)) or how_to_install(package)
-            raise click.UsageError(f"'tribo {cmd_name}' comes with {package}: {what}", ctx)
+            raise CaseError(f"'tribo {cmd_name}' comes with {package}: {what}")
         near = suggestion(did_you_mean(cmd_name, [*offered(), *COMMANDS]))
         what = " ".join([f"No such command {cmd_name!r}{near}", *refused()])
         raise click.UsageError(what, ctx)
