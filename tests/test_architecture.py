@@ -1,6 +1,9 @@
 """Imports go one way."""
 
 import ast
+import re
+import sys
+import tomllib
 from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
@@ -110,6 +113,24 @@ def test_models_use_only_what_a_stranger_may():
 def test_packages_use_what_the_kernel_hands_out():
     for path in PLUGINS.glob("*/src/**/*.py"):
         assert imports(path) <= {"tribo.__init__", "tribo.kernel_api"}, path
+
+
+def test_packages_declare_what_they_import():
+    for folder in (file.parent for file in PLUGINS.glob("*/pyproject.toml")):
+        project = tomllib.loads((folder / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+        extras = project.get("optional-dependencies", {}).values()
+        needed = [*project["dependencies"], *(name for extra in extras for name in extra)]
+        declared = {re.match(r"[\w-]+", name)[0].lower() for name in needed} | {folder.name}
+        for path in folder.glob("src/**/*.py"):
+            tree = ast.parse(path.read_text(encoding="utf-8"))
+            modules = {
+                name.split(".")[0]
+                for node in ast.walk(tree)
+                if isinstance(node, ast.Import | ast.ImportFrom)
+                for name in [getattr(node, "module", None) or node.names[0].name]
+            }
+            modules -= sys.stdlib_module_names
+            assert {name.lower().replace("_", "-") for name in modules} <= declared, path
 
 
 def test_every_package_has_a_rank():
