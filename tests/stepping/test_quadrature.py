@@ -9,9 +9,9 @@ from paper_models import last
 
 from tribo import Grid, Simulation
 from tribo.core import findings
+from tribo.evolution.measure import cycle_error
 from tribo.motion.cycle import missed_shares
 from tribo.motion.stroke import Stroke
-from tribo.stepping.measure import cycle_error
 
 GRID = Grid((1.2e-3, 0.75e-3), (64, 20))
 resolved = partial(stroke.resolved, duration=50, grid=GRID)

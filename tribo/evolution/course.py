@@ -32,6 +32,8 @@ class Course:
 
     Parameters
     ----------
+    contacts : sequence of ContactSolution
+        Its contacts, by position.
     rates : sequence of Mapping[str, WearRate]
         Mean rates over it, by position and body; without slopes where there are states.
     memory : Memory
@@ -44,6 +46,7 @@ class Course:
         The first share of it at which a point reaches a break of a body's depth, by body and break.
     """
 
+    contacts: Sequence[ContactSolution]
     rates: CycleRates
     memory: Memory
     plan: Division = field(default_factory=Division)
@@ -66,7 +69,7 @@ def course(
     part `asked` of the interval.
     """
     if not before.values:
-        return Course(wear_rates(model, contacts, before, interval.at(asked)), before)
+        return Course(contacts, wear_rates(model, contacts, before, interval.at(asked)), before)
     rates = partial(_rates, model, before, contacts, interval)
     sums = [
         Sum(place(model, name), partial(model.cycle.maps[name].see, position=position))
@@ -88,7 +91,8 @@ def course(
         if body and kept[state].name == WORN_DEPTH.name:
             passed.setdefault(body, {})[layer] = share
     work = float(next(each)) if model.laws.friction_by_point else None
-    return Course(mean, before.with_values(iter(found.values)), found.plan, work, passed)
+    after = before.with_values(iter(found.values))
+    return Course(contacts, mean, after, found.plan, work, passed)
 
 
 def varying_work(
@@ -119,22 +123,16 @@ def in_stripes(
     return nudged, stripes
 
 
-def sloped(
-    model: Model,
-    before: Memory,
-    contacts: Sequence[ContactSolution],
-    interval: Interval,
-    known: Course,
-) -> CycleRates:
+def sloped(model: Model, before: Memory, interval: Interval, known: Course) -> CycleRates:
     """Return the mean rates of a course with their total slopes in pressure.
 
     Where the pressure is 0 the slope is the law's.
     """
     if not before.values:
         return known.rates
-    nudged, stripes = in_stripes(contacts)
+    nudged, stripes = in_stripes(known.contacts)
     other = course(model, before, nudged, interval, replace(known.plan, accuracy=np.inf))
-    laws = wear_rates(model, contacts, known.memory, interval.end)
+    laws = wear_rates(model, known.contacts, known.memory, interval.end)
     sloped = [dict(rates) for rates in known.rates]
     for at, rates, higher, law, stripe in zip(
         known.rates, sloped, other.rates, laws, stripes, strict=True

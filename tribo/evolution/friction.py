@@ -47,13 +47,7 @@ def _mean(
     return work / (load * model.grid.cell_area)
 
 
-def with_friction_work(
-    model: Model,
-    before: State,
-    after: State,
-    contacts: Sequence[ContactSolution],
-    course: Course,
-) -> State:
+def with_friction_work(model: Model, before: State, after: State, course: Course) -> State:
     """Return `after`, the end of a step, with the work of friction over it.
 
     It is done by the pressures that wear, under the load along the step: V = (k/μ) W.
@@ -67,7 +61,7 @@ def with_friction_work(
         interval = interval_from(before, after.distance - before.distance, after.time)
         memory = remembered(model, before)
         if laws.slips_locally:
-            work = carried * _mean(model, contacts, memory, interval.end)
+            work = carried * _mean(model, course.contacts, memory, interval.end)
         else:
-            work = varying_work(model, memory, contacts, interval)
+            work = varying_work(model, memory, course.contacts, interval)
     return replace(after, friction_energy=before.friction_energy + work)

@@ -15,6 +15,7 @@ from tribo.core.findings import Finding, outgrown, trial_failed, worn_through
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.evolution.local_fields import effect_fields
+from tribo.evolution.measure import measure
 from tribo.guards.guard import Guard
 from tribo.lab.against_hertz import HertzContact, hertz_contact, softer_known
 from tribo.model.model import Model
@@ -33,7 +34,6 @@ from tribo.simulation.validity import (
 )
 from tribo.simulation.watch import Watch
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.measure import measure
 from tribo.stepping.step import start_sliding
 from tribo.wear.law import WearLaw
 

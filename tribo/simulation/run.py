@@ -17,7 +17,7 @@ from tribo.core.errors import CaseError, Interrupted, TriboError, warn
 from tribo.core.findings import Finding, failed
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
 from tribo.core.writing import check_new
-from tribo.evolution.local_fields import effect_fields
+from tribo.evolution.measure import with_effects
 from tribo.guards.guard import Guard
 from tribo.model.model import Model
 from tribo.observers.observer import Observer
@@ -248,13 +248,13 @@ class Simulation:
                 audience.start(info)
                 if not resumed:
                     _announce((), state.findings)
-                    snapshot = self._with_effects(snapshot)
+                    snapshot = with_effects(self.model, snapshot)
                     audience.step(snapshot, save=True)
                 for accepted in march(self.model, state, watch):
                     _announce(snapshot.state.findings, accepted.state.findings)
                     snapshot = watch.snapshot(accepted.state)
                     if accepted.save:
-                        snapshot = self._with_effects(snapshot)
+                        snapshot = with_effects(self.model, snapshot)
                     audience.step(snapshot, save=accepted.save)
                     if requested.is_set() and not accepted.last:
                         raise KeyboardInterrupt
@@ -282,16 +282,12 @@ class Simulation:
             if not snapshot.effects:
                 # An effect that fails must not cost what the run came to.
                 with suppress(TriboError):
-                    snapshot = self._with_effects(snapshot)
+                    snapshot = with_effects(self.model, snapshot)
             audience.finish(snapshot, reason)
         if requested.is_set():
             whole = f"; {recorder.path} has all of it" if recorder.path else ""
             raise Interrupted(f"stopped in the last step of a run{whole}")
         return recorder.result()
-
-    def _with_effects(self, snapshot: Snapshot) -> Snapshot:
-        known = snapshot.effects
-        return replace(snapshot, effects=known or effect_fields(self.model, snapshot.state))
 
     def _provenance(self) -> dict[str, object]:
         components = {place: Guard(c).ask(origin, c) for place, c in named(self.model.case)}

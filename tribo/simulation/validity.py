@@ -22,11 +22,11 @@ from tribo.core.findings import Finding
 from tribo.core.measures import Measures, half_widths
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
+from tribo.evolution.measure import cycle_error
 from tribo.lab.against_hertz import hertz_contact
 from tribo.model.model import Model
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.registry import from_packages
-from tribo.stepping.measure import cycle_error
 
 SEAM = 4
 """How many times more a surface bends at the edge of a window than inside if it ends there."""

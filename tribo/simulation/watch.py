@@ -12,12 +12,11 @@ from tribo.core.column import Column
 from tribo.core.errors import CaseError
 from tribo.core.findings import Finding
 from tribo.core.state import Snapshot, State
-from tribo.evolution.local_fields import effect_fields
+from tribo.evolution.measure import measure, with_effects
 from tribo.guards.guard import Guard
 from tribo.model.model import Model
 from tribo.observers.observer import Observer
 from tribo.result.columns import BODY_COLUMNS, COLUMNS
-from tribo.stepping.measure import measure
 
 OWN = {column.name for column in (*COLUMNS, *BODY_COLUMNS)}
 
@@ -65,7 +64,7 @@ class Watch:
             return replace(last, state=state)
         snapshot = Snapshot(state, measure(self.model, state))
         if self._asked or self._speakers:
-            snapshot = replace(snapshot, effects=effect_fields(self.model, state))
+            snapshot = with_effects(self.model, snapshot)
             seen = view(snapshot)
             values = {
                 (name, body): guard.ask(_read, column, seen, *filter(None, [body]))

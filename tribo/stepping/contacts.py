@@ -9,12 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tribo.core.arrays import Array, readonly
-from tribo.core.contact import ContactProblem, ContactSolution, CycleCompliance
+from tribo.core.contact import (
+    ContactProblem,
+    ContactSolution,
+    CycleCompliance,
+    WearCompliance,
+)
 from tribo.core.loads import ByPosition
 from tribo.core.state import BodyState, State
 from tribo.evolution.states import filling, remembered
-from tribo.stepping.linear_wear import LinearWear
-from tribo.stepping.yielding import caps
+from tribo.evolution.yielding import caps
 
 if TYPE_CHECKING:
     from tribo.model.model import Model
@@ -29,16 +33,20 @@ def solve_cycle(
     loads: ByPosition,
     starts: Sequence[ContactSolution],
     bodies: Mapping[str, BodyState],
-    wear: LinearWear | None = None,
+    wear: Sequence[WearCompliance] | CycleCompliance | None = None,
 ) -> list[ContactSolution]:
     """Solve the contact at each position of a cycle, from gaps of shape (nx, ny), in m.
 
-    `loads` are in N; the layers that `bodies` are worn down to limit the pressure. Where the
-    positions are solved together and each mirrors another along x, as on a stroke of smooth bodies,
-    half of them are solved.
+    `loads` are in N, and `wear` is from `linear_wear`; the layers that `bodies` are worn down to
+    limit the pressure. Where the positions are solved together and each mirrors another along x, as
+    on a stroke of smooth bodies, half of them are solved.
     """
-    alone = [None] * len(loads) if wear is None else wear.alone
-    coupling = None if wear is None else wear.coupling
+    coupling = None
+    alone: Sequence[WearCompliance | None] = [None] * len(loads)
+    if isinstance(wear, CycleCompliance):
+        coupling = wear
+    elif wear is not None:
+        alone = wear
     problems = [
         ContactProblem(model.contact.system, *given)
         for given in zip(gaps, loads, alone, caps(model, bodies), strict=True)

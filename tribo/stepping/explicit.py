@@ -92,7 +92,7 @@ class Explicit(Scheme):
         if memory.values:
             slid = course(model, memory, state.contacts, interval)
         else:
-            slid = Course(rated(model, state, interval.end).rates, memory)
+            slid = Course(state.contacts, rated(model, state, interval.end).rates, memory)
         depths = worn_depths(model, slid.rates, increment)
         model.listener.worn(state.contacts, interval, memory, slid.plan, ahead=True)
         after = worn_by(model, state, slid, depths, interval)
@@ -102,7 +102,7 @@ class Explicit(Scheme):
         )
         model.listener.solved(contacts)
         after = accepted(model, counted(after, contacts), contacts, loads)
-        return with_friction_work(model, state, after, state.contacts, slid)
+        return with_friction_work(model, state, after, slid)
 
 
 def _check_stability(model: Model, state: State, moment: Moment) -> None:

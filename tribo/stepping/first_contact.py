@@ -12,11 +12,11 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSolution
 from tribo.core.errors import CaseError
 from tribo.core.state import BodyState, State
+from tribo.evolution.measure import load_factor
 from tribo.evolution.states import first_memory
+from tribo.evolution.yielding import caps
 from tribo.stepping.contacts import undeformed
 from tribo.stepping.plastic_groove import yielded
-from tribo.stepping.step import load_factor
-from tribo.stepping.yielding import caps
 
 if TYPE_CHECKING:
     from tribo.model.model import Model

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
@@ -20,11 +20,11 @@ from tribo.core.units import Quantity
 from tribo.evolution.course import Course, course, sloped
 from tribo.evolution.friction import with_friction_work
 from tribo.evolution.interval import interval_from
+from tribo.evolution.measure import loaded_mean
 from tribo.evolution.rates import wear_rates
 from tribo.evolution.states import filling, remembered
 from tribo.stepping.contacts import counted, extrapolated, solve_cycle, undeformed
-from tribo.stepping.linear_wear import linear_wear
-from tribo.stepping.measure import loaded_mean
+from tribo.stepping.linear_wear import depths, linear_wear
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     SMALLEST,
@@ -56,21 +56,6 @@ LEFT_OVER = 0.02
 
 class StepRejected(NumericalError):
     """A step was too long; a shorter step may succeed."""
-
-
-@dataclass(frozen=True)
-class Guess:
-    """The wear of a step under given contacts.
-
-    `worn` has the depth by body, on the body's surface; `depths` the depth added to the gap at each
-    position, and `filled` the height that fills it, of the shape (positions, nx, ny), in m.
-    """
-
-    contacts: Sequence[ContactSolution]
-    course: Course
-    worn: Mapping[str, Array]
-    depths: Array
-    filled: Array
 
 
 class Implicit(Scheme):
@@ -119,13 +104,13 @@ class Implicit(Scheme):
             last = increment == remaining
             time = until if last else time_at(model, state, state.distance + increment, until)
             try:
-                after, guess, forward = self._attempt(model, state, increment, time)
+                after, slid, forward = self._attempt(model, state, increment, time)
                 errors = depth, pressure, volume = self._errors(model, state, after, forward)
                 exact = max(errors) <= 1
                 changes = not exact and load_changes(model, state, after)
                 # The load changes over a rest, however short the step.
                 if exact or (changes and increment < AT_REST * target and depth <= 1):
-                    ended = with_friction_work(model, state, after, guess.contacts, guess.course)
+                    ended = with_friction_work(model, state, after, slid)
                     break
                 factor = SHRINK if changes and rejected >= FEW else _factor(*errors)
                 failure: NumericalError | None = None
@@ -152,13 +137,13 @@ class Implicit(Scheme):
 
     def step(self, model: Model, state: State, increment: float, time: float) -> State:
         """Return the state after one backward Euler step; see `Scheme.step`."""
-        after, guess, _ = self._attempt(model, state, increment, time)
-        return with_friction_work(model, state, after, guess.contacts, guess.course)
+        after, slid, _ = self._attempt(model, state, increment, time)
+        return with_friction_work(model, state, after, slid)
 
     def _attempt(
         self, model: Model, state: State, increment: float, time: float
-    ) -> tuple[State, Guess, dict[str, Array]]:
-        """Return the state after one backward Euler step, its wear, and the wear by forward Euler.
+    ) -> tuple[State, Course, dict[str, Array]]:
+        """Return the state after a backward Euler step, its course, and forward Euler's wear.
 
         The last is the depth by body, on the body's surface, in m.
 
@@ -177,23 +162,24 @@ class Implicit(Scheme):
         dx = model.grid.spacing[0]
         before = remembered(model, state)
         slide = partial(course, model, before, interval=interval)
-        slid = Course(state.rates, before)
+        slid = Course(state.contacts, state.rates, before)
         if not state.rates:
             # What is remembered is integrated along it; other rates are those where it begins.
             slid = slide(contacts=state.contacts, asked=0.0)
         height = filling(model, before)
-        guess = _guess(model, height, state.contacts, slid, increment)
+        worn = worn_depths(model, slid.rates, increment)
+        opened, deepest = _opened(model, height, slid, worn)
         loads = model.loads(state).mean(state.time, time)
         # What is remembered is integrated under the loads of the step already.
         heavier = 1.0 if before.values else loads[0] / model.loads(state).after(state.time)[0]
-        forward = {name: heavier * depth for name, depth in guess.worn.items()}
+        forward = {name: heavier * depth for name, depth in worn.items()}
         contacts = extrapolated(state)
         solved, passes = state, 0
         while True:
-            rates = sloped(model, before, guess.contacts, interval, guess.course)
-            wear = linear_wear(model, rates, guess.contacts, increment)
+            rates = sloped(model, before, interval, slid)
+            wear = linear_wear(model, rates, slid.contacts, increment)
             # Of what changes the gap, the part that is not linear in the pressures.
-            beyond = guess.depths - guess.filled - wear.depths(guess.contacts, dx)
+            beyond = opened - depths(wear, slid.contacts, dx)
             gaps = base + beyond
             try:
                 contacts = solve_cycle(model, gaps, loads, contacts, state.bodies, wear)
@@ -201,13 +187,13 @@ class Implicit(Scheme):
                 raise
             except NumericalError as error:
                 raise StepRejected(str(error)) from error
-            implied = beyond + wear.depths(contacts, dx)
+            implied = beyond + depths(wear, contacts, dx)
             solved, passes = counted(solved, contacts), passes + 1
-            slid = slide(contacts=contacts, plan=guess.course.plan)
-            guess = _guess(model, height, contacts, slid, increment)
-            off = np.abs(guess.depths - guess.filled - implied)
+            slid = slide(contacts=contacts, plan=slid.plan)
+            worn = worn_depths(model, slid.rates, increment)
+            opened, deepest = _opened(model, height, slid, worn)
+            off = np.abs(opened - implied)
             mismatch = loaded_mean(model, contacts, off) if resolved else _largest(off)
-            deepest = max(_largest(guess.depths), _largest(guess.filled))
             if mismatch <= tolerance * deepest:
                 break
             if passes == self.max_passes:
@@ -216,18 +202,17 @@ class Implicit(Scheme):
                     f"converge in {passes} passes: wear depth still off by {mismatch:.2g} m; "
                     "raise stepping.max_passes or lower stepping.pressure_tolerance"
                 )
-        rates, memory = guess.course.rates, guess.course.memory
-        after = worn_by(model, solved, guess.course, guess.worn, interval)
-        if not memory.values:
+        after = worn_by(model, solved, slid, worn, interval)
+        if not before.values:
             # Set first: settling a groove leaves the pressure that these rates belong to. What is
             # remembered changes them along a step.
-            after = replace(after, rates=rates)
+            after = replace(after, rates=slid.rates)
         model.listener.worn(contacts, interval, before, slid.plan)
         # What the passes leave over is pressure that does not belong to the worn gap. Stiff bodies
         # would keep so much of it that no later step, however short, could change it little.
         little, linear = LEFT_OVER * self.pressure_tolerance, self.nonlinear_tolerance * deepest
         exact = mismatch <= linear or mismatch <= little * _deformed(contacts, base + implied)
-        return accepted(model, after, contacts, loads, exact=exact), guess, forward
+        return accepted(model, after, contacts, loads, exact=exact), slid, forward
 
     def _errors(
         self, model: Model, before: State, after: State, forward: Mapping[str, Array]
@@ -309,21 +294,19 @@ def _fitted(natural: float, remaining: float, last: float) -> float:
     return 0.5 * remaining if remaining < 2 * increment else increment
 
 
-def _guess(
-    model: Model,
-    height: Array,
-    contacts: Sequence[ContactSolution],
-    slid: Course,
-    increment: float,
-) -> Guess:
-    """Return the wear of a step under `contacts`; `height` (m) filled the gap before it."""
-    worn = worn_depths(model, slid.rates, increment)
-    depths = np.zeros((len(contacts), *model.grid.cells))
-    for position, depth in enumerate(depths):
+def _opened(
+    model: Model, height: Array, slid: Course, worn: Mapping[str, Array]
+) -> tuple[Array, float]:
+    """Return the depth by which a step opens the gap, (positions, nx, ny), and its largest part.
+
+    `worn` has the depth by body, on the body's surface; `height` filled the gap before it; in m.
+    """
+    worn_off = np.zeros((len(model.cycle), *model.grid.cells))
+    for position, depth in enumerate(worn_off):
         for name, of_body in worn.items():
             depth += model.cycle.maps[name].see(of_body, position)
     filled = filling(model, slid.memory) - height
-    return Guess(contacts, slid, worn, depths, filled)
+    return worn_off - filled, max(_largest(worn_off), _largest(filled))
 
 
 def _first_increment(model: Model, state: State, remaining: float, until: float) -> float:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import reduce
 from typing import TYPE_CHECKING
 
@@ -18,47 +17,35 @@ if TYPE_CHECKING:
     from tribo.model.model import Model
 
 
-@dataclass(frozen=True)
-class LinearWear:
-    """The wear of a step at the positions of a cycle, linear in their pressures.
-
-    Parameters
-    ----------
-    alone : sequence of WearCompliance or None
-        The wear by the position's own pressure, by position; None where positions are coupled.
-    coupling : CycleCompliance or None
-        The wear at each position by the pressures of all.
-    """
-
-    alone: Sequence[WearCompliance | None]
-    coupling: CycleCompliance | None = None
-
-    def depths(self, contacts: Sequence[ContactSolution], dx: float) -> Array:
-        """Return the depth worn at each position, shape (positions, nx, ny), in m."""
-        pressure = np.stack([contact.pressure for contact in contacts])
-        if self.coupling is not None:
-            # Elsewhere nothing wears.
-            columns = reduce(union, (contact.extent for contact in contacts))[1]
-            depth = np.zeros_like(pressure)
-            loaded = pressure[..., columns]
-            depth[..., columns] = self.coupling.beside(columns).depth(loaded, dx)
-            return depth
-        pairs = zip(self.alone, pressure, strict=True)
-        return np.stack([part.depth(p, dx) if part else np.zeros_like(p) for part, p in pairs])
-
-
 def linear_wear(
     model: Model, rates: CycleRates, contacts: Sequence[ContactSolution], increment: float
-) -> LinearWear:
-    """Return the wear over `increment` (m), linearised about the pressures of `contacts`."""
+) -> Sequence[WearCompliance] | CycleCompliance:
+    """Return the wear over `increment` (m), linearised about the pressures of `contacts`.
+
+    It is one compliance for each position, or one for all where these are solved together.
+    """
     if model.couples:
-        return LinearWear([None] * len(contacts), _coupling(model, rates, contacts, increment))
-    return LinearWear(
-        [
-            wear_compliance(model, of_bodies, contact.pressure, increment)
-            for of_bodies, contact in zip(rates, contacts, strict=True)
-        ]
-    )
+        return _coupling(model, rates, contacts, increment)
+    return [
+        wear_compliance(model, of_bodies, contact.pressure, increment)
+        for of_bodies, contact in zip(rates, contacts, strict=True)
+    ]
+
+
+def depths(
+    wear: Sequence[WearCompliance] | CycleCompliance,
+    contacts: Sequence[ContactSolution],
+    dx: float,
+) -> Array:
+    """Return the depth worn at each position, shape (positions, nx, ny), in m."""
+    pressure = np.stack([contact.pressure for contact in contacts])
+    if not isinstance(wear, CycleCompliance):
+        return np.stack([part.depth(p, dx) for part, p in zip(wear, pressure, strict=True)])
+    # Elsewhere nothing wears.
+    columns = reduce(union, (contact.extent for contact in contacts))[1]
+    depth = np.zeros_like(pressure)
+    depth[..., columns] = wear.beside(columns).depth(pressure[..., columns], dx)
+    return depth
 
 
 def wear_compliance(

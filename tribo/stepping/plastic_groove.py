@@ -13,8 +13,8 @@ from tribo.core.contact import ContactSolution
 from tribo.core.errors import NumericalError
 from tribo.core.loads import ByPosition
 from tribo.core.state import BodyState, State
+from tribo.evolution.yielding import plastic_share
 from tribo.stepping.contacts import solved_anew
-from tribo.stepping.yielding import plastic_share
 
 if TYPE_CHECKING:
     from tribo.model.model import Model

@@ -4,29 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from math import prod
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tribo.core.arrays import Array, view
+from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import PluginError
 from tribo.core.findings import Finding, layer_worn_through
 from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants
 from tribo.core.rounding import ROUND_OFF
-from tribo.core.state import BodyState, Snapshot, State
+from tribo.core.state import BodyState, State
 from tribo.evolution.course import Course, course
 from tribo.evolution.interval import Interval, interval_from
-from tribo.evolution.local_fields import effect_fields
+from tribo.evolution.measure import load_factor
 from tribo.evolution.rates import CycleRates
 from tribo.evolution.states import own, remembered
+from tribo.evolution.yielding import caps
 from tribo.stepping.contacts import solved_anew
 from tribo.stepping.invariants import ONE_LOAD, wear_balance
-from tribo.stepping.measure import measure
 from tribo.stepping.plastic_groove import settled, yielded, yields
-from tribo.stepping.yielding import caps
 
 if TYPE_CHECKING:
     from tribo.model.model import Model
@@ -217,15 +215,6 @@ def reloaded(model: Model, state: State) -> State:
         return state
     state = replace(state, load_factor=factor)
     return _under(model, state, model.loads(state).before(state.time))
-
-
-def load_factor(model: Model, state: State) -> float:
-    """Return the load factor by effects at `state`."""
-    effects = [effect for effect in model.laws.effects if effect.changes_load]
-    if not effects:
-        return state.load_factor
-    snapshot = view(Snapshot(state, measure(model, state), effect_fields(model, state)))
-    return prod(each.load_factor(snapshot) for each in effects)
 
 
 def _under(model: Model, state: State, loads: ByPosition) -> State:

@@ -1,13 +1,15 @@
-"""Read the scalars of a state."""
+"""A state as effects and observers see it: with its scalars and the fields of effects."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from math import prod
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, view
 from tribo.core.contact import ContactSolution
 from tribo.core.measures import (
     BodyMeasures,
@@ -16,12 +18,29 @@ from tribo.core.measures import (
     contact_area,
     half_widths,
 )
-from tribo.core.state import State
+from tribo.core.state import Snapshot, State
 from tribo.evolution.friction import friction_force
-from tribo.stepping.yielding import caps
+from tribo.evolution.local_fields import effect_fields
+from tribo.evolution.yielding import caps
 
 if TYPE_CHECKING:
     from tribo.model.model import Model
+
+
+def with_effects(model: Model, snapshot: Snapshot) -> Snapshot:
+    """Return a snapshot with the fields of effects."""
+    if snapshot.effects:
+        return snapshot
+    return replace(snapshot, effects=effect_fields(model, snapshot.state))
+
+
+def load_factor(model: Model, state: State) -> float:
+    """Return the load factor by effects at `state`."""
+    effects = [effect for effect in model.laws.effects if effect.changes_load]
+    if not effects:
+        return state.load_factor
+    snapshot = view(with_effects(model, Snapshot(state, measure(model, state))))
+    return prod(each.load_factor(snapshot) for each in effects)
 
 
 def measure(model: Model, state: State) -> Measures:
