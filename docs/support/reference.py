@@ -279,9 +279,8 @@ def _kind(annotation: Any, metadata: tuple[Any, ...]) -> str:
     if inspect.isclass(annotation) and issubclass(annotation, BaseModel):
         return "table"
     names = {bool: "`true` or `false`", int: "whole number", float: "number", str: "text"}
-    return names.get(annotation, "path" if annotation is Path else str(annotation)) + _bounds(
-        metadata
-    )
+    names |= {Path: "path", Any: "quantity"}
+    return names.get(annotation, str(annotation)) + _bounds(metadata)
 
 
 def _quantity(mark: Quantity) -> str:
