@@ -17,7 +17,7 @@ from tribo.core.errors import CaseError, NumericalError
 @PLUGIN
 @JSON
 def check(case: Path, overrides: tuple[str, ...], as_json: bool) -> None:
-    """Validate CASE and predict its first contact, its final scar, and its size.
+    """Validate CASE and predict its first contact and its final scar.
 
     What would go wrong comes first. Nothing is written. The scar is estimated on a coarse grid.
 

@@ -29,7 +29,7 @@ def report(what: tuple[Path, ...], output: Path | None, verified: Path | None) -
       tribo report my.h5
       tribo report my.h5 -o report.html --verified study.json
       tribo report a.h5 b.h5
-      tribo report study-sweep
+      tribo report my-sweep
       tribo report fit.json
     """
     from tribo.kernel_api import readable
