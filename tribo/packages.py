@@ -8,7 +8,7 @@ COMMANDS = {
 """Package and summary of each command."""
 _OF_INVERSE = """
 Calibration Choice Plan calibrate choose_case plan_tests Gradient View Seeds gradient
-value_and_gradient Deepest Depth EndDistance EndTime Misfit Pressure Volume Width
+value_and_gradient Deepest Depth EndTime Pressure Volume
 """
 NAMES = {
     "write_report": "tribo-report",

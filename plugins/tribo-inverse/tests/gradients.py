@@ -18,7 +18,7 @@ from tribo.wear.running_in import RunningIn, Smoothing
 from tribo_inverse.adjoint.gradient import covered, gradient
 from tribo_inverse.adjoint.numbers import changed, find
 from tribo_inverse.adjoint.parameters import Stops
-from tribo_inverse.adjoint.view import View
+from tribo_inverse.adjoint.view import Seeds, View
 from tribo_inverse.increment.breaks import unreached
 from tribo_inverse.recording.local import localised
 
@@ -55,6 +55,11 @@ def deepest(model, state):
     name = model.case.stop.body
     bodies = [state.bodies[name]] if name else state.bodies.values()
     return max(np.max(body.wear) for body in bodies)
+
+
+def end_distance(view):
+    """The distance slid."""
+    return view.state.distance, Seeds(distance=1.0)
 
 
 def looks_of(objective, model):

@@ -18,6 +18,7 @@ from gradients import (
     SMOOTH,
     STAGES,
     Kind,
+    end_distance,
     few,
     kind,
     resolved,
@@ -37,7 +38,7 @@ from tribo.wear.archard import Archard
 from tribo.wear.modified import times
 
 from tribo_inverse.adjoint.gradient import gradient
-from tribo_inverse.adjoint.objective import Deepest, Depth, EndDistance, EndTime, Pressure, Volume
+from tribo_inverse.adjoint.objective import Deepest, Depth, EndTime, Pressure, Volume
 
 
 def flats():
@@ -154,7 +155,7 @@ KINDS = {
         save_times=(2.0,),
     ),
     "ends at a depth, positions, yields": kind(
-        EndDistance(),
+        end_distance,
         [*BASE, HARD],
         1e-6,
         grid=MIDDLE,
@@ -164,7 +165,7 @@ KINDS = {
         stepping=few(cycle_tolerance=1e-12),
     ),
     "ends at a depth, within a stroke": kind(
-        EndDistance(),
+        end_distance,
         ["load.normal", "kinematics.frequency"],
         grid=MIDDLE,
         stop=Stop(depth="0.2 um"),

@@ -2,9 +2,7 @@ from tribo_inverse.adjoint.gradient import Gradient as Gradient
 from tribo_inverse.adjoint.gradient import gradient as gradient
 from tribo_inverse.adjoint.objective import Deepest as Deepest
 from tribo_inverse.adjoint.objective import Depth as Depth
-from tribo_inverse.adjoint.objective import EndDistance as EndDistance
 from tribo_inverse.adjoint.objective import EndTime as EndTime
-from tribo_inverse.adjoint.objective import Misfit as Misfit
 from tribo_inverse.adjoint.objective import Pressure as Pressure
 from tribo_inverse.adjoint.objective import Volume as Volume
 from tribo_inverse.adjoint.unknowns import value_and_gradient as value_and_gradient

@@ -313,7 +313,7 @@ def _looks(
     for look in looks.values() or [None]:
         if not callable(look) or isinstance(look, type):
             raise CaseError(
-                f"{look!r} is no objective; give a Volume, Depth, Deepest, Pressure, Misfit, "
-                "EndTime or EndDistance, or a function of a View"
+                f"{look!r} is no objective; give a Volume, Depth, Deepest, Pressure or "
+                "EndTime, or a function of a View"
             )
     return looks

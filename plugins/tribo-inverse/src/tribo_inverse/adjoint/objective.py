@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from tribo import Array, CaseError
+from tribo import CaseError
 
-from tribo_inverse.adjoint.view import Seeds, View, as_numbers, is_finite
+from tribo_inverse.adjoint.view import Seeds, View, is_finite
 
 
 def _check_place(x: float, y: float) -> None:
@@ -121,62 +121,6 @@ class Deepest:
 
 
 @dataclass(frozen=True)
-class Misfit:
-    """Half of the sum of squared differences of a body's depth from a measured map.
-
-    Parameters
-    ----------
-    body : str
-        Name of the body.
-    depth : ndarray
-        The measured depth, in m, of the shape of `View.wear`; NaN where nothing was measured.
-    uncertainty : float, optional
-        Divisor of each difference, in m.
-
-    Raises
-    ------
-    CaseError
-        If the depth is infinite somewhere or NaN everywhere, or the uncertainty not above 0.
-
-    Examples
-    --------
-    >>> from tribo_inverse import Misfit, gradient
-    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
-    >>> measured = case.run().body("ball").wear_depth[-1]
-    >>> gradient(case, Misfit("ball", measured), ["stop.depth"]).value < 1e-24  # it is what it fits
-    True
-    """
-
-    body: str
-    depth: Array
-    uncertainty: float = 1.0
-
-    def __post_init__(self) -> None:
-        if not (is_finite(self.uncertainty) and self.uncertainty > 0):
-            raise CaseError(
-                f"the uncertainty of Misfit is {self.uncertainty!r}; give a number above 0, in m"
-            )
-        depth = as_numbers(self.depth)
-        if depth is None or np.any(np.isinf(depth)) or np.all(np.isnan(depth)):
-            raise CaseError(
-                f"the measured depth of {self.body} is no array of numbers, is infinite somewhere "
-                "or NaN everywhere; give depths in m, and NaN where nothing was measured"
-            )
-
-    def __call__(self, view: View) -> tuple[float, Seeds]:
-        """Return the misfit, and its derivative."""
-        wear = view.wear(self.body)
-        if np.shape(self.depth) != wear.shape:
-            raise CaseError(
-                f"the measured depth of {self.body} has the shape {np.shape(self.depth)}, its wear "
-                f"{wear.shape}; give it on the same cells"
-            )
-        off = np.where(np.isnan(self.depth), 0.0, (wear - self.depth) / self.uncertainty)
-        return 0.5 * float(np.sum(off * off)), Seeds({self.body: off / self.uncertainty})
-
-
-@dataclass(frozen=True)
 class Pressure:
     """The pressure in the middle of the cycle at a place, in Pa: of the cell nearest to it, in m.
 
@@ -232,30 +176,6 @@ class EndTime:
         """Return the time, and 1; `CaseError` if no depth has ended the run."""
         _check_ended(view)
         return view.state.time, Seeds(time=1.0)
-
-
-@dataclass(frozen=True)
-class EndDistance:
-    """The distance slid when a depth ends a run, in m: the life of a body as a distance.
-
-    Raises
-    ------
-    CaseError
-        If no depth ended the run.
-
-    Examples
-    --------
-    >>> from tribo_inverse import EndDistance, gradient
-    >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
-    >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
-    >>> round(gradient(case, EndDistance(), ["load.normal"]).value, 2)  # in m, until 1 µm is worn
-    1.32
-    """
-
-    def __call__(self, view: View) -> tuple[float, Seeds]:
-        """Return the distance, and 1; `CaseError` if no depth has ended the run."""
-        _check_ended(view)
-        return view.state.distance, Seeds(distance=1.0)
 
 
 def _check_ended(view: View) -> None:

@@ -54,13 +54,13 @@ def value_and_gradient(
 
     Examples
     --------
-    >>> from tribo_inverse import EndDistance, value_and_gradient
+    >>> from tribo_inverse import EndTime, value_and_gradient
     >>> coarse = ["grid.cells=64", "contact.type=winkler", "stop.depth=1 um"]
     >>> case = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse)
-    >>> fit = value_and_gradient(case, EndDistance(), ["bodies.*.wear.k"])
-    >>> distance, slope = fit(fit.start)
-    >>> round(distance, 2), slope.round(2).tolist()  # half of it for twice k
-    (1.32, [-1.32])
+    >>> fit = value_and_gradient(case, EndTime(), ["bodies.*.wear.k"])
+    >>> life, slope = fit(fit.start)
+    >>> round(life, 1), slope.round(1).tolist()  # half of it for twice k
+    (13.2, [-13.2])
     """
     return ValueAndGradient(case, objective, wrt, wear_rate)
 
