@@ -105,3 +105,21 @@ def test_a_case_that_was_only_added_to_and_an_effect_that_failed_are_shown(path)
     assert shown.exception is None
     save = json.loads(shown.stdout)["saves"][0]
     assert save["bodies"]["ball"]["effects"] == {"film": {"min": None, "max": None}}
+
+
+def test_keys_of_older_files_that_change_nothing_are_no_part_of_the_case(path):
+    with Result.open(path) as result:
+        before = result.case_tables
+    tables = {**before, "requires": []}
+    with edited(path) as file:
+        text("case", tables)(file)
+    with Result.open(path) as older:
+        assert older.recorded_case == tables
+        assert older.case_tables == before
+
+
+def test_keys_of_older_files_that_change_something_stay(path):
+    with edited(path) as file:
+        text("case", {**json.loads(file.attrs["case"]), "requires": ["acme>=1"]})(file)
+    with Result.open(path) as older:
+        assert older.case_tables["requires"] == ["acme>=1"]

@@ -17,6 +17,14 @@ from tribo.core.words import checked_name
 
 FORMAT = 2
 _JSON = ("case", "provenance", "findings")
+_SHORT = {"allow_short_track": False}
+_FORMER: dict[str | None, dict[str, Any]] = {
+    None: {"requires": []},
+    "explicit": {"allow_unstable": False},
+    "rotating": _SHORT,
+    "unidirectional": {**_SHORT, "positions": "average"},
+}
+"""Keys that tables of older files have, by type, with the value at which they change nothing."""
 
 
 def _named(case: dict[str, Any]) -> dict[str, Any]:
@@ -24,6 +32,17 @@ def _named(case: dict[str, Any]) -> dict[str, Any]:
     if len({checked_name(name) for name in case["bodies"]}) != 2:
         raise ValueError("a case has two bodies")
     return case
+
+
+def current(case: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the tables of a case without former keys that change nothing."""
+    tables = {key: _current(case[key]) for key in ("kinematics", "stepping") if key in case}
+    return _current({**case, **tables})
+
+
+def _current(table: Mapping[str, Any]) -> dict[str, Any]:
+    former = _FORMER.get(table.get("type"), {})
+    return {key: value for key, value in table.items() if (key, value) not in former.items()}
 
 
 class Header(BaseModel):
