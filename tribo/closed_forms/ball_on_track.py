@@ -45,6 +45,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
+from scipy.special import roots_sh_legendre
 
 from tribo.core.arrays import Array
 
@@ -124,16 +125,14 @@ def _half_width_along(ball_volume: float, radius: float, q: float) -> float:
 
 # Integrals across the track are taken over b instead of y, by parts, and b = a(1 − t²) takes
 # away the root at b = a: Gauss points then give them to round-off.
-_nodes, _weights = np.polynomial.legendre.leggauss(40)
-_T: Array = 0.5 * (_nodes + 1.0)
-_WEIGHT: Array = 0.5 * _weights
+_T, _WEIGHTS = roots_sh_legendre(40)
 
 
 def _across(a: float, q: float) -> tuple[Array, Array]:
     """Return b and the weights of ∫ y(b) db from 0 to a."""
     u = 1.0 - _T**2
     y = a * _T * np.sqrt(1.0 + u + 2.0 / 3.0 * q * a * (1.0 + u + u**2))
-    return a * u, _WEIGHT * 2.0 * a * _T * y
+    return a * u, _WEIGHTS * 2.0 * a * _T * y
 
 
 def _ball_volume(a: float, radius: float, q: float) -> float:

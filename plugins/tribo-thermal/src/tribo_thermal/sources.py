@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.special import erf, ive
+from scipy.special import erf, ive, roots_sh_legendre
 from tribo import Array
 
 Profile = Literal["uniform", "parabolic"]
@@ -33,8 +33,7 @@ LIMITS: dict[tuple[Profile, Rise], SpeedLimits] = {
 3.2 B(1/2, 9/4)/π^1.5; the fast parabolic maximum was integrated numerically."""
 
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(32)
-NODES, WEIGHTS = 0.5 * (_NODES + 1), 0.5 * _WEIGHTS
+NODES, WEIGHTS = roots_sh_legendre(32)
 """Of Gauss's rule from 0 to 1."""
 FAR = 1e3
 """Age s, in lengths or last passes, beyond which heat adds a thousandth of what is kept."""
