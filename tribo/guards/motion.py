@@ -13,15 +13,14 @@ from tribo.core.errors import BadValues, PluginError
 from tribo.core.grid import Grid
 from tribo.core.rounding import ROUND_OFF
 from tribo.effects.effect import Effect
+from tribo.guards.answers import SAME
 from tribo.guards.guard import Guard
 from tribo.motion.cycle import Position, Speeds
 from tribo.motion.exposure import Exposure, Passing, Stationary, Track
 from tribo.motion.kinematics import Kinematics
 
 PARTS = tuple(part / 8 for part in range(1, 9))
-"""Of a run, at which its path is tried before it begins."""
-SAME = 1e-6
-"""Part by which what must be the same may differ."""
+"""Of a run, at which its path is tried before it begins: eighths, within which stages are seen."""
 
 
 class GuardedMotion(Guard[Kinematics]):

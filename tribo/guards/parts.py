@@ -33,15 +33,14 @@ from tribo.core.grid import Grid
 from tribo.core.material import Material
 from tribo.core.state import Snapshot, key_of
 from tribo.effects.effect import Effect
-from tribo.guards.answers import initial, rate_of
+from tribo.guards.answers import SAME, initial, rate_of
 from tribo.guards.guard import Guard
 from tribo.surfaces.surface import Surface
 from tribo.wear.law import WearLaw
 
 NUDGE = 1e-6
-"""Part of the largest pressure by which it is raised to find a slope that a law leaves out."""
-LOAD_BALANCE = 1e-6
-ABOVE_CAP = 1e-6
+"""Part of the largest pressure by which it is raised to find a slope that a law leaves out: the
+error is of this size, that of rounding 2e-10."""
 
 
 class GuardedSurface(Guard[Surface]):
@@ -229,12 +228,12 @@ class GuardedSolver(Guard[ContactSolver]):
         residuals = vars(self.typed(answer.residuals, Residuals, "its residuals"))
         _, *claimed = self.array("residuals", list(residuals.values()), (3,)).tolist()
         carried = float(pressure.sum()) * grid.cell_area
-        if not abs(carried - problem.load) <= LOAD_BALANCE * problem.load:
+        if not abs(carried - problem.load) <= SAME * problem.load:
             raise BadValues(
                 f"{self} gave a pressure that carries {carried:.9g} N instead of "
                 f"{problem.load:.9g} N"
             )
-        if cap is not None and np.any(above := pressure > cap * (1 + ABOVE_CAP)):
+        if cap is not None and np.any(above := pressure > cap * (1 + SAME)):
             raise BadValues(
                 f"{self} gave a pressure of {np.max(pressure[above]):.9g} Pa, above the hardness "
                 f"of {np.min(cap):.9g} Pa that it says it honours"

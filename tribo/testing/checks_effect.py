@@ -14,6 +14,7 @@ from tribo.core.arrays import Array
 from tribo.core.fields import ContactConditions
 from tribo.core.grid import Grid
 from tribo.core.material import Material
+from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import Snapshot
 from tribo.effects.effect import Effect
 from tribo.guards.answers import initial
@@ -36,7 +37,9 @@ from tribo.wear.archard import Archard
 _LONGEST = 60.0
 """Time for which a state has been there at most, in s."""
 _FAR = 100.0
-_FINER, _ROUND_OFF = 0.1, 1e-9
+"""Times as far from its start as the state of a sample, where its limits hold it."""
+_FINER = 0.1
+"""What cells of a third and a fifth may change of a smooth field."""
 _FOLLOWED = ("pressure", "state", "wear_rates")
 """What answers follow at each point."""
 _NUDGE = 1e-5
@@ -120,7 +123,7 @@ class EffectChecks(LocalChecks):
                 off = np.max(np.abs(samples.inside(at_same(found) - needed, inner)))
                 size = np.max(np.abs(needed))
                 require(
-                    off <= part * size + _ROUND_OFF * np.max(np.abs(value)),
+                    off <= part * size + ROUND_OFF * np.max(np.abs(value)),
                     f"{where} follows {what} by up to {size:.3g}, and differs by {off:.3g} from "
                     f"that in a window of {grid.size} m with {grid.cells} cells",
                 )

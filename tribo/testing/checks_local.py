@@ -15,7 +15,7 @@ from tribo.core.arrays import Array, Mask
 from tribo.core.fields import Field, names_of
 from tribo.core.material import Material
 from tribo.core.units import quantities
-from tribo.guards.answers import initial, rate_of
+from tribo.guards.answers import SAME, initial, rate_of
 from tribo.guards.parts import GuardedEffect, GuardedLaw
 from tribo.integration.step_to_break import lasting
 from tribo.testing import samples
@@ -33,12 +33,13 @@ from tribo.testing.rescaling import renewed, units_of
 
 _DECADE, _GROWS, _MUCH = 0.1, 5.0, 20.0
 """A rate that grows as much over the last decade of a run, and in all, grows without end."""
-_ABOVE, _NUDGE = 1e-9, 1e-3
+_NUDGE = 1e-3
+"""Part of a step by which a state is moved for the mean slope of a step."""
 _RUNGS = 33
-"""Values of a state between which a jump of the rates is looked for."""
-_VARIED, _SLIGHT = 1e-3, 1e-6
-"""Part beyond the largest to which a cell is varied; and part of an answer that may change beyond
-`reach`: rounding."""
+"""Values of a state between which a jump of the rates is looked for, and then narrowed by
+halves."""
+_VARIED = 1e-3
+"""Part beyond the largest to which a cell is varied: a thousand times `SAME`."""
 
 
 class LocalChecks(Checks):
@@ -145,16 +146,16 @@ class LocalChecks(Checks):
                     return np.asarray(found[name])
 
                 where, part = largest_jump(answer, ladder)
-                known = any(abs(each - where) <= 1e-6 * np.ptp(ladder) for each in field.breaks)
+                known = any(abs(each - where) <= SAME * np.ptp(ladder) for each in field.breaks)
                 require(
-                    known or part <= 1e-6,
+                    known or part <= SAME,
                     f"as {field.name!r} passes {where:.6g} {field.unit}, {name!r} jumps by "
                     f"{part:.3g} of its size; declare that with its field, as breaks",
                 )
                 for limit in field.breaks:
-                    at, above = (answer(value) for value in (limit, limit * (1 + _ABOVE)))
+                    at, above = (answer(value) for value in (limit, np.nextafter(limit, np.inf)))
                     require(
-                        np.allclose(at, above, rtol=1e-6, atol=0),
+                        np.allclose(at, above, rtol=SAME, atol=0),
                         f"at its break {limit:.6g}, {field.name!r} has not the {name!r} above it",
                     )
 
@@ -239,7 +240,7 @@ class LocalChecks(Checks):
                     change = np.abs(values - usual[where])
                     off = np.max(np.where(near, 0.0, np.broadcast_to(change, near.shape)))
                     require(
-                        off <= _SLIGHT * np.max(np.abs(usual[where])),
+                        off <= SAME * np.max(np.abs(usual[where])),
                         f"{where} follows {what} further away than reach = {declared!r}",
                     )
 

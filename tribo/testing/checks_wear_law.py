@@ -11,6 +11,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.fields import WORN_DEPTH, LocalConditions, names_of
+from tribo.guards.answers import SAME
 from tribo.guards.parts import GuardedLaw
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
@@ -107,7 +108,7 @@ class WearLawChecks(LocalChecks):
 
             where, part = largest_jump(coefficient, _LADDER)
             require(
-                part <= 1e-6,
+                part <= SAME,
                 f"at p = {where:.6g} Pa{self._when(number)} the depth per metre jumps by "
                 f"{part:.3g} of its size",
             )
