@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -15,9 +16,6 @@ from rich.table import Table
 
 from tribo.cli.streams import harmless
 from tribo.core.data_table import LEFT, DataTable
-
-WIDE = 10_000
-"""More characters than any table needs."""
 
 
 class Console(RichConsole):
@@ -44,7 +42,7 @@ class Console(RichConsole):
         """
         shown, headings = list(kept or range(len(table.headings))), table.headings
         spare = sorted((i for i in shown if headings[i].spare), key=lambda i: headings[i].spare)
-        left_out, unbounded = [], self.options.update(width=WIDE)
+        left_out, unbounded = [], self.options.update(width=sys.maxsize)
         drawn = _drawn(table, shown)
         while spare and self.measure(drawn, options=unbounded).minimum > self.width:
             shown.remove(spare[0])

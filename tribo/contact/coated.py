@@ -16,9 +16,10 @@ _END = 20.0
 _FAR = 256.0
 """Distance from a load, in thicknesses, from which the layer does not count: (1/256)² is left."""
 _POINTS = 500
+"""Of the table: with 500 the kernel is exact to 4e-10 of its largest value, with 250 to 7e-9."""
 _NEAR, _THICK = 8, 3
-"""Cells around the load over which the pressure of a cell is integrated exactly, and of which a
-layer may be as thick without that."""
+"""Cells around the load over which the pressure of a cell is integrated exactly: 8 leave 5e-10 of
+the largest value, 4 leave 2e-8. And cells of which a layer may be as thick without that."""
 
 
 def base_kernel(
@@ -82,7 +83,7 @@ class _PointLoad:
         return np.asarray(self._integral(near) + self._tail * (r - near))
 
 
-_point_load = lru_cache(maxsize=32)(_PointLoad)
+_point_load = lru_cache(_PointLoad)
 
 
 def _panels(reach: float) -> tuple[Array, Array]:

@@ -14,13 +14,13 @@ from tribo.core.arrays import Array, Mask
 from tribo.core.errors import CaseError, warn
 from tribo.core.grid import Grid
 from tribo.core.number_tables import table_of_numbers
+from tribo.core.rounding import ROUND_OFF
 from tribo.registry.all_plugins import from_all_plugins
 
 OWN = (".npy", ".csv", ".txt")
 """Files that are read without a plugin; they state no scale."""
 FEWEST = 16
-ROUND_OFF = 1e-12
-"""Part of the heights' range below which the residual of a form is taken as 0."""
+"""Rows of a map: more than a list of points has columns."""
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ rest. HDF5 and zip readers ignore bytes behind their own data.
 
 from __future__ import annotations
 
+import io
 import os
 from hashlib import sha256
 from pathlib import Path
@@ -15,8 +16,7 @@ from tribo.core.errors import CaseError
 from tribo.core.writing import write_file
 
 _MARK = b"tribo\0\0\2"
-_LENGTH = len(_MARK) + 32
-_BLOCK = 1 << 20
+_LENGTH = len(_MARK) + sha256().digest_size
 
 
 def write_sealed(path: Path, data: bytes | memoryview, through: Path | None = None) -> None:
@@ -32,7 +32,7 @@ def open_sealed(path: Path) -> BinaryIO:
     file = path.open("rb")
     try:
         left, digest = os.fstat(file.fileno()).st_size - _LENGTH, sha256()
-        while left > 0 and (block := file.read(min(left, _BLOCK))):
+        while left > 0 and (block := file.read(min(left, io.DEFAULT_BUFFER_SIZE))):
             digest.update(block)
             left -= len(block)
         if file.read() != _MARK + digest.digest():
