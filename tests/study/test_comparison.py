@@ -130,7 +130,7 @@ def test_a_run_that_fails_is_named():
     [
         ({"contact.type": ("dcfft", "winklr")}, {}, "did you mean 'winkler'"),
         ({"load.normal": (50, 100)}, {"labels": ["a", "a"]}, "as many different labels"),
-        *(([{"load.normal": 10.0 + i} for i in range(n)], {}, "give 2 to 12") for n in (1, 13)),
+        ([{"load.normal": 10.0}], {}, "give 2 or more"),
     ],
 )
 def test_what_is_wrong_is_told_before_anything_runs(tmp_path, vary, options, message):
@@ -149,8 +149,8 @@ def test_files_are_compared_under_their_names(tmp_path):
     with compare([a, b, c]) as comparison:
         assert list(comparison.results) == [str(path) for path in (a, b, c)]
     for names, message in (
-        ([], "0 results; give 2 to 12"),
-        ([a], "1 result; give 2 to 12"),
+        ([], "0 results; give 2 or more"),
+        ([a], "1 result; give 2 or more"),
         ([a, a], "2 results need as many different labels"),
         ([a, tmp_path / "none.h5"], "is not a file"),
     ):

@@ -31,9 +31,6 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-MOST = 12
-"""Most results that a table or a picture takes side by side."""
-
 
 @dataclass(frozen=True)
 class Comparison:
@@ -323,8 +320,8 @@ def compare(
 
 
 def _check_count(count: int, what: str) -> None:
-    if not 2 <= count <= MOST:
-        raise CaseError(f"{count} {what}{'s' * (count != 1)}; give 2 to {MOST} to compare")
+    if count < 2:
+        raise CaseError(f"{count} {what}{'s' * (count != 1)}; give 2 or more to compare")
 
 
 def _of_list(

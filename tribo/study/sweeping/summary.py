@@ -14,8 +14,6 @@ from tribo.core.data_table import DataTable, Heading, TableRow
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-MOST_CURVES = 6
-"""In a picture."""
 MEASURED = (
     ("max_pressure_Pa", Heading("p max", "MPa", ".3g", whole=True, spare=2), 1e-6),
     (".max_wear_depth_m", Heading("{}", "µm", ".3g", whole=True), 1e6),
@@ -79,11 +77,11 @@ def sweep_pictures(
 def curves_by(done: pd.DataFrame, others: Sequence[str]) -> tuple[list[str], bool]:
     """Return the columns that part runs into curves, and whether a line joins runs of a curve.
 
-    None part them where that made too many curves, or curves of single runs.
+    None part them where that made curves of single runs.
     """
     names = [name for name in others if done[name].nunique() > 1]
     count = done.groupby(names).ngroups if names else 1
-    joined = count <= min(MOST_CURVES, len(done) // 2)
+    joined = count <= len(done) // 2
     return names if joined else [], joined
 
 
