@@ -20,7 +20,7 @@ _UNITS = {
     "m^3": ("mm^3",),
 }
 _LONG = 6
-"""Most items of a list that are written out."""
+"""Most items of a list that are written out, which fill a line."""
 
 
 def amount(value: float, unit: str) -> str:

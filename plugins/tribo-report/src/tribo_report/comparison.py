@@ -19,7 +19,7 @@ from tribo_report.curves import history, moments, sections, thinned
 from tribo_report.fields import pressure_maps
 from tribo_report.page import render, stills
 from tribo_report.result import cited, facts
-from tribo_report.sentence import DEPTHS, VOLUMES, quoted
+from tribo_report.sentence import quoted
 
 
 def comparison_page(comparison: Comparison) -> str:
@@ -88,8 +88,8 @@ def _answers(comparison: Comparison) -> list[str]:
         if not worn[first]["wear_volume_m3"]:
             continue
         lost, deep = (
-            f"{quoted(worn[first][key], units)} ({_others(worn, key, first)})"
-            for key, units in (("wear_volume_m3", VOLUMES), ("max_wear_depth_m", DEPTHS))
+            f"{quoted(worn[first][key], unit)} ({_others(worn, key, first)})"
+            for key, unit in (("wear_volume_m3", "mm³"), ("max_wear_depth_m", "µm"))
         )
         answers.append(f"After {time} the {body} has lost {lost} {where} and is worn {deep} deep.")
     return answers

@@ -25,7 +25,8 @@ from tribo.kernel_api import (
 from tribo_report.reduced import Blocks, block_words, each_plain, plain
 
 MOST_SAVES = 40
-LONGEST, SHORTEST = 400, 64
+"""Saves in a report: six maps of so many have 32² cells within `fields.NUMBERS`."""
+LONGEST = 400
 """Points of a section, and of a history."""
 NUMBERS = 150_000
 """Numbers in all sections together, which keeps the file below 4 MB."""
@@ -79,7 +80,7 @@ def sections(results: Results, times: Sequence[float]) -> list[dict[str, Any]]:
     windows = _windows(results, saves)
     units = axis_units([max(map(abs, window)) for window in windows])
     count = 2 * len(times) * sum(len(curves) for _, curves in shown.values())
-    most = max(min(LONGEST, NUMBERS // count), SHORTEST)
+    most = min(LONGEST, NUMBERS // count)
     return [
         _section(name, axis, windows[axis], units[axis], si, curves, most)
         for axis in (0, 1)

@@ -24,10 +24,10 @@ from tribo_report.reduced import Blocks, block_means, block_words, each_plain, p
 
 NUMBERS = 250_000
 """Numbers in all maps together, which keeps the file below 4 MB."""
-MOST_CELLS, FEWEST_CELLS = 128, 24
-"""Of a map along an axis."""
+MOST_CELLS = 128
+"""Of a map along an axis; fifteen such maps have `NUMBERS`."""
 ALIKE = 2.5
-"""Length over width up to which a map is true to scale."""
+"""Length over width up to which a map is true to scale, as in the kernel's pictures."""
 STRETCHED = " Along and across are drawn to different scales."
 
 
@@ -66,7 +66,7 @@ def charts(result: Result) -> dict[str, Any]:
     worn = [result.body(name) for name, depths in depths_of.items() if np.any(depths != 0)]
     kept = [field for field in kept_fields(result) if field.varies]
     count = 1 + len(worn) + len(kept)
-    most = int(np.clip(np.sqrt(NUMBERS / (count * len(saves))), FEWEST_CELLS, MOST_CELLS))
+    most = min(int(np.sqrt(NUMBERS / (count * len(saves)))), MOST_CELLS)
     window = _window(result, saves, most)
     maps = [_map("Contact pressure", "Pa", "", pressures, window)]
     surfaces = []
@@ -98,7 +98,7 @@ def pressure_maps(results: Mapping[str, Result], times: Sequence[float]) -> list
     shown: dict[str, tuple[list[Array], FieldPart]] = {}
     for label, result in results.items():
         saves = [result.save_at(time) for time in times]
-        window = _window(result, saves, min(max(most, FEWEST_CELLS), MOST_CELLS))
+        window = _window(result, saves, min(most, MOST_CELLS))
         shown[label] = [result.field("pressure", i) for i in saves], window
     highest = max(float(np.max(field)) for fields, _ in shown.values() for field in fields)
     for label, (pressures, window) in shown.items():

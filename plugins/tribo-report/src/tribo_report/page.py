@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 LARGEST = 4_000_000
 """Most bytes of a report: mail programs take such a file."""
 STILL_DPI = 130
+"""Dots per inch: 435 pixels for a picture of one column."""
 WIDE = 4.0
 """Width from which a picture takes a whole line, in inches."""
 

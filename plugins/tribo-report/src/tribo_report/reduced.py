@@ -9,6 +9,7 @@ import numpy as np
 from tribo import Array
 
 DIGITS = 4
+"""Significant digits, as many as a table prints at most."""
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tribo import CaseError, LabReport, Result
-from tribo.kernel_api import plus_minus
+from tribo.kernel_api import plus_minus, size
 
 from tribo_report.amounts import amount
 from tribo_report.printed import printed_by
@@ -19,12 +19,6 @@ AGREES = 0.02
 
 EXACT = 1e-6
 """Relative uncertainty up to which none is quoted: Archard's law fixes the volume."""
-LEAST = 0.1
-"""Part of a unit from which a value is given in it, as in the tables."""
-VOLUMES = {"mm³": 1e-9}
-MASSES = {"mg": 1e-6}
-DEPTHS = {"µm": 1e-6, "nm": 1e-9}
-"""Sizes of the units in SI, largest first."""
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 Estimate = Mapping[str, Any]
@@ -63,10 +57,10 @@ def sentence(result: Result, lab: LabReport, verified: Sequence[Estimate]) -> st
         if volume == 0:
             losses.append(f"the {name} lost nothing")
             continue
-        words = f"the {name} lost {quoted(volume, VOLUMES, _of(verified, f'{name}: volume'))}"
+        words = f"the {name} lost {quoted(volume, 'mm³', _of(verified, f'{name}: volume'))}"
         if report.mass_kg is not None:
-            words += f" ({quoted(report.mass_kg, MASSES)})"
-        deepest = quoted(depth, DEPTHS, _of(verified, f"{name}: largest depth"))
+            words += f" ({quoted(report.mass_kg, 'mg')})"
+        deepest = quoted(depth, "µm", _of(verified, f"{name}: largest depth"))
         losses.append(f"{words} and is worn {deepest} deep")
     under = f"Over {last['distance_m']:.4g} m of sliding under {load_words(result)}"
     text = f"{under} {', '.join(losses)}."
@@ -93,10 +87,9 @@ def _coating(result: Result, name: str, layers: int) -> str:
     )
 
 
-def quoted(value: float, units: Mapping[str, float], study: Estimate | None = None) -> str:
-    """Return a value with three digits, or with as many as its uncertainty leaves it."""
-    unit = next((each for each, least in units.items() if value >= least * LEAST), [*units][-1])
-    scale, power = units[unit], 0
+def quoted(value: float, unit: str, study: Estimate | None = None) -> str:
+    """Return a value in a unit with three digits, or with as many as its uncertainty leaves it."""
+    scale, power = size(unit), 0
     # Three digits, with a power of ten where zeros would hide them.
     if value and not 1e-4 <= value / scale < 1e5:
         power = math.floor(math.log10(value / scale))

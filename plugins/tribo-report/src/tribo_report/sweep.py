@@ -25,11 +25,11 @@ from tribo.kernel_api import (
 from tribo_report.page import render, stills
 from tribo_report.reduced import each_plain
 from tribo_report.result import case_text, cited, facts, versions
-from tribo_report.sentence import DEPTHS, VOLUMES, quoted
+from tribo_report.sentence import quoted
 
 RUNS, RESULTS = "runs.csv", "results"
-MOST_PICTURES = 4
 DECADE = 10.0
+"""Ratio of the ends from which an axis is logarithmic, as in the kernel's histories."""
 MEASURES = ("wear_volume_m3", "max_wear_depth_m", "scar_across_m")
 
 
@@ -53,7 +53,7 @@ def sweep_page(folder: Path) -> str:
         for column in (*(f"bodies.{b}.{m}" for m in MEASURES for b in bodies), "max_pressure_Pa")
         if column in done and np.any(done[column] != 0)
     ]
-    pictures = sweep_pictures(done, names, measures[:MOST_PICTURES])
+    pictures = sweep_pictures(done, names, measures)
     return render(
         "study.html.j2",
         kind="Sweep",
@@ -85,12 +85,12 @@ def _answers(
         ends = []
         for index in (volumes.idxmin(), volumes.idxmax()):
             row = done.loc[index]
-            depth = quoted(row[f"bodies.{body}.max_wear_depth_m"], DEPTHS)
+            depth = quoted(row[f"bodies.{body}.max_wear_depth_m"], "µm")
             where = ", ".join(
                 f"{_words(name, done)} {_with_unit(name, done, index)}" for name in varied
             )
             ends.append(
-                f"{quoted(row[f'bodies.{body}.wear_volume_m3'], VOLUMES)}, {depth} deep (run "
+                f"{quoted(row[f'bodies.{body}.wear_volume_m3'], 'mm³')}, {depth} deep (run "
                 f"{row['run']}: {where})"
             )
         yield f"The {body} lost {' to '.join(dict.fromkeys(ends))}."
