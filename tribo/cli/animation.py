@@ -17,7 +17,7 @@ from tribo.plotting.sections import varying
 from tribo.result.read import Result
 
 FRAME = 500
-"""Time that a frame is shown, in ms."""
+"""Time that a frame is shown, in ms: long enough to read the time above it."""
 
 
 def save_animation(result: Result, path: Path) -> Path:

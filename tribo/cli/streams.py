@@ -18,6 +18,7 @@ from tribo.core.errors import OutputError, ReaderGone
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
 
+# File descriptors, as POSIX numbers them.
 STDOUT, STDERR = 1, 2
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
 """All but tab and line feed, and the marks that change the direction of text."""

@@ -19,6 +19,7 @@ from tribo.core.words import shown, similar_file
 from tribo.registry.registry import Registry, default_registry
 
 _LARGEST = 10_000_000
+"""Bytes; a height map of 1000² points, as text, has as many."""
 _ONCE = "give each table and each key once"
 _WRITING = "text and values with a unit are quoted, as in '5 mm'; decimals follow a point"
 

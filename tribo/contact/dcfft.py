@@ -69,4 +69,5 @@ class DcFft(ElasticSolver):
         return guess if guess.any() else None
 
 
+# A run comes back to its boxes; the kernel of 256² cells takes 1 MiB.
 _cached = lru_cache(maxsize=32)(HalfSpace)

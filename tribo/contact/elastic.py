@@ -27,7 +27,7 @@ from tribo.core.contact import (
 from tribo.core.units import Quantity
 
 _MARGIN = 2
-"""Cells of the first box on each side of the contact."""
+"""Cells of the first box on each side of the contact; a box that proves too small is enlarged."""
 
 
 class ElasticSolver(ContactSolver):

@@ -101,4 +101,5 @@ class Periodic(ElasticSolver):
         return whole((touching.shape[0], touching.shape[1]))
 
 
+# As many as of `dcfft`; each takes a quarter.
 _cached = lru_cache(maxsize=32)(PeriodicHalfSpace)

@@ -6,6 +6,7 @@ import numpy as np
 
 from tribo.core.arrays import Array, Mask
 
+# A few units of rounding: a sum is no more exact.
 _ROUND_OFF = 1e-15
 # Good enough for `balance` to correct.
 _NEAR = 1e-12

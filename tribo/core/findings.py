@@ -11,11 +11,14 @@ from tribo.core.words import readable
 NOTHING_WRONG = ("begin", "layer", "stop")
 """Kinds that report what the case itself asks for."""
 FEW_CELLS = 8
-"""Cells across a first contact, below which its pressure is inaccurate."""
+"""Cells across a first contact, below which its pressure is inaccurate: Hertz's largest is within
+1.5 % with 8 cells, 4 % with 4."""
 STEEP = 0.3
-"""Half-width of a contact over the radius of a body, above which a half-space is inaccurate."""
+"""Half-width of a contact over the radius of a body, above which a half-space is inaccurate: a
+sphere is 2 % higher at 0.3 than its parabola."""
 DEEP = 0.1
-"""Part of the window's edge or of a radius that wear may reach, as slopes are small."""
+"""Part of the window's edge or of a radius that wear may reach, as slopes are small: a tenth is
+6°."""
 FAST, IMPOSSIBLE = 1e-9, 1e-5
 """Specific wear rates in 1/Pa: K = kH = 0.1, the most in abrasive wear, at H = 100 MPa, and
 Archard's K ≤ 1 at 0.1 MPa."""

@@ -8,6 +8,7 @@ from difflib import get_close_matches
 from pathlib import Path
 
 _LONGEST = 60
+"""Characters of a value, of the 80 of a line; the message has the rest."""
 
 
 def shown(value: object) -> str:

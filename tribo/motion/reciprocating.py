@@ -23,11 +23,13 @@ from tribo.motion.kinematics import Kinematics
 from tribo.motion.stroke import Stroke, check_spacing, odd
 
 LONG, FEW = 4.0, 17
-"""Stroke in half-widths up to which an estimate takes positions, and how many."""
+"""Stroke in half-widths up to which an estimate takes positions, and how many: eight a contact's
+width."""
 PHASES = 6
 """Speeds of a sinusoidal cycle: means of its powers up to the third are exact to 1e-6."""
 SAMPLES = 16
-"""Of a sinusoidal half cycle, between two positions."""
+"""Of a sinusoidal half cycle, between two positions: chords are off by (π/32)²/8 = 0.1 % at
+most."""
 
 
 class FrequencyStage(Table):

@@ -12,11 +12,13 @@ from tribo.core.rounding import ROUND_OFF
 from tribo.motion.cycle import Position
 
 EVEN = 1e-3
-"""Relative difference up to which speeds near a position count as one."""
+"""Relative difference up to which speeds near a position count as one: a law linear in the speed is
+off by nothing, one of its square by 1e-6."""
 
 
 WHOLE = 1e-6
-"""Of a stroke: within it a stroke counts as an even whole number of cells."""
+"""Of a stroke: within it a stroke counts as an even whole number of cells, whose size in a file has
+seven digits."""
 
 
 @dataclass(frozen=True)

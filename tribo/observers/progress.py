@@ -20,8 +20,9 @@ from tribo.core.words import readable
 from tribo.observers.observer import Observer
 
 QUIET = 2.0
+"""Time without a word, in s: a run that is done by then needs none."""
 RENEWED = 0.1
-"""Time between two renewals of the line, in s."""
+"""Time between two renewals of the line, in s, as rich's own ten a second."""
 
 
 class _Described(TextColumn):

@@ -29,7 +29,8 @@ AT_SAVES: Look = {"linestyle": ":", "linewidth": 0.8, "clip_on": False}
 """Joins values that are known at the saves only."""
 WAYS = {"along": "x", "across": "y"}
 _DECADE = 10.0
-"""Values that span more than this factor are drawn on a logarithmic scale."""
+"""Ratio above which values are drawn on a logarithmic scale: a tenth of the height is still
+seen."""
 
 Curves = Mapping[str, tuple[Array, Array]]
 """Times and values, in SI units, by label."""

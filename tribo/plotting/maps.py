@@ -24,9 +24,9 @@ _LINE = 3.6
 _WIDEST, _TALLEST = 41.0, 60.0
 """Most width and height of a map, in mm."""
 _THINNEST = 2.5
-"""Length over width up to which a map is true to scale."""
+"""Length over width up to which a map is true to scale: beyond, three in a row are strips."""
 _STRETCHED = 1.4
-"""Length over width on paper where it is not."""
+"""Length over width on paper where it is not, as of a sheet: √2."""
 
 
 class Layout(NamedTuple):

@@ -26,7 +26,8 @@ from tribo.result.read import Result
 HERTZ: style.Look = {"color": "#909090", "linewidth": 0.7, "zorder": 3}
 NOWHERE = (0.0, 0.0)
 _FADED = 2.0
-"""Ratio of the first pressure to the later ones above which it has panels of its own."""
+"""Ratio of the first pressure to the later ones above which it has panels of its own: they would
+fill less than half of its panel."""
 
 
 def pressure_map(result: Result, save: int = -1) -> Picture:

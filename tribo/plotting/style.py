@@ -21,7 +21,8 @@ WIDE = 130.0
 LETTER = 1.25
 """Width of a letter of a legend, in mm."""
 HANDLE = 10
-"""Room for the line of a legend's entry and the gaps beside it, in letters."""
+"""Room for the line of a legend's entry and the gaps beside it, in letters: matplotlib's 4.8 font
+sizes."""
 LEGEND_ROWS = 4
 """Most rows of a legend of saves; with more saves only some are named."""
 
@@ -38,6 +39,7 @@ DASHES = (
     (0.0, (8.0, 1.6)),
     (0.0, (5.0, 1.2, 1.2, 1.2, 1.2, 1.2)),
 )
+"""Dashes and gaps in line widths, which differ in print without colours."""
 UNDER: Look = {"color": "#56b4e9", "linewidth": 2.4}
 OVER: Look = {"color": "#202020", "linewidth": 1.1, "linestyle": (0.0, (3.0, 1.6))}
 """A wide light line and a narrow dark one; both are seen where they coincide."""

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     import h5py
 
 _ROWS = 256
+"""Saves or steps of a chunk, 2 KiB of a number; most runs fit in one."""
 _MOST = 2**31 - 1
 """Largest number of saves or steps of a file. Without a limit, h5netcdf and so xarray take four
 times as long to open it."""

@@ -16,6 +16,7 @@ from tribo.result.read import Result
 from tribo.simulation.run import Simulation
 
 _LONGEST_NAME = 100
+"""Characters, of up to two bytes; file systems allow 255 bytes with the ending."""
 _OTHERWISE = (
     "choose another folder with -o, or run all again with --force (in Python overwrite=True)"
 )

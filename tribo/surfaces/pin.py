@@ -14,7 +14,7 @@ from tribo.surfaces.relief import check_resolved
 from tribo.surfaces.surface import Surface
 
 STEEP = 10.0
-"""Slope of the pin's side: what lies there touches nothing."""
+"""Slope of the pin's side: a cell beyond the edge is ten cells up, and touches nothing."""
 
 
 class Pin(Surface):

@@ -15,6 +15,7 @@ from tribo.core.units import Quantity
 from tribo.surfaces.relief import Laid, check_resolved
 
 PERIOD = 8.0
+"""In roll-off lengths: π · 8² = 200 waves of the plateau fit."""
 Wavelength = Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
 
 

@@ -20,6 +20,8 @@ from dataclasses import dataclass
 from scipy.optimize import brentq
 
 SAFETY, DOUBTFUL_SAFETY = 1.25, 3.0
+"""Factors on the estimated error where the observed order is near the formal one, and elsewhere:
+Oberkampf & Roy (2010), section 8.6."""
 
 
 @dataclass(frozen=True)

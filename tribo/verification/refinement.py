@@ -21,6 +21,7 @@ from tribo.verification.convergence import Convergence, convergence
 # Above the 1.3 that Celik et al. (2008) ask for, and mild on cases that are coarse already.
 RATIO = 1.5
 FEWEST_CELLS = 20
+"""Cells that two coarsenings by 1.5 leave nearly nine of."""
 UNITS = {"pressure": "Pa", "volume": "m^3"}
 """SI units of quantities, by a word in their names; of the others m."""
 

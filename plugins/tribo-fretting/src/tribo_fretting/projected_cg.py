@@ -10,11 +10,13 @@ from tribo import Array, NumericalError
 from tribo_fretting.cerruti import Cerruti
 
 ON_RIM = 1e-12
-"""Relative distance from the rim of its disc within which a traction is on it."""
+"""Relative distance from the rim of its disc within which a traction is on it: some thousand units
+of rounding."""
 MOST = 500
 """Iterations."""
 TOLERANCE = 1e-9
-"""What the slip within the discs and along their rims must fall to, relative to δ."""
+"""What the slip within the discs and along their rims must fall to, relative to δ: a millionth of
+the depth tolerance of a step."""
 
 
 @dataclass(frozen=True)

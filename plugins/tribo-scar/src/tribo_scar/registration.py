@@ -13,18 +13,20 @@ from tribo_scar.alignment import OVERLAP, align, robust_deviation, rotation
 from tribo_scar.smoothing import smoothed
 
 SAME = 1e-3
-"""Relative difference up to which two pitches are the same."""
+"""Relative difference up to which two pitches are the same: half a pixel over 500."""
 TEXTURE = 3.0
 """Eigenvalue of the normal matrix, relative to noise, above which a direction of shift and rotation
 is determined."""
 TUKEY = 4.685
-"""Tukey's constant: residual of weight 0, in standard deviations."""
+"""Tukey's constant: residual of weight 0, in standard deviations (95 % efficiency; Huber 1981)."""
 DEEP = 4.0
-"""Standard deviations of noise above which a difference is a scar."""
+"""Standard deviations of noise above which a difference is a scar: chance has one pixel in
+16,000."""
 ROUNDING = 1e-4
 """Least noise, relative to the largest depth."""
 ROUNDED = 1e-7
-"""Rounding of heights in files, relative to their range; less does not determine a shift."""
+"""Rounding of heights in files, single precision, relative to their range; less does not determine
+a shift."""
 BLOCKS = 8
 """Blocks along the shorter edge of the map, whose sums give the correlation of noise."""
 BLURS = 4.0, 2.0, 1.0

@@ -28,6 +28,7 @@ from tribo_tamaas.drive import pressure
 
 # tamaas's error is not quite tribo's residual; where it stops too soon, it continues.
 _ATTEMPTS = 4
+# Of the tolerance, at each further attempt: a thousandth at the last.
 _SHARPER = 0.1
 
 
@@ -128,6 +129,7 @@ class Tamaas(ContactSolver):
         )
 
 
+# A case and its coarser trial have a window each.
 _half_space = lru_cache(maxsize=4)(HalfSpace)
 
 

@@ -10,6 +10,7 @@ from tribo import Array, CaseError, Grid
 
 # A cubic spline forgets a pixel by a factor of 0.27 per pixel of distance.
 _MARGIN = 16
+# Sizes in files may be in single precision.
 _ROUND_OFF = 1e-6
 
 
