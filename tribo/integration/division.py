@@ -20,9 +20,6 @@ MOST_PARTS = 100
 """Parts of an increment after which it is refused: to 1e-5 of it, a jump takes 40."""
 JUMP = 0.1
 """Relative difference from a smooth rate at which a rate is taken to jump."""
-SAFETY, LEAST = 0.9, 1 / 8
-"""Length of the next part over the length of the accuracy asked for; and the least part cut off
-at once."""
 FADED = 0.01
 """Part of the largest value of a state, below which its error is relative to that part."""
 
@@ -140,8 +137,6 @@ def integrated(
             breaks, values, peaks, first = {**later, **breaks}, held + end[count:], largest, last
             passed += part
             done.append(waiting.pop(0))
-            if waiting and off > 0:
-                _cut(waiting, SAFETY * part * (plan.accuracy / off) ** (1 / 3))
         elif len(waiting) + len(done) < MOST_PARTS:
             waiting[:1] = [0.5 * part] * 2
         elif left:
@@ -187,17 +182,6 @@ def _errors(
             samples = np.array([*(step[0].rates[at] for step in row), last[at]])
             errors[at] = max(errors[at], span * _jump(samples))
     return errors
-
-
-def _cut(waiting: list[float], accurate: float) -> None:
-    """Divide the next part where it is more than twice as long as would be accurate.
-
-    A half, a quarter or an eighth is cut off, so that parts do not follow the rates' last digits.
-    """
-    whole = waiting[0]
-    if whole > 2 * accurate:
-        cut = max(2.0 ** math.floor(math.log2(accurate / whole)), LEAST) * whole
-        waiting[:1] = [cut, whole - cut]
 
 
 def _jump(rates: Array) -> float:
