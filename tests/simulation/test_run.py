@@ -159,13 +159,6 @@ def test_a_run_that_fails_asks_for_the_unit_of_a_wear_coefficient_that_is_absurd
     assert "'1e-6 mm^3/(N m)'" in str(failed.value)
 
 
-def test_two_flat_bodies_are_told_that_no_window_is_large_enough():
-    bodies = [named("pin", flat(), steel(), archard()), named("disk", flat(), steel())]
-    with pytest.raises(CaseError, match=r'two flat bodies .* "pin"\), .* "periodic"\)') as refused:
-        Simulation(case(bodies=bodies)).run()
-    assert "larger" not in str(refused.value)
-
-
 def test_few_cells_are_warned_of_once_and_a_short_stroke_again_at_the_end():
     model = small(
         grid=Grid((0.7e-3, 0.7e-3), (14, 14)), kinematics=motion(stroke="0.6 mm", frequency=50)

@@ -65,16 +65,12 @@ def _solved(model: Model, state: State, gaps: Sequence[Array]) -> State:
     contacts = tuple(solutions[key] for key in asked)
     if any(map(model.leaves_window, contacts)):
         size = f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm"
-        remedy = "make it larger (or, for a body that ends there, set grid.ends_at_window = true)"
+        remedy = (
+            "make it larger, or, for a body that ends there, set grid.ends_at_window = true (two "
+            'flat bodies need an edge, surface.type = "pin", or contact.type = "periodic")'
+        )
         if model.cycle.across:
             remedy = "make it larger: the path and the contact have to fit into it along y"
-        forms = [surface.ask(surface.component.smoothed) for surface in model.surfaces.values()]
-        if all(form.curvature == (0, 0) for form in forms):
-            remedy = (
-                "two flat bodies touch all over it, however large it is: give one an edge "
-                '(surface.type = "pin"), let the contact repeat with the window (contact.type = '
-                '"periodic"), or let a body end there (grid.ends_at_window = true)'
-            )
         raise CaseError(
             f"the first contact reaches the edge of the window of {size}; {remedy}", "grid.size"
         )
