@@ -133,7 +133,7 @@ def test_each_of_several_takes_its_part_of_what_the_others_leave():
     left = 0.5 * 0.8 * (1 - 0.6)
     assert lost[1] == pytest.approx(left * lost[0], rel=1e-9, abs=0)
     np.testing.assert_allclose(share, 1 - left, rtol=1e-12)
-    with pytest.raises(CaseError, match=r"needs load_share.*these effects wait for one another"):
+    with pytest.raises(CaseError, match=r"test.above, test.above needs .* wait for one"):
         run(effects=[Above(), Above()])
 
 

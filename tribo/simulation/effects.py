@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from graphlib import CycleError, TopologicalSorter
 
 from tribo.case import Case
 from tribo.core.errors import CaseError
@@ -31,38 +32,39 @@ def in_order(case: Case, effects: Sequence[GuardedEffect]) -> tuple[GuardedEffec
                 raise _twice(field, effect)
             kept[field.name] = bodies | others
     known.update(kept)
-    ordered: list[GuardedEffect] = []
-    waiting = list(effects)
-    while waiting:
-        # What several provide is known once all have.
-        free = [e for e in waiting if not any(_needs(e, other) for other in waiting)]
-        ready = (free or waiting)[0]
-        missing = sorted(set(ready.requires) - known - of_laws)
-        if missing or not free:
-            missing = missing or [LOAD_SHARE.name]
-            text = _missing(f"effect {ready.component.type!r}", missing, waiting)
-            raise MissingFieldError(text, "effects", missing)
-        shares = {LOAD_SHARE.name} & {name for e in ordered for name in _provided(e)}
-        waiting.remove(ready)
-        ordered.append(ready)
-        for field in ready.provides:
-            if field.name in (known | of_laws) - shares:
-                raise _twice(field, ready)
+    states = known | of_laws
+    for effect in effects:
+        for field in effect.provides:
+            if field.name in states or field.name in known - {LOAD_SHARE.name}:
+                raise _twice(field, effect)
             known.add(field.name)
+    for effect in effects:
+        others = {f.name for other in effects if other is not effect for f in other.provides}
+        if missing := sorted(set(effect.requires) - others - states):
+            text = _missing(f"effect {effect.component.type!r}", missing)
+            raise MissingFieldError(text, "effects", missing)
     for name in case.bodies:
         for law in case.bodies[name].laws():
             if missing := sorted(set(names_of(law.requires)) - known):
-                text = _missing(f"wear law {law.type!r}", missing, [])
+                text = _missing(f"wear law {law.type!r}", missing)
                 raise MissingFieldError(text, f"bodies.{name}.wear", missing)
-    return tuple(ordered)
+    # What several provide is known once all have.
+    after = {
+        one: [at for at, other in enumerate(effects) if at != one and _needs(effect, other)]
+        for one, effect in enumerate(effects)
+    }
+    try:
+        return tuple(effects[at] for at in TopologicalSorter(after).static_order())
+    except CycleError as error:
+        types = ", ".join(effects[at].component.type for at in error.args[1][1:])
+        raise CaseError(
+            f"each of {types} needs what the next provides, so that they wait for one another",
+            "effects",
+        ) from None
 
 
 def _needs(effect: GuardedEffect, other: GuardedEffect) -> bool:
-    return effect is not other and bool(set(effect.requires) & _provided(other))
-
-
-def _provided(effect: GuardedEffect) -> set[str]:
-    return {field.name for field in effect.provides}
+    return not {field.name for field in other.provides}.isdisjoint(effect.requires)
 
 
 def _twice(field: Field, effect: GuardedEffect) -> CaseError:
@@ -79,15 +81,9 @@ class MissingFieldError(CaseError):
         self.missing = set(missing)
 
 
-def _missing(who: str, missing: Sequence[str], waiting: Sequence[GuardedEffect]) -> str:
+def _missing(who: str, missing: Sequence[str]) -> str:
     if list(missing) == [FRICTION_COEFFICIENT.name]:
         return f"{who} needs a coefficient of friction: add friction = 0.1 above the first table"
-    in_circle = [effect.component.type for effect in waiting if _provided(effect) & set(missing)]
-    if in_circle:
-        return (
-            f"{who} needs {', '.join(missing)}, which {', '.join(in_circle)} provides, but these "
-            "effects wait for one another"
-        )
     return (
         f"{who} needs {' and '.join(missing)}, which no effect of this case provides: add an "
         "effect that does ('tribo plugins list' names those installed)"
