@@ -53,7 +53,7 @@ def changed(**changes):
         ({"uncertainty": "0.1 mm"}, ".1.uncertainty", "[m]"),
         ({"uncertainty": "0 %"}, ".1.uncertainty", "100 %"),
         ({"uncertainty": "few %"}, ".1.uncertainty", "'5 %'"),
-        ({"uncertainty": "5 %", "value": None}, ".1", "5 %"),
+        ({"uncertainty": "5 %", "value": None}, ".1.uncertainty", "to plan"),
         ({"uncertainty": None}, ".1", "uncertainty"),
         ({"quantity": "mas"}, ".1.quantity", "'mass'"),
         ({"body": "bal"}, ".1.body", "'ball'"),

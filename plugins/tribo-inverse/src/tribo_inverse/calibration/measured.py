@@ -30,12 +30,8 @@ NOISE = 3.0
 """Standard deviations by which a mean depth below 0 is not noise."""
 
 
-class Share(float):
-    """An uncertainty as a part of each value, as ``"5 %"``."""
-
-
-def _part_of(text: str, quantity: str) -> Share:
-    """Return a text in per cent as a part of a value; CaseError if it is none."""
+def _parts(text: str, quantity: str, entry: Mapping[str, Any]) -> tuple[float, ...]:
+    """Return the parts of the values of an entry that a text in per cent states."""
     if quantity in FIELDS:
         raise CaseError(f"{text!r}: of depths at many places give it with a unit, as '10 nm'")
     try:
@@ -44,7 +40,10 @@ def _part_of(text: str, quantity: str) -> Share:
         raise CaseError(f"{text!r} is no number of per cent; write '5 %'") from None
     if not 0 < part < 1:
         raise CaseError(f"{text!r}: an uncertainty is above 0 % and below 100 %")
-    return Share(part)
+    values, are_right = _given(entry), {"value", "before", "after"} <= entry.keys()
+    if are_right and not values.size:
+        raise CaseError(f"{text!r} of a value that is not given; to plan, give it with a unit")
+    return tuple(part * values)
 
 
 def _beside(name: str, info: ValidationInfo) -> str:
@@ -89,8 +88,9 @@ class MeasuredEntry(Table):
     """File of a depth map, instead of a value."""
     pitch: Annotated[float, Quantity("m", above=0)] | None = None
     """Pixel pitch of a depth map."""
-    uncertainty: float | None = None
-    """Standard deviation, or a `Share`; for each depth of a profile, or each cell of a map."""
+    uncertainty: float | tuple[float, ...] | None = None
+    """Standard deviation, of each value where it is a part of them, as ``"5 %"``; for each depth of
+    a profile, or each cell of a map."""
     resolution: float | None = None
     """Smallest step that the instrument shows."""
     time: Annotated[float, Quantity("s", above=0)] | None = None
@@ -115,15 +115,12 @@ class MeasuredEntry(Table):
         above = None if is_value and is_profile else 0
         mark = Quantity(quantity(name).unit, above=above, remedy=UNSEEN if is_value else None)
 
-        def read(part: object) -> float:
-            if info.field_name == "uncertainty" and str(part).rstrip().endswith("%"):
-                return _part_of(str(part).strip(), name)
-            return mark.read(part)
-
         try:
+            if info.field_name == "uncertainty" and str(value).rstrip().endswith("%"):
+                return _parts(str(value).strip(), name, info.data)
             if is_value and isinstance(value, list | tuple):
-                return tuple(map(read, value))
-            return read(value)
+                return tuple(map(mark.read, value))
+            return mark.read(value)
         except CaseError as error:
             raise ValueError(str(error)) from None
 
@@ -171,11 +168,6 @@ class MeasuredEntry(Table):
                 "the uncertainty is missing; give uncertainty (a standard deviation), resolution, "
                 "or both"
             )
-        if isinstance(self.uncertainty, Share) and np.isnan(self.values).any():
-            raise ValueError(
-                f"uncertainty: {100 * self.uncertainty:.3g} % of a value that is not given; to "
-                "plan tests, give it with a unit"
-            )
         if error := data_error(self.sigma, self.values):
             raise ValueError(error)
         return self
@@ -183,11 +175,8 @@ class MeasuredEntry(Table):
     @property
     def values(self) -> Array:
         """Depths of a profile, or one value per test, shape (n,); NaN for none."""
-        if self.before is not None and self.after is not None:
-            return np.array([self.before - self.after])
-        if self.value is None:
-            return np.full(len(self.position or (None,)), np.nan)
-        return np.atleast_1d(np.array(self.value, dtype=float))
+        given = _given(vars(self))
+        return given if len(given) else np.full(len(self.position or (None,)), np.nan)
 
     def rows(self) -> pd.DataFrame:
         """Return one row of `Measurements.table` per value."""
@@ -213,10 +202,15 @@ class MeasuredEntry(Table):
     @property
     def sigma(self) -> Array | float:
         """Standard deviation of each value, from uncertainty and resolution."""
-        own: Array | float = self.uncertainty or 0.0
-        if isinstance(self.uncertainty, Share):
-            own = self.uncertainty * self.values
-        return np.hypot(own, self.from_resolution)
+        return np.hypot(self.uncertainty or 0.0, self.from_resolution)
+
+
+def _given(entry: Mapping[str, Any]) -> Array:
+    """Return the values of an entry, none in a planned test."""
+    value, before, after = (entry.get(key) for key in ("value", "before", "after"))
+    if before is not None and after is not None:
+        return np.array([before - after])
+    return np.array([] if value is None else value, dtype=float).reshape(-1)
 
 
 def _list(value: Any, info: ValidationInfo) -> Any:

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from scipy.interpolate import Akima1DInterpolator
 from scipy.ndimage import binary_dilation, binary_erosion
-from tribo import Array, CaseError, Column, Result
+from tribo import Array, CaseError, Result
 from tribo.kernel_api import (
     TRACK,
     Model,
@@ -80,27 +80,34 @@ FIELDS = (*PROFILES, DEPTH_MAP)
 
 def quantity(name: str) -> WornQuantity:
     """Return a quantity by its name, also one of a package; `CaseError` if none has the name."""
-    if name in QUANTITIES:
-        return QUANTITIES[name]
-    ask = default_registry().ask
-    known: dict[str, Column] = {column.name: column for column in ask("tribo_quantities")}
-    known = known if name in known else of_packages()
-    if (column := known.get(name)) is None:
-        meant = suggestion(did_you_mean(name, [*QUANTITIES, *known]))
-        raise CaseError(f"no quantity is called {name!r}{meant} There are: {names()}")
-    of: Literal["run", "body of a run"] = "body of a run" if column.of_bodies else "run"
-    shown = "" if column.unit == "1" else column.unit
-    return WornQuantity(column.unit, shown, 1.0, of, column.label)
+    known = QUANTITIES
+    if name not in known:
+        known = _read_off(default_registry().ask("tribo_quantities"))
+    if name not in known:
+        known = of_all()
+    if name not in known:
+        meant = suggestion(did_you_mean(name, known))
+        raise CaseError(f"no quantity is called {name!r}{meant} There are: {', '.join(known)}")
+    return known[name]
 
 
-def of_packages() -> dict[str, Column]:
-    """Return the quantities of every installed package, by name."""
-    return {column.name: column for column in from_all_plugins("tribo_quantities")}
+def of_all() -> dict[str, WornQuantity]:
+    """Return all quantities, with those of every installed package, by name."""
+    return QUANTITIES | _read_off(from_all_plugins("tribo_quantities"))
 
 
-def names() -> str:
-    """Return the names of all quantities as text."""
-    return ", ".join([*QUANTITIES, *of_packages()])
+def _read_off(columns: Sequence[Any]) -> dict[str, WornQuantity]:
+    """Return the quantities that packages read off a run, by name."""
+    return {
+        each.name: WornQuantity(
+            each.unit,
+            "" if each.unit == "1" else each.unit,
+            1.0,
+            "body of a run" if each.of_bodies else "run",
+            each.label,
+        )
+        for each in columns
+    }
 
 
 class Reading(NamedTuple):
