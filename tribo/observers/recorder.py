@@ -18,19 +18,9 @@ from tribo.core.state import RunInfo, Snapshot, State
 from tribo.observers.observer import Observer
 from tribo.result.checkpoint import Checkpoint, RunFolder, fingerprint
 from tribo.result.hdf5 import empty_image, filled_image
-from tribo.result.header import Header
-from tribo.result.layout import (
-    EFFECT,
-    SAVED,
-    Rows,
-    Variable,
-    constants,
-    part_of,
-    save_row,
-    step_row,
-    variables,
-)
+from tribo.result.layout import EFFECT, SAVED, Rows, Variable
 from tribo.result.read import Result
+from tribo.result.rows import constants, header_of, part_of, save_row, step_row, variables
 from tribo.result.sealed import write_sealed
 
 
@@ -99,7 +89,7 @@ class Recorder(Observer):
         # With a map of heights in the case this takes as long as a step.
         self._case, self._table = fingerprint(run.case), variables(run)
         resumed, folder = run.resumed_from is not None, self._folder
-        header, values = Header.of_run(run), constants(run)
+        header, values = header_of(run), constants(run)
         with self._writing():
             if folder is None:
                 self._empty = empty_image(header, self._table, values)

@@ -68,7 +68,7 @@ def filled_image(
 ) -> BytesIO:
     """Return a whole file in memory: HDF5 may crash where it meets a full disk.
 
-    The parts of the run, made by `tribo.result.layout.part_of`, are written in order into the file
+    The parts of the run, made by `tribo.result.rows.part_of`, are written in order into the file
     that `empty_image` returned, with these numbers of saves and steps; attributes change.
     """
     image = BytesIO(empty)

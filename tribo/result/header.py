@@ -12,7 +12,6 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 from tribo.core.contact import ContactSystem
 from tribo.core.findings import Finding, as_json
 from tribo.core.grid import Grid
-from tribo.core.state import RunInfo
 from tribo.core.words import checked_name
 
 FORMAT = 2
@@ -63,21 +62,6 @@ class Header(BaseModel):
     case: Annotated[dict[str, Any], AfterValidator(_named)]
     provenance: dict[str, Any]
     findings: tuple[Finding, ...] = ()
-
-    @classmethod
-    def of_run(cls, run: RunInfo) -> Header:
-        """Return the header of a run that begins."""
-        system = run.system
-        known = {
-            "load_N": system.load,
-            "window_m": system.grid.size,
-            "modulus_Pa": system.modulus,
-            "cap_Pa": system.cap,
-            "curvature_1_m": system.curvature,
-            "case": run.case,
-            "provenance": run.provenance,
-        }
-        return cls.model_validate(known)
 
     @classmethod
     def read(cls, attributes: Mapping[str, Any]) -> Header:
