@@ -90,9 +90,6 @@ class Expected(Table):
     """Whether ``tribo verify --quick`` takes the case: it runs in less than a second."""
     levels: dict[str, tuple[Any, ...]] = Field(default_factory=dict)
     """Values by their path in the case, coarse to fine, as ``"grid.cells" = [31, 93, 279]``."""
-    placements: Annotated[int, Field(ge=1)] = 1
-    """Windows of so many sizes, up to three cells larger, are tried at each level, and errors are
-    the root mean square over them: the edge of a contact falls anywhere in a cell."""
     solvers: tuple[str, ...] = ()
     """Contact solvers that must give the same, where they are installed."""
     expect: tuple[Expectation, ...]
@@ -103,10 +100,3 @@ class Expected(Table):
         if len({len(values) for values in levels.values()}) > 1:
             raise ValueError("lists of unequal length; give every path a value for each level")
         return levels
-
-    @field_validator("expect")
-    @classmethod
-    def _some(cls, expect: tuple[Expectation, ...]) -> tuple[Expectation, ...]:
-        if not expect:
-            raise ValueError("a case expects something: add [[expect]] with a quantity")
-        return expect

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from tribo.case import Output
-from tribo.core.errors import CaseError, NumericalError, TriboWarning
+from tribo.core.errors import CaseError, TriboWarning, about
 from tribo.core.grid import Grid
 from tribo.lab.scar import scar
 from tribo.model.model import Model
@@ -74,7 +74,7 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
     saved on the way, since a save cuts a step short on all levels alike.
 
     `started` gets the name of each run before it starts; five runs in all. CaseError if the grid is
-    too coarse to be made coarser, NumericalError if one of the runs fails.
+    too coarse to be made coarser; an error of a run names the run.
     """
     cells, stepping = model.grid.cells, model.case.stepping
     if min(cells) < FEWEST_CELLS:
@@ -87,15 +87,10 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
     explicit = isinstance(stepping, Explicit)
 
     def run(cells: tuple[int, int], factor: float = 1.0) -> Level:
-        how = "shortened" if explicit else "lengthened"
-        what = f"{cells[0]} × {cells[1]} cells, steps {how} by {factor:g}"
+        what = f"{cells[0]} × {cells[1]} cells, steps {'÷' if explicit else '×'} {factor:g}"
         started(what)
-        try:
+        with about(what):
             return _run(model, cells, _changed(stepping, factor))
-        except (CaseError, NumericalError) as error:
-            if (cells, factor) == (model.grid.cells, 1.0):
-                raise
-            raise NumericalError(f"a run of the study, with {what}: {error}") from error
 
     base = run(cells)
     grids = *(run(_coarser(cells, factor)) for factor in (RATIO**2, RATIO)), base

@@ -41,10 +41,7 @@ def cases_in(folder: Path) -> list[ValidationCase]:
         return [ValidationCase(place)]
     found = [ValidationCase(path.parent) for path in sorted(place.glob("*/expected.toml"))]
     if not found:
-        raise CaseError(
-            f"{folder} has no expected.toml, nor has a folder in it; write one as on "
-            "the page 'Verification'"
-        )
+        raise CaseError(f"{folder} holds no expected.toml; write one as on the page 'Verification'")
     return found
 
 
@@ -52,13 +49,8 @@ def called(name: str, cases: list[ValidationCase]) -> list[ValidationCase]:
     """Return the cases whose name begins so; CaseError if there is none."""
     chosen = [case for case in cases if case.name.startswith(name)]
     if not chosen:
-        names = [case.name for case in cases]
-        begin = dict.fromkeys(each.partition("_")[0] for each in names)
-        meant = suggestion(did_you_mean(name, [*names, *begin]))
-        raise CaseError(
-            f"{name}: there is no such file, folder or case{meant} Names of cases begin with "
-            f"{', '.join(begin)}"
-        )
+        meant = suggestion(did_you_mean(name, [case.name for case in cases]))
+        raise CaseError(f"{name}: there is no such file, folder or case{meant}")
     return chosen
 
 

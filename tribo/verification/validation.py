@@ -9,6 +9,7 @@ from contextlib import chdir
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, Literal
 
 import numpy as np
@@ -18,9 +19,8 @@ from tribo.component import components
 from tribo.config.load import case_tables, read_toml, validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError, TriboError
+from tribo.core.errors import CaseError, TriboError, located
 from tribo.core.explain import case_error
-from tribo.core.grid import Grid
 from tribo.core.words import said
 from tribo.registry.registry import default_registry
 from tribo.result.quantity import quantity
@@ -29,7 +29,6 @@ from tribo.simulation.run import Simulation
 from tribo.verification.expected import Expectation, Expected
 
 Verdict = Literal["holds", "fails", "not installed"]
-Settings = Mapping[str, Any]
 Found = tuple[Array, str]
 """Values of a quantity at its places, and their SI unit."""
 
@@ -71,20 +70,12 @@ class Row:
         return f"{self.case}: {self.quantity}: {given}, {error} ({self.source})"
 
 
-class _Unread(CaseError):
-    """A result does not have the quantity of a row."""
-
-    def __init__(self, message: str, number: int, row: Expectation) -> None:
-        super().__init__(message, f"expect.{number}")
-        self.row = row
-
-
 @dataclass(frozen=True)
 class ValidationCase:
     """A folder with `expected.toml`, and `case.toml` or a script that is called as the folder.
 
-    A script has a `CASE`, or a function `found` from the placement of the grid, in parts of 1, and
-    the settings of a level to the quantities.
+    A script has a `CASE`, or a function `found` from the settings of a level to the quantities. A
+    case beside a `first.toml` begins with the worn bodies of that case.
     """
 
     folder: Path
@@ -139,56 +130,41 @@ class ValidationCase:
             else:
                 yield from self._rows({"contact.type": solver}, solver)
 
-    def _rows(self, settings: Settings, solver: str) -> list[Row]:
-        wanted = self.expected
-        parts = [number / wanted.placements for number in range(wanted.placements)]
+    def _rows(self, settings: Mapping[str, Any], solver: str) -> list[Row]:
+        wanted = self.expected.expect
         try:
             with warnings.catch_warnings(), chdir(self.folder):
                 warnings.simplefilter("ignore")
                 levels = [
-                    [self._found({**settings, **level}, part) for part in parts]
-                    for level in _each(wanted.levels)
+                    self._found({**settings, **level}) for level in _each(self.expected.levels)
                 ]
             return [
-                self._judged(row, solver, [[placed[i] for placed in level] for level in levels])
-                for i, row in enumerate(wanted.expect)
+                self._judged(row, solver, [level[i] for level in levels])
+                for i, row in enumerate(wanted)
             ]
         except Exception as error:
             words = str(error) if isinstance(error, TriboError) else said(error)
-            at = error.row if isinstance(error, _Unread) else wanted.expect[0]
-            return [self._row(at, solver, reason=words)]
+            return [self._row(wanted[0], solver, reason=words)]
 
-    def _found(self, settings: Settings, part: float) -> list[Found]:
-        """Return the value of every quantity in one run, in a window larger by part of 3 cells."""
+    def _found(self, settings: Mapping[str, Any]) -> list[Found]:
+        """Return the value of every quantity in one run."""
         wanted, tables = self.expected.expect, self.tables()
         if tables is None:
-            found = self._script["found"](part, **settings)
+            found = self._script["found"](**settings)
             return [(np.array([found[row.quantity]]), "1") for row in wanted]
-        case = validate_case(apply_settings(tables, settings))
-        if part:
-            size, cells = case.grid.size, case.grid.cells
-            factor = 1 + 3 * part / cells[0]
-            grid = Grid((factor * size[0], factor * size[1]), cells)
-            case = case.model_copy(update={"grid": grid})
-        with Simulation(case).run() as result:
-            return [self._read(result, row) for row in wanted]
+        with TemporaryDirectory() as place:
+            if Path("first.toml").exists():
+                first = Path(place, "first.h5")
+                Simulation(validate_case(read_toml(Path("first.toml")))).run(first).close()
+                tables = {**tables, "begin": str(first)}
+            with Simulation(validate_case(apply_settings(tables, settings))).run() as result:
+                return [_read(result, row, i) for i, row in enumerate(wanted, start=1)]
 
-    def _read(self, result: Result, row: Expectation) -> Found:
-        try:
-            values, unit = quantity(result, row.quantity, row.body, row.time, row.place)
-            row.numbers(unit)
-        except CaseError as error:
-            raise _Unread(str(error), self.expected.expect.index(row) + 1, row) from None
-        return values, unit
-
-    def _judged(self, row: Expectation, solver: str, levels: list[list[Found]]) -> Row:
-        got, unit = levels[-1][0]
+    def _judged(self, row: Expectation, solver: str, levels: list[Found]) -> Row:
+        got, unit = levels[-1]
         value = row.numbers(unit)
         size = float(np.sum(np.abs(value))) or 1.0
-        errors = [
-            float(np.sqrt(np.mean([(np.sum(np.abs(at - value)) / size) ** 2 for at, _ in placed])))
-            for placed in levels
-        ]
+        errors = [float(np.sum(np.abs(at - value)) / size) for at, _ in levels]
         order, holds = None, errors[-1] <= row.tolerance
         if row.order is not None:
             order = self._order(errors)
@@ -227,6 +203,13 @@ class ValidationCase:
             "solver": solver,
         }
         return Row(**{**known, **judged})
+
+
+def _read(result: Result, row: Expectation, number: int) -> Found:
+    with located(f"expect.{number}"):
+        values, unit = quantity(result, row.quantity, row.body, row.time, row.place)
+        row.numbers(unit)
+    return values, unit
 
 
 def _each(lists: Mapping[str, tuple[Any, ...]]) -> list[dict[str, Any]]:

@@ -3,6 +3,7 @@
 import numpy as np
 
 import tribo
+from tribo.verification.pins import pin_on_flat
 
 
 class Cone(tribo.Surface):
@@ -15,14 +16,10 @@ class Cone(tribo.Surface):
         return -0.02 * np.hypot(*grid.mesh)
 
 
-STEEL = tribo.Material(young="207 GPa", poisson=0.3)
-CASE = tribo.Case(
+CASE = pin_on_flat(
+    Cone(),
     grid=tribo.Grid("0.6 mm", 279),
     load=142.9252042,
-    bodies={
-        "cone": tribo.Body(surface=Cone(), material=STEEL),
-        "flat": tribo.Body(surface=tribo.Flat(), material=STEEL),
-    },
     contact=tribo.DcFft(tolerance=1e-10),
     kinematics=tribo.Unidirectional(speed=0.1, track_length=2e-3, distance=1e-6),
 )

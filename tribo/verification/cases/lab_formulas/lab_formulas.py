@@ -7,7 +7,7 @@ from tribo.lab import formulas
 RADIUS, GROOVE, WIDTH, LENGTH = 5e-3, 8e-3, 1e-3, 10e-3
 
 
-def found(part: float) -> dict[str, float]:
+def found() -> dict[str, float]:
     """Return volumes and sections, in SI units."""
     y = (np.arange(500) - 249.5) * WIDTH / 500
     section = formulas.planimetric_area((0.25 * WIDTH**2 - y**2) / (2 * GROOVE), WIDTH / 500)

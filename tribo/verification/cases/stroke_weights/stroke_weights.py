@@ -6,7 +6,7 @@ import tribo
 from tribo.motion.stroke import Stroke
 
 
-def found(part: float) -> dict[str, float]:
+def found() -> dict[str, float]:
     """Return weights in parts of 1, speeds in m/s and times in s for each metre."""
     shares = Stroke(length=2.5, dx=1.0).shares
     # At 1.5 m/s to within the second cell, at 0.5 m/s to the end, a rest of 1 s, and back at 1 m/s.

@@ -1,12 +1,13 @@
-"""A state that fades all along the track of a disk, of which the window shows a part."""
+"""A state that fades all along a track, of which the window shows a part."""
 
 from collections.abc import Mapping
 
 import tribo
+from tribo.verification.pins import pin_on_flat
 
 
 class Film(tribo.Effect):
-    """A film on the disk that fades in time: dt/dt = -t/tau, with tau = 10 s."""
+    """A film on the flat that fades in time: dt/dt = -t/tau, with tau = 10 s."""
 
     type = "track_state.film"
     reach = "point"
@@ -14,7 +15,7 @@ class Film(tribo.Effect):
 
     def carrier(self) -> str:
         """Return the body on which it lies."""
-        return "disk"
+        return "flat"
 
     def initial_state(self) -> dict[str, float]:
         """Return the first thickness."""
@@ -25,14 +26,10 @@ class Film(tribo.Effect):
         return {"film": -0.1 * contact.state["film"]}
 
 
-STEEL = tribo.Material(young="207 GPa", poisson=0.3)
-CASE = tribo.Case(
+CASE = pin_on_flat(
+    tribo.Paraboloid(radius="5 mm"),
     grid=tribo.Grid("0.6 mm", 24),
     load="20 N",
-    bodies={
-        "ball": tribo.Body(surface=tribo.Paraboloid(radius="5 mm"), material=STEEL),
-        "disk": tribo.Body(surface=tribo.Flat(), material=STEEL),
-    },
     contact=tribo.Winkler(),
     effects=[Film()],
     kinematics=tribo.Unidirectional(speed="0.1 m/s", track_length="3 mm", duration="10 s"),

@@ -12,7 +12,7 @@ ONCE = {
 """Length of the track in radii, Peclet number, and rise of a source that moves on for ever."""
 
 
-def found(part: float) -> dict[str, float]:
+def found() -> dict[str, float]:
     """Return the rise, relative to a source that does not return."""
     return {
         name: 1 + kept_per_power(1.0, 1.0, peclet, length, name.startswith("to and fro")) / once

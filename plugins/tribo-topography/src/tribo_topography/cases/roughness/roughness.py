@@ -9,7 +9,7 @@ ALONG, ACROSS = 0.1e-6, 0.3e-6
 GRID = tribo.Grid((1e-3, 0.8e-3), (400, 320))
 
 
-def found(part: float) -> dict[str, float]:
+def found() -> dict[str, float]:
     """Return roughness parameters, in m and 1."""
     x, y = (2 * np.pi * t / 0.1e-3 for t in GRID.mesh)
     seen = roughness(ALONG * np.cos(x) + ACROSS * np.cos(y), order=0)
