@@ -7,7 +7,7 @@ from matplotlib import pyplot
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.plotting.overlays import comparison_picture, difference_map
+from tribo.plotting.overlays import comparison_picture
 from tribo.result.export import profile
 from tribo.study.comparison import Comparison
 
@@ -19,34 +19,6 @@ def results():
 
 def names(figure):
     return [text.get_text() for text in figure.legends[0].get_texts()]
-
-
-def test_a_map_is_the_result_less_the_first(results):
-    figure = difference_map(results, "three", 3600.0).figure()
-    images = [axes.images[0] for axes in figure.axes if axes.images]
-    pressure, wear = (np.ma.filled(image.get_array(), 0.0).T for image in images)
-    one, three = results["one"], results["three"]
-    np.testing.assert_allclose(
-        pressure, 1e-6 * (three.field("pressure", -1) - one.field("pressure", -1))
-    )
-    depth = three.body("ball").wear_depth[-1] - one.body("ball").wear_depth[-1]
-    assert np.argmax(wear) == np.argmax(depth)
-    for image in images:
-        low, high = image.get_clim()
-        assert low == -high
-    assert figure.axes[0].get_title(loc="left") == "three less one, t = 3600 s"
-    labels = [axes.child_axes[0].get_ylabel().split("\n")[0] for axes in figure.axes]
-    assert labels == ["Pressure, difference (MPa)", "Depth of ball, difference (µm)"]
-
-
-def test_the_largest_difference_has_its_sign(results):
-    turned = (
-        difference_map({n: results[n] for n in ("three", "one")}, "one", 3600.0).figure().axes[0]
-    )
-    pressure = turned.images[0].get_array().compressed()
-    lowest = pressure.min()
-    assert -lowest > pressure.max()
-    assert turned.child_axes[0].get_ylabel().endswith(f"largest {lowest:.4g}")
 
 
 def test_a_comparison_is_one_figure_of_all_that_is_worn(results):

@@ -1,12 +1,11 @@
-"""Pictures of several results, by label, at one time: over each other, and their differences.
+"""Pictures of several results, by label, at one time, over each other.
 
 Each raises CaseError if a result holds no save at that time, in s, or no such body.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -18,15 +17,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribo.core.arrays import Array, Mask
-from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.lab.scar import removed, scar_mask
 from tribo.lab.units import fitting, height_unit, size
 from tribo.plotting.figures import write_figures
-from tribo.plotting.maps import Scale, field_picture
-from tribo.plotting.picture import NothingToDraw, Picture, below_each_other
-from tribo.plotting.sections import MOST_CELLS, bodies_end, through_centre, varying
-from tribo.plotting.style import DIFFERENCES, SINGLE_COLUMN, WIDE, overlay_looks
+from tribo.plotting.picture import Picture
+from tribo.plotting.sections import bodies_end, through_centre, varying
+from tribo.plotting.style import SINGLE_COLUMN, WIDE, overlay_looks
 from tribo.result.read import Result
 
 Results = Mapping[str, Result]
@@ -88,55 +85,15 @@ def _surface(result: Result, time: float, name: str) -> tuple[Grid, Array, Mask]
     return grid, result.body(name).surface(result.save_at(time)) if name else field, marked
 
 
-def difference_map(results: Results, label: str, time: float) -> Picture:
-    """Draw the difference of a result from the first: pressure, and depth of stationary bodies.
-
-    `results` are by label; `label` is the result to draw, `time` a saved time of both, in s. Fields
-    that vary along one axis only are left out: `comparison_picture` shows them. CaseError if the
-    two have different grids, or `NothingToDraw` if they differ along one axis at most.
-    """
-    first_label, first = next(iter(results.items()))
-    result, grid = results[label], first.grid
-    if (grid.size, grid.cells) != (result.grid.size, result.grid.cells):
-        raise CaseError(
-            f"{label} and {first_label} have different grids, so that there is no map of their "
-            "difference"
-        )
-    bodies = [name for name in result.body_names if not result.body(name).swept]
-    pictures: list[Picture] = []
-    for name in ("", *bodies):
-        (_, other, below), (_, field, above) = (
-            _field(each, time, name) for each in (first, result)
-        )
-        apart, marked = np.asarray(field - other), above | below
-        if len(vary := varying([apart], marked)) < 2:
-            continue
-        most = float(np.percentile(np.abs(apart[marked]), MOST_CELLS))
-        scale = Scale.of(name, most)._replace(colours=DIFFERENCES, least=-most, most=most)
-        scale = scale._replace(what=f"{scale.what}, difference")
-        title = "" if pictures else f"{label} less {first_label}, t = {time:g} s"
-        pictures.append(field_picture(apart, marked, grid, scale, title, vary=vary))
-    if not pictures:
-        raise NothingToDraw(f"{label} and {first_label} differ along one axis at most")
-    return below_each_other(pictures)
-
-
 def save_overlays(
     results: Results, times: Sequence[float], folder: Path, suffix: str = "png"
 ) -> list[Path]:
     """Write the overlays of several results by label at `times` of all, in s; see `save_figures`.
 
-    The files are for each time T ``comparison_Ts``, and ``difference_N_Ts`` of the Nth result where
-    it is on the first one's grid and differs from it along both axes.
+    The file of a time T is ``comparison_Ts``.
     """
-    pictures: dict[str, Callable[[], Figure]] = {}
-    for time in times:
-        pictures[f"comparison_{time:g}s"] = partial(comparison_picture, results, time)
-        for number, label in enumerate(results, start=1):
-            with suppress(CaseError):
-                drawn = difference_map(results, label, time)
-                pictures[f"difference_{number}_{time:g}s"] = drawn.figure
-    return write_figures(pictures, folder, suffix)
+    named = {f"comparison_{t:g}s": partial(comparison_picture, results, t) for t in times}
+    return write_figures(named, folder, suffix)
 
 
 def _worn(results: Results, time: float) -> list[str]:
