@@ -100,3 +100,10 @@ class Expected(Table):
         if len({len(values) for values in levels.values()}) > 1:
             raise ValueError("lists of unequal length; give every path a value for each level")
         return levels
+
+    @field_validator("expect")
+    @classmethod
+    def _some(cls, expect: tuple[Expectation, ...]) -> tuple[Expectation, ...]:
+        if not expect:
+            raise ValueError("a case expects something: add [[expect]] with a quantity")
+        return expect

@@ -49,8 +49,11 @@ def called(name: str, cases: list[ValidationCase]) -> list[ValidationCase]:
     """Return the cases whose name begins so; CaseError if there is none."""
     chosen = [case for case in cases if case.name.startswith(name)]
     if not chosen:
-        meant = suggestion(did_you_mean(name, [case.name for case in cases]))
-        raise CaseError(f"{name}: there is no such file, folder or case{meant}")
+        names = [case.name for case in cases]
+        meant = suggestion(did_you_mean(name, names))
+        raise CaseError(
+            f"{name}: there is no such file, folder or case{meant} Cases: {', '.join(names)}"
+        )
     return chosen
 
 
