@@ -69,6 +69,15 @@ class Kept:
         assert self.ends is not None
         return self.ends[number + 1]
 
+    def reaches(self, values: Array, later: Array) -> bool:
+        """Whether a value reaches a limit or a break on its way to a later value, or leaves one."""
+        below = [(self.least, np.less_equal), *((each, np.less) for each in self.breaks)]
+        return any(
+            np.any(side(values, end) != side(later, end))
+            for end, side in (*below, (self.most, np.less))
+            if math.isfinite(end)
+        )
+
     def next(self, values: Array, rate: Array, slope: Field) -> tuple[Array, Numbers, Array]:
         """Return the break or limit that each value reaches next, its number, and when.
 

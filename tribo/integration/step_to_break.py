@@ -71,7 +71,9 @@ def stepped(
         coming = [
             (at, *each.next(states[at], found[at], slopes[at]))
             for at, each in enumerate(kept)
-            if each.ends is not None and len(pieces) < most
+            # A state that relaxes gets no further than by its rate at the beginning.
+            if len(pieces) < most
+            and each.reaches(states[at], states[at] + left[each.place] * found[at])
         ]
         for at, _, _, time in coming:
             place = kept[at].place
