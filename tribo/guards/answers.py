@@ -12,9 +12,6 @@ from types import MappingProxyType
 from tribo.component import Component
 from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, LOCAL_SLIP, Field
 
-SAME = 1e-6
-"""Relative difference of what a contract calls the same: a thousand times `ROUND_OFF`."""
-
 
 @dataclass(frozen=True)
 class Answer(Field):

@@ -11,9 +11,8 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.contact import WearCompliance
 from tribo.core.errors import BadValues, PluginError
 from tribo.core.grid import Grid
-from tribo.core.rounding import ROUND_OFF
+from tribo.core.rounding import ROUND_OFF, SAME
 from tribo.effects.effect import Effect
-from tribo.guards.answers import SAME
 from tribo.guards.guard import Guard
 from tribo.motion.cycle import Position, Speeds
 from tribo.motion.exposure import Exposure, Passing, Stationary, Track

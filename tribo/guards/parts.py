@@ -31,16 +31,17 @@ from tribo.core.fields import (
 )
 from tribo.core.grid import Grid
 from tribo.core.material import Material
+from tribo.core.rounding import SAME
 from tribo.core.state import Snapshot, key_of
 from tribo.effects.effect import Effect
-from tribo.guards.answers import SAME, initial, rate_of
+from tribo.guards.answers import initial, rate_of
 from tribo.guards.guard import Guard
 from tribo.surfaces.surface import Surface
 from tribo.wear.law import WearLaw
 
 NUDGE = 1e-6
 """Part of the largest pressure by which it is raised to find a slope that a law leaves out: the
-error is of this size, that of rounding 2e-10."""
+error is of this size, the rounding 2e-10."""
 
 
 class GuardedSurface(Guard[Surface]):

@@ -8,17 +8,12 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.core.rounding import ROUND_OFF
+from tribo.core.rounding import ROUND_OFF, SAME
 from tribo.motion.cycle import Position
 
 EVEN = 1e-3
 """Relative difference up to which speeds near a position count as one: a law linear in the speed is
 off by nothing, one of its square by 1e-6."""
-
-
-WHOLE = 1e-6
-"""Of a stroke: within it a stroke counts as an even whole number of cells, whose size in a file has
-seven digits."""
 
 
 @dataclass(frozen=True)
@@ -120,7 +115,7 @@ class Stroke:
     def _half(self) -> int:
         """Cells from mid-stroke to an end."""
         given = 0.5 * self.length / self.dx
-        is_whole = abs(given - round(given)) <= WHOLE * given
+        is_whole = abs(given - round(given)) <= SAME * given
         return max(1, round(given) if is_whole else int(np.ceil(given)))
 
     def _near(self, path: Array, weights: Array | float = 1.0) -> Array:
@@ -145,7 +140,7 @@ class Stroke:
 
     def check_cells(self, place: str) -> None:
         """Refuse a stroke that is under two cells; `place` names it."""
-        if self.length < 2 * self.dx * (1 - WHOLE):
+        if self.length < 2 * self.dx * (1 - SAME):
             raise CaseError(
                 f"{1e3 * self.length:.4g} mm is under two cells of {1e3 * self.dx:.4g} mm, too few "
                 "to resolve the cycle; make grid.cells larger along x, or the window smaller",

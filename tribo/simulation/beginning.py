@@ -14,6 +14,7 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.findings import begun_worn
 from tribo.core.grid import Grid
+from tribo.core.rounding import SAME
 from tribo.core.state import BodyState, State, key_of
 from tribo.model.model import Model
 from tribo.result.layout import BETWEEN, STATE, TRACK, TRACK_PLASTIC, TRACK_STATE
@@ -21,8 +22,6 @@ from tribo.result.read import Result
 from tribo.stepping.first_contact import first_contact, first_law_state
 
 PLACE = "begin.result"
-SAME = 1e-6
-"""Of the range of heights, within which two surfaces are the same."""
 
 
 def first_state(model: Model) -> State:

@@ -17,16 +17,15 @@ from tribo.core.arrays import Array, union
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import NumericalError
 from tribo.core.measures import Invariants
+from tribo.core.rounding import SAME
 from tribo.core.state import State
 from tribo.evolution.rates import CycleRates
 
 if TYPE_CHECKING:
     from tribo.model.model import Model
 
-LOAD = 1e-6
 CONDITIONS = 1e-2
 """Largest residual of the contact conditions: looser than any solver's tolerance."""
-VOLUME = 1e-6
 SMALL = 1e-9
 """Volume of a step over the volume worn so far, below which rounding dominates it."""
 ONE_LOAD = 1e-3
@@ -59,7 +58,7 @@ def wear_balance(
         mean = sum(place.share * float(np.sum(of[name].depth_rate)) for place, of in each)
         asked = increment * model.grid.cell_area * mean
         error = abs(exposure.volume(depth) - asked)
-        if not error <= VOLUME * asked:
+        if not error <= SAME * asked:
             asked = max(asked, SMALL * exposure.volume(before.bodies[name].wear))
         volumes.append(error / asked if asked != 0 else error)
         regrowths.append(0.0 - float(np.min(depth)))
@@ -98,11 +97,11 @@ def broken_by(state: State) -> str | None:
     complementarity = max(each.complementarity for each in contact)
     penetration = max(each.penetration for each in contact)
     limits = (
-        ("the load is missed by {:.3g} of it", force, LOAD, _SOLVER),
+        ("the load is missed by {:.3g} of it", force, SAME, _SOLVER),
         ("a gap is under pressure, by {:.3g}", complementarity, CONDITIONS, _SOLVER),
         ("bodies overlap out of contact, by {:.3g}", penetration, CONDITIONS, _SOLVER),
         ("a body grows back by {:.3g} m", step.regrowth, 0.0, _MOTION),
-        ("the wear volume is off its law's by {:.3g} of it", step.volume, VOLUME, _MOTION),
+        ("the wear volume is off its law's by {:.3g} of it", step.volume, SAME, _MOTION),
         ("the pressure chatters, by {:.3g} of the load", step.chattering, CHATTERING, _STEPS),
     )
     for words, value, most, remedy in limits:

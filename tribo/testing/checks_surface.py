@@ -10,7 +10,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.guards.answers import SAME
+from tribo.core.rounding import SAME
 from tribo.guards.parts import GuardedSurface
 from tribo.testing import samples
 from tribo.testing.checks import BODIES, Checks

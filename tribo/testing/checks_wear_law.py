@@ -11,7 +11,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.fields import WORN_DEPTH, LocalConditions, names_of
-from tribo.guards.answers import SAME
+from tribo.core.rounding import SAME
 from tribo.guards.parts import GuardedLaw
 from tribo.testing import samples
 from tribo.testing.checks import BODIES
