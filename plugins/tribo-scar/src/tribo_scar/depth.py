@@ -10,13 +10,10 @@ from tribo import Array, CaseError, Mask
 from tribo.kernel_api import nearest_filled
 
 from tribo_scar.registration import Registration, quadratic
-from tribo_scar.smoothing import smoothed
+from tribo_scar.smoothing import AROUND, smoothed
 
 BOTTOM = 0.8
 """Part of the largest depth above which a pixel belongs to the bottom of the scar."""
-AROUND = 4.0
-"""Width of the Gaussian for the deviation of depths beside a missing pixel, in pixels: of 2, 3, 4
-the one with which volumes of scars with holes held."""
 LEVEL = 10.0
 """Variance of the form of a bottom, relative to that by noise of a mean, below which it is flat; 5
 by noise alone."""

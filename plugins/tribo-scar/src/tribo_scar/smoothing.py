@@ -10,7 +10,8 @@ from tribo.kernel_api import interpolated
 BLUR = 2.0
 """Width of the Gaussian that maps are smoothed by, in pixels."""
 AROUND = 4.0
-"""Width of the Gaussian that weights what lies around a pixel, in pixels."""
+"""Width of the Gaussian that weights what lies around a pixel, in pixels: of 2, 3, 4 the one with
+which volumes of scars with holes held."""
 OUTLIER = 6.0
 """Mean deviations by which an outlier lies beyond its neighbours; without outliers 1 of 1.2 million
 pixels of `benchmarks/studies/scar_coverage.py` does, and 9 at 5."""
