@@ -28,7 +28,7 @@ FEW = 50
 """Stages of an estimate: a trial run under a load of 1000 lines takes 6 s of CPU, not 32."""
 FILES = (".csv", ".npy")
 USUAL = (1e-12, 1e6)
-"""Loads that are usual, in N."""
+"""Loads that are usual, in N: from the tip of an AFM to a press of 100 t."""
 PAUSE = "for a pause give frequency = 0 or speed = 0 in stages"
 NormalLoad = Annotated[float, Quantity("N", above=0, usual=USUAL)]
 ByPosition = tuple[float, ...]

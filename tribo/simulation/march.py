@@ -28,7 +28,9 @@ from tribo.stepping.invariants import hold
 from tribo.stepping.step import distance_until, start_sliding
 
 DEPTH_ACCURACY = 1e-6
+"""Relative excess of the depth at which a run ends: tables print it to four digits."""
 MOST_CUTS = 40
+"""Of a step: 40 halves leave 1e-12 of it."""
 
 
 @dataclass(frozen=True)

@@ -40,7 +40,9 @@ from tribo.wear.law import WearLaw
 WIDER = 1.5
 """Edges of the window to try, relative to the case's: the contact may outgrow its window."""
 LOOSE = Implicit(depth_tolerance=2e-2, pressure_tolerance=0.5, settle=0.1)
+"""Ten to twenty times the usual tolerances."""
 COARSE = 72
+"""Cells along the window of a trial run: a first contact of a ninth of it has `FEW_CELLS`."""
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from tribo.model.model import Model
 
 MOST_STEPS = 1e8
+"""At a millisecond a step, they take 28 hours."""
 PLACE = "stepping.time_step"
 
 

@@ -39,14 +39,18 @@ if TYPE_CHECKING:
     from tribo.model.model import Model
 
 FIRST = 0.05
+"""Part of the reference depth that the first step wears at most."""
 VOLUME = 5.0
 """Error of the volume that a step wears, in depth tolerances: a body ends with 0.1 to 0.4 % too
 little at the default."""
 LATE = 0.003
 """Depth of a step over the depth worn so far, below which its volume need not be as exact."""
 SAFETY = 0.9
+"""As usual for the control of steps: Hairer, Nørsett & Wanner (1993), section II.4."""
 SHRINK, GROW = 0.2, 2.5
+"""Least and largest change of a step's length, from the same section."""
 MAX_REJECTIONS = 40
+"""In a row: shortened by a tenth each time, a hundredth of the step is left."""
 AT_REST, FEW = 1e-9, 3
 """Sliding distance of a step over a rest, over the distance until the next stop; and the steps
 rejected in a row, while the load changes, after which such a step is tried."""

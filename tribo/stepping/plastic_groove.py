@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 # Each pass is one warm solve; a groove in a much softer body takes over a thousand.
 SETTLE_PASSES = 5000
 SETTLED = 1e-6
+"""Growth in a pass, over the depth, of a groove at rest: four digits are printed."""
 
 
 def yields(contacts: Sequence[ContactSolution]) -> bool:

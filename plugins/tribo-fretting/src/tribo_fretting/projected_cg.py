@@ -13,7 +13,7 @@ ON_RIM = 1e-12
 """Relative distance from the rim of its disc within which a traction is on it: some thousand units
 of rounding."""
 MOST = 500
-"""Iterations."""
+"""Iterations; a ball on 128² cells takes 43 at most, with two components of traction."""
 TOLERANCE = 1e-9
 """What the slip within the discs and along their rims must fall to, relative to δ: a millionth of
 the depth tolerance of a step."""

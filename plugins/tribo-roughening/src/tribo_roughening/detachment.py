@@ -12,7 +12,7 @@ from tribo import Archard, CaseError, Field, LocalConditions, Quantity, WearLaw,
 from tribo_roughening.resistance import resistance
 
 CELLS = 4
-"""Cells that a particle must have."""
+"""Cells that a particle must have, as many as a wave of a rough surface."""
 WORN = Field("worn", "m", "Depth worn so far, by which a point knows its particle.")
 
 

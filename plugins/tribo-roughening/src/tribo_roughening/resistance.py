@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from tribo import Array
 
 DRAWN = 1 << 16
-"""Resistances that are drawn; each particle has one of them."""
+"""Resistances that are drawn, whose spread is right to some 0.3 %; each particle has one of
+them."""
 # 2⁶⁴ over the golden ratio (Knuth), and two primes of xxHash64.
 _MIX = [np.uint64(f) for f in (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9)]
 

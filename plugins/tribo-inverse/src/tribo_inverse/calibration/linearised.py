@@ -20,6 +20,8 @@ orthogonal, up to which the data do not separate them: steps have no part in tha
 _STAY = 0.1
 """Weight of a move in that direction, relative to the effects of the parameters on the data."""
 _ITERATIONS, _CONVERGED, _RIDGE = 30, 1e-5, 1e-12
+"""Most steps of a fit to linearised data, the change of a logarithm that ends it (five digits), and
+a ridge that keeps quotients finite, far below the effect of a parameter."""
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,7 @@ from tribo_inverse.findings import unresolved
 MOST = 1000
 """Largest number of tests that is tried."""
 _RIDGE = 1e-12
+"""Relative to the information of one test, so that a singular one has an inverse."""
 
 
 @dataclass(frozen=True, eq=False)
