@@ -28,13 +28,11 @@ if TYPE_CHECKING:
 
 def effect_fields(model: Model, state: State) -> dict[str, dict[str, Array]]:
     """Return the fields of effects at `state`, by field and body, shape (nx, ny)."""
-    speeds = model.cycle[len(model.cycle) // 2].speeds
+    middle, speed = model.cycle.middle, state.speed
+    speeds = model.cycle[middle].speeds
     # None of an average's speeds belongs to the pressure shown.
-    here = speeds if len(model.cycle) > 1 else None
-    speed = state.speed
-    if here is not None and speed > 0:
-        speed = 1 / sum(share / v for v, share in here)
-    middle = len(model.cycle) // 2
+    if speeds is not None and len(model.cycle) > 1 and speed > 0:
+        speed = 1 / sum(share / v for v, share in speeds)
     moment = Moment(state.time, state.distance, speed)
     memory = under(model, remembered(model, state), middle)
     fields = local_fields(model, state.contact.pressure, moment, middle, memory)
