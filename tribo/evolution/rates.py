@@ -114,7 +114,9 @@ def _sliding(
 
     They are the mean over the speeds of the position. Laws are evaluated at all positions at once.
     """
-    speeds = [by_reach(place.speeds or [(moment.speed, 1.0)], place.reach) for place in model.cycle]
+    speeds = [
+        _by_reach(place.speeds or [(moment.speed, 1.0)], place.reach) for place in model.cycle
+    ]
     each = []
     for of_positions in zip_longest(*speeds):
         # A position with fewer speeds than others is evaluated again, with weight 0.
@@ -151,7 +153,7 @@ def _mean_rates(parts: Sequence[tuple[float | Array, float | Array, Rates]]) -> 
     return Rates(wear, between, friction)
 
 
-def by_reach(
+def _by_reach(
     speeds: Speeds, reach: Array | None
 ) -> list[tuple[float, float | Array, float | Array]]:
     """Return speeds, each with the weights of rates per metre and of changes in time there.
