@@ -74,8 +74,7 @@ def test_a_ball_held_at_its_approach_wears_to_the_limit_of_dimensionality_reduct
         # The load follows by steps: long ones press too far meanwhile, and wear the stick zone.
         stepping=Implicit(depth_tolerance=0.01, pressure_tolerance=1.0),
     )
-    with pytest.warns(match="resolution"):
-        result = case.run()
+    result = case.run()
     (*_, last), pressure = result.saves(), result.field("pressure", -1)
     stuck = (pressure > 0) & (result.field("local_slip", -1, "ball") == 0)
     assert last["approach_m"] == pytest.approx(APPROACH, rel=1e-6, abs=0)
