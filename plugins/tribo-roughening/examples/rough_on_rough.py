@@ -22,7 +22,14 @@ def rough_on_rough(sq, plate_wears, *, cells=32, particles=4, positions=9, layer
         "material": patch["material"],
         "wear": {**patch["wear"], "seed": 5} if plate_wears else None,
     }
-    data["kinematics"] |= {"track_length": size, "positions": positions}
+    # Over one window, which repeats: as sliding on without end, at 1 m/s.
+    data["kinematics"] = {
+        "type": "reciprocating",
+        "stroke": size,
+        "frequency": 0.5 / size,
+        "positions": positions,
+        "duration": data["kinematics"]["duration"],
+    }
     return data
 
 
