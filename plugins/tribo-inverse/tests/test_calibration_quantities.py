@@ -2,6 +2,7 @@
 
 import sys
 import tomllib
+from importlib.util import find_spec
 
 import pytest
 from calibrations import cheap
@@ -13,6 +14,10 @@ from tribo.registry.registry import default_registry
 
 from tribo_inverse.calibration.calibrate import calibrate
 
+with_models = pytest.mark.skipif(
+    not (find_spec("tribo_energy") and find_spec("tribo_thermal")),
+    reason="takes quantities of tribo-energy and tribo-thermal",
+)
 ENERGY = {
     "friction.coefficient": 0.1,
     "effects": ["energy.friction_traction"],
@@ -44,6 +49,7 @@ def tribo_quantities():
 """
 
 
+@with_models
 def test_the_volume_for_each_joule_gives_a_coefficient_and_its_interval():
     case = apply_settings(cheap(100), ENERGY)
     found = calibrate(case, {"measured": [MEASURED], "fit": [{"path": ALPHA}]})
@@ -77,6 +83,7 @@ def test_a_file_of_the_command_line_gives_a_quantity_and_an_observer_that_ends_r
     assert 6.3e-18 < fitted["bodies"]["ball"]["wear"]["k"] < 12.44e-18
 
 
+@with_models
 @pytest.mark.parametrize(
     ("changes", "place", "words"),
     [
@@ -93,6 +100,7 @@ def test_an_entry_that_does_not_fit_its_quantity_is_refused(changes, place, word
     assert str(caught.value).startswith(f"measured{place}: ")
 
 
+@with_models
 def test_a_quantity_that_a_case_lacks_is_refused_by_its_place():
     with pytest.raises(CaseError, match=r"measured\.1: .* no worn_volume_per_energy"):
         calibrate(cheap(1), {"measured": [MEASURED], "fit": [{"path": K}]})

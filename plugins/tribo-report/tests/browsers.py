@@ -10,7 +10,9 @@ import urllib.request
 from contextlib import ExitStack, contextmanager
 from itertools import count
 
-import websocket
+import pytest
+
+websocket = pytest.importorskip("websocket")
 
 QUIET = (
     "--headless",
