@@ -143,7 +143,6 @@ from tribo.study.runs import file_names as file_names
 from tribo.study.side_by_side import comparison_table as comparison_table
 from tribo.study.sweeping.summary import cell as cell
 from tribo.study.sweeping.summary import column_heading as column_heading
-from tribo.study.sweeping.summary import curves_by as curves_by
 from tribo.study.sweeping.summary import is_text as is_text
 from tribo.study.sweeping.summary import labelled as labelled
 from tribo.study.sweeping.summary import sweep_pictures as sweep_pictures

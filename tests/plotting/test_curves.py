@@ -10,7 +10,7 @@ from tribo.lab.kept import KeptField, kept_fields
 from tribo.plotting.curves import sweep_curves
 from tribo.plotting.history import history
 from tribo.plotting.profiles import field_map
-from tribo.study.sweeping.summary import curves_by, sweep_pictures
+from tribo.study.sweeping.summary import sweep_pictures
 
 
 def test_runs_of_a_sweep_are_curves_in_the_order_of_what_varies():
@@ -38,16 +38,13 @@ def test_runs_of_a_sweep_are_curves_in_the_order_of_what_varies():
         sweep_curves(runs[2:3], "load_N", "max_pressure_Pa")
 
 
-def test_no_line_joins_the_runs_of_a_sample():
-    runs = pd.DataFrame({"status": "done", "load_N": [20.0, 40.0, 60.0], "k": [1.0, 3.0, 2.0]})
-    assert curves_by(runs, ["k"]) == ([], False)
-    assert curves_by(runs.assign(k=1.0), ["k"]) == ([], True)
-    (draw,) = sweep_pictures(runs, ["load_N", "k"], ["load_N"]).values()
-    # What varies has a panel each.
-    for axes, name in zip(draw().axes, ("load_N", "k"), strict=True):
-        (line,) = axes.lines
-        assert line.get_linestyle() == "None"
-        np.testing.assert_allclose(line.get_xdata(), runs[name])
+def test_the_number_that_varies_most_is_the_axis_and_the_rest_makes_curves():
+    runs = pd.DataFrame({"status": "done", "law": ["a", "b"] * 3, "k": [1, 1, 2, 2, 3, 3]})
+    (draw,) = sweep_pictures(runs.assign(load_N=20.0), ["law", "load_N", "k"], ["k"]).values()
+    (axes,) = draw().axes
+    assert axes.get_xlabel() == "k"
+    for line in axes.lines:
+        np.testing.assert_allclose(line.get_xdata(), [1, 2, 3])
 
 
 def test_a_field_of_the_models_is_drawn_from_above_and_over_time():

@@ -59,30 +59,18 @@ def sweep_pictures(
 ) -> dict[str, Callable[[], Figure]]:
     """Return how to draw each measure over the number that varies most; none if no number does.
 
-    Where the runs do not part into curves it is drawn over every number that varies.
+    What else varies parts the runs into curves.
     """
     from tribo.plotting.curves import sweep_curves
 
     done = runs[runs["status"] == "done"]
-    numbers = [name for name in varied if pd.api.types.is_numeric_dtype(done[name])]
-    numbers = [name for name in numbers if done[name].nunique() > 1]
+    counts = {name: done[name].nunique() for name in varied if done[name].nunique() > 1}
+    numbers = [name for name in counts if not is_text(done, name)]
     if not numbers:
         return {}
-    most = max(numbers, key=lambda name: done[name].nunique())
-    by, joined = curves_by(done, [name for name in varied if name != most])
-    x = [most] if joined else numbers
-    return {name: partial(sweep_curves, done, x, name, by, joined) for name in measures}
-
-
-def curves_by(done: pd.DataFrame, others: Sequence[str]) -> tuple[list[str], bool]:
-    """Return the columns that part runs into curves, and whether a line joins runs of a curve.
-
-    None part them where that made curves of single runs.
-    """
-    names = [name for name in others if done[name].nunique() > 1]
-    count = done.groupby(names).ngroups if names else 1
-    joined = count <= len(done) // 2
-    return names if joined else [], joined
+    x = max(numbers, key=lambda name: counts[name])
+    by = [name for name in counts if name != x]
+    return {name: partial(sweep_curves, done, x, name, by) for name in measures}
 
 
 def varied_paths(runs: pd.DataFrame) -> Sequence[str]:

@@ -15,7 +15,6 @@ from tribo.kernel_api import (
     TableRow,
     cell,
     column_heading,
-    curves_by,
     is_text,
     labelled,
     sweep_pictures,
@@ -126,9 +125,7 @@ def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[
     axes = []
     for across in varied:
         words, _, factor = labelled(across, done)
-        groups, apart = _groups(
-            done.sort_values(across), [name for name in varied if name != across]
-        )
+        groups = _groups(done.sort_values(across), [name for name in varied if name != across])
         text = is_text(done, across)
         low, high = (0.0, 0.0) if text else (done[across].min(), done[across].max())
         panels = []
@@ -139,7 +136,6 @@ def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[
                     "name": called,
                     "x": list(rows[across]) if text else each_plain(rows[across] / factor),
                     "y": each_plain(rows[name] / size),
-                    "apart": apart,
                 }
                 for called, rows in groups.items()
             ]
@@ -151,11 +147,10 @@ def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[
     return {"axes": axes}
 
 
-def _groups(runs: pd.DataFrame, others: list[str]) -> tuple[dict[str, pd.DataFrame], bool]:
-    """Return the runs of each curve by name, and whether their marks stand apart."""
-    names, joined = curves_by(runs, others)
-    parts = {
+def _groups(runs: pd.DataFrame, others: list[str]) -> dict[str, pd.DataFrame]:
+    """Return the runs of each curve by name."""
+    names = [name for name in others if runs[name].nunique() > 1]
+    return {
         ", ".join(f"{_words(n, runs)} {_with_unit(n, runs, rows.index[0])}" for n in names): rows
         for _, rows in (runs.groupby(names, sort=True) if names else [("", runs)])
     }
-    return parts, not joined

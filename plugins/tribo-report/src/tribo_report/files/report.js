@@ -16,7 +16,6 @@ const LINES = [
   { color: "#6b6b6b", dash: "longdashdot" },
 ];
 /** Seen where they coincide. */
-const MARKS = ["circle", "square-open", "diamond-open", "x-open", "triangle-up-open", "cross-open"];
 const FONT = { family: "system-ui, sans-serif", size: 13, color: "#1b1f24" };
 const CONFIG = { displayModeBar: false, responsive: true, displaylogo: false };
 const AXIS = { showline: true, ticks: "outside", zeroline: false, linecolor: "#4d5660", gridcolor: "#e3e7ea", automargin: true, exponentformat: "power" };
@@ -130,9 +129,9 @@ function drawMap(plot, map, peers, save, moment, fixed) {
 }
 
 /** Return curves, each with a look that differs in grey too; the first show beneath those that coincide. */
-const lines = (curves, dotted = false) => curves.map(({ name, x, y, apart }, i) => ({
-  type: "scatter", x, y, name: wrapped(name, 60), line: { ...LINES[i % LINES.length], ...(dotted ? { dash: "dot", width: 1 } : { width: 2 + 1.5 * Math.min(curves.length - 1 - i, 3) }) }, marker: apart ? { size: 10, symbol: MARKS[i % MARKS.length] } : { size: 6 },
-  mode: apart ? "markers" : x.length > 30 && !dotted ? "lines" : "lines+markers",
+const lines = (curves, dotted = false) => curves.map(({ name, x, y }, i) => ({
+  type: "scatter", x, y, name: wrapped(name, 60), line: { ...LINES[i % LINES.length], ...(dotted ? { dash: "dot", width: 1 } : { width: 2 + 1.5 * Math.min(curves.length - 1 - i, 3) }) }, marker: { size: 6 },
+  mode: x.length > 30 && !dotted ? "lines" : "lines+markers",
 }));
 
 function drawSection(plot, section, save, moment, fixed) {
