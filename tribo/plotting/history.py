@@ -9,7 +9,6 @@ from functools import partial
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 
 from tribo.core.arrays import Array
 from tribo.core.rounding import ROUND_OFF
@@ -28,38 +27,20 @@ LARGEST: Look = {**UNDER, "color": "#e69f00"}
 AT_SAVES: Look = {"linestyle": ":", "linewidth": 0.8, "clip_on": False}
 """Joins values that are known at the saves only."""
 WAYS = {"along": "x", "across": "y"}
-_DECADE = 10.0
-"""Ratio above which values are drawn on a logarithmic scale: a tenth of the height is still
-seen."""
 
 Curves = Mapping[str, tuple[Array, Array]]
 """Times and values, in SI units, by label."""
 
 
-def _from_zero(axes: Axes, _: Array) -> None:
+def _from_zero(axes: Axes) -> None:
     axes.set_ylim(bottom=0.0)
     axes.yaxis.set_major_locator(ticks(6))
     axes.ticklabel_format(axis="y", useMathText=True)
 
 
-def _as_it_varies(axes: Axes, _: Array) -> None:
+def _as_it_varies(axes: Axes) -> None:
     """Leave the scale to matplotlib: a temperature varies far from zero, a rate may be negative."""
     axes.yaxis.set_major_locator(ticks(6))
-
-
-def _fit_scale(axes: Axes, values: Array) -> None:
-    """Take a logarithmic scale where values span more than a decade, else one from zero."""
-    values = values[values > 0]
-    span = float(np.max(values) / np.min(values)) if values.size else 1.0
-    if span <= _DECADE:
-        _from_zero(axes, values)
-        return
-    axes.set_yscale("log")
-    axes.yaxis.set_major_locator(
-        LogLocator(subs=(1.0, 2.0, 5.0) if span < _DECADE**2.5 else (1.0,))
-    )
-    axes.yaxis.set_major_formatter(ScalarFormatter())
-    axes.yaxis.set_minor_formatter(NullFormatter())
 
 
 @dataclass(frozen=True)
@@ -70,7 +51,7 @@ class TimePanel:
     unit: str
     curves: Curves
     looks: Sequence[Look] = (UNDER, OVER)
-    scale: Callable[[Axes, Array], None] = _fit_scale
+    scale: Callable[[Axes], None] = _from_zero
     off: Mapping[str, float] | None = None
     title: str = ""
 
@@ -90,7 +71,7 @@ class TimePanel:
         axes.set_xlim(left=0.0)
         if len(self.curves) > 1 or next(iter(self.curves)):
             axes.legend(loc="best")
-        self.scale(axes, every)
+        self.scale(axes)
         if top:
             _distance_axis(axes, result, size(time))
         axes.set_title(self.title, loc="right", fontsize="small")
@@ -141,10 +122,7 @@ def _wear(result: Result) -> list[TimePanel]:
     densities = {name: result.body(name).density for name in worn}
     masses = {name: (time, 1e6 * d * worn[name][1]) for name, d in densities.items() if d}
     panels = [("Volume worn", "m^3", worn), *([("Mass worn", "mg", masses)] if masses else [])]
-    return [
-        TimePanel(*panel, [{**looks[name], **marks} for name in panel[2]], _from_zero)
-        for panel in panels
-    ]
+    return [TimePanel(*panel, [{**looks[name], **marks} for name in panel[2]]) for panel in panels]
 
 
 def _contact(result: Result) -> list[TimePanel]:
@@ -171,8 +149,8 @@ def _friction(result: Result) -> list[TimePanel]:
     if len(force) < 2 or not np.isfinite(force).all() or steady(force):
         return []
     return [
-        _columns(table, "Friction force", "N", {"": "friction_force_N"}, looks, _from_zero),
-        _columns(table, "Work of friction", "J", {"": "friction_energy_J"}, looks, _from_zero),
+        _columns(table, "Friction force", "N", {"": "friction_force_N"}, looks),
+        _columns(table, "Work of friction", "J", {"": "friction_energy_J"}, looks),
     ]
 
 
@@ -200,7 +178,7 @@ def _columns(
     unit: str,
     names: Mapping[str, str],
     looks: Sequence[Look] = (UNDER, OVER),
-    scale: Callable[[Axes, Array], None] = _fit_scale,
+    scale: Callable[[Axes], None] = _from_zero,
     factor: float = 1.0,
 ) -> TimePanel:
     curves = {label: (table["time_s"], factor * table[name]) for label, name in names.items()}
