@@ -11,7 +11,7 @@ import scipy.ndimage as ndimage
 from numpy.typing import NDArray
 
 from tribo.core.arrays import Array, Mask
-from tribo.core.errors import CaseError, warn
+from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.number_tables import table_of_numbers
 from tribo.core.rounding import ROUND_OFF
@@ -131,13 +131,6 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
         else:
             found = _by_plugin(path)
             heights, pitch = found.heights, pitch or found.pitch
-            if not np.allclose(pitch, found.pitch, rtol=1e-3, atol=0):
-                own, given = (
-                    " × ".join(f"{1e6 * p:.4g}" for p in each) for each in (found.pitch, pitch)
-                )
-                warn(
-                    f"{path} states a pitch of {own} µm; that given, {given} µm, is taken",
-                )
     except ValueError as error:
         raise CaseError(str(error)) from None
     try:

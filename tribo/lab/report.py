@@ -194,13 +194,7 @@ def _body(result: Result, name: str) -> BodyReport:
     body, save = result.body(name), result.saves()[-1]
     volume, distance = save["bodies"][name]["wear_volume_m3"], save["distance_m"]
     marks = scar(body.wear_depth[-1], result.grid)
-    rate = None
-    if distance > 0:
-        carried = save["load_distance_N_m"]
-        if isnan(carried):
-            # Older files lack it; their load was constant.
-            carried = result.system.load * distance
-        rate = 1e9 * volume / carried
+    rate = 1e9 * volume / save["load_distance_N_m"] if distance > 0 else None
     return BodyReport(
         specific_wear_rate_mm3_per_Nm=rate,
         mass_kg=None if body.density is None else volume * body.density,
