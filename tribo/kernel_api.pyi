@@ -117,8 +117,6 @@ from tribo.plotting.overlays import comparison_picture as comparison_picture
 from tribo.plotting.picture import Picture as Picture
 from tribo.plotting.picture import below_each_other as below_each_other
 from tribo.plotting.sections import limits as limits
-from tribo.plotting.style import DIFFERENCES as DIFFERENCES
-from tribo.plotting.style import SIGNIFICANT as SIGNIFICANT
 from tribo.plotting.style import SINGLE_COLUMN as SINGLE_COLUMN
 from tribo.plotting.style import Look as Look
 from tribo.plotting.style import house_style as house_style

@@ -48,11 +48,6 @@ PRESSURES = "viridis"
 """Colours of pressures: higher is lighter."""
 DEPTHS = "Blues"
 """Colours of depths: deeper is darker."""
-SIGNIFICANT = 3.0
-"""Residual, in standard deviations, that is outlined where its sign should be seen in grey too; and
-the least range of a colour scale of residuals."""
-DIFFERENCES = "PuOr"
-"""Colours of differences: white is none, and both ends are dark."""
 
 # Matplotlib keeps its settings in one place for all threads.
 _lock = threading.RLock()

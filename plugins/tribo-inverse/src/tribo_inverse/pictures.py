@@ -7,12 +7,17 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.figure import Figure
 from tribo import Array
-from tribo.kernel_api import DIFFERENCES, SIGNIFICANT, house_style, new_figure
+from tribo.kernel_api import house_style, new_figure
 
 from tribo_inverse.calibration.maps import LocalMap
 
 DOUBLE = 140.0
 """Width of a picture with two panels, in mm."""
+SIGNIFICANT = 3.0
+"""Residual, in standard deviations, that is outlined where its sign should be seen in grey too; and
+the least range of a colour scale of residuals."""
+DIFFERENCES = "PuOr"
+"""Colours of differences: white is none, and both ends are dark."""
 Range = tuple[float | None, float | None]
 
 
