@@ -1,6 +1,5 @@
 """Standard streams that cannot be written to, or lack signs."""
 
-import io
 import os
 import subprocess
 import sys
@@ -10,7 +9,6 @@ import pytest
 from made_results import written
 
 from tribo import Result
-from tribo.cli.streams import over
 from tribo.templates import template
 
 QUICK = ["--set", "grid.cells=24", "--set", "kinematics.duration=20"]
@@ -101,17 +99,6 @@ def test_an_error_is_not_put_on_standard_output_where_standard_error_is_closed(f
     closed = ["sh", "-c", 'exec "$@" 2>&-', "sh", sys.executable, "-m", "tribo", "show", "none.h5"]
     done = subprocess.run(closed, cwd=folder, stdout=subprocess.PIPE, timeout=300)
     assert (done.returncode, done.stdout) == (2, b"")
-
-
-def test_what_is_not_buffered_stays_so():
-    read, write = os.pipe()
-    with (
-        open(read, "rb", 0) as reader,
-        io.TextIOWrapper(io.FileIO(write, "w"), write_through=True) as plain,
-        over(plain, 1) as out,
-    ):
-        print("now", file=out)
-        assert reader.read(4) == b"now\n"
 
 
 @pytest.mark.slow

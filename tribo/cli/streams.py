@@ -80,13 +80,10 @@ def over(stream: TextIO | None, number: int) -> TextIO:
     if not isinstance(stream, io.TextIOWrapper) or (sys.platform == "win32" and stream.isatty()):
         # A console of Windows takes text, not bytes.
         return stream
-    # `python -u` asks for no buffer.
-    size = 1 if stream.write_through else io.DEFAULT_BUFFER_SIZE
     return io.TextIOWrapper(
-        io.BufferedWriter(GuardedStream(number, "w", closefd=False), size),
+        io.BufferedWriter(GuardedStream(number, "w", closefd=False)),
         encoding=stream.encoding,
         errors="backslashreplace",
-        # A single byte stays in a buffer of one.
+        # `python -u` asks for no buffer, and gets a line at a time.
         line_buffering=stream.line_buffering or stream.write_through,
-        write_through=stream.write_through,
     )
