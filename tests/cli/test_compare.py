@@ -86,7 +86,6 @@ def test_json_is_one_object_and_files_compare_alike(folder, compared):
         (["my.toml"], [], "--vary contact.type=dcfft,winkler"),
         (["my.toml", "b.h5"], CONTACTS, "--vary varies one case, 2 files are given"),
         (["a.h5", "b.h5"], ["--force"], "--set and --force are for a case that varies"),
-        (["a.h5", "b.h5"], [], "a.h5 is not a file"),
         (["a.h5", "b.h5"], ["--at", "1 mm"], "--at: '1 mm' is a length [m]; a time [s] is needed"),
     ],
 )
@@ -109,17 +108,6 @@ def made(tmp_path_factory):
     with edited(files["killed"]) as file:
         del file.attrs["wall_time_s"]
     return files
-
-
-def test_a_damaged_file_is_named_before_anything_is_shown(made, tmp_path):
-    damaged = tmp_path / "damaged.h5"
-    data = bytearray(made["[m]"].read_bytes())
-    data[len(data) // 2] ^= 1
-    damaged.write_bytes(data)
-    done = CliRunner().invoke(tribo, ["compare", str(made["[m]"]), str(damaged)])
-    assert isinstance(done.exception, CaseError)
-    assert "damaged.h5 is damaged" in str(done.exception)
-    assert done.stdout == ""
 
 
 def test_the_time_of_a_run_that_was_killed_is_not_known(made):

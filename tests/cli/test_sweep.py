@@ -55,12 +55,3 @@ def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path, monkeypatch):
     told = "error: 1 of 2 runs failed; --retry runs them again:\n  run 2 (grid.size=0.2 mm): "
     assert told in err
     assert "Traceback" not in err
-
-
-def test_bad_input_is_one_message(tmp_path):
-    sweeps.case(tmp_path)
-    for options, words in (([*LOADS, "--jobs", 0], "0 is not in the range x>=1"), ([], "--vary")):
-        code, out, err = tribo("sweep", "my.toml", *options, cwd=tmp_path)
-        assert (code, out) == (2, "")
-        assert words in err
-    assert {path.name for path in tmp_path.iterdir()} == {"my.toml"}
