@@ -83,7 +83,6 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
             f"{FEWEST_CELLS} or more are needed along x and y",
             "grid.cells",
         )
-
     explicit = isinstance(stepping, Explicit)
 
     def run(cells: tuple[int, int], factor: float = 1.0) -> Level:

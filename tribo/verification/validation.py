@@ -135,9 +135,7 @@ class ValidationCase:
         try:
             with warnings.catch_warnings(), chdir(self.folder):
                 warnings.simplefilter("ignore")
-                levels = [
-                    self._found({**settings, **level}) for level in _each(self.expected.levels)
-                ]
+                levels = [self._found({**settings, **at}) for at in _each(self.expected.levels)]
             return [
                 self._judged(row, solver, [level[i] for level in levels])
                 for i, row in enumerate(wanted)

@@ -18,7 +18,6 @@ def found() -> dict[str, float]:
             motion = tribo.Rotating(speed=0.1, track_radius=radii * radius, revolutions=revolutions)
             case = pin_on_flat(pin, law, grid=GRID, load=LOAD, contact=contact, kinematics=motion)
             with case.run() as result:
-                worn = float(result.wear_volume[-1, 0])
-                path = K * LOAD * float(result.distances[-1])
-            volumes[f"{pressure}, R/a = {radii:g}"] = worn / path - 1
+                worn = float(result.wear_volume[-1, 0] / (K * LOAD * result.distances[-1]))
+            volumes[f"{pressure}, R/a = {radii:g}"] = worn - 1
     return volumes
