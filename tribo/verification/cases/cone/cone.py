@@ -3,7 +3,7 @@
 import numpy as np
 
 import tribo
-from tribo.verification.pins import pin_on_flat
+from tribo.verification.cases.pins import pin_on_flat
 
 
 class Cone(tribo.Surface):

@@ -6,7 +6,7 @@ import tribo
 from tribo.core.state import State
 from tribo.simulation.assembly import assemble
 from tribo.stepping.first_contact import first_contact
-from tribo.verification.pins import disc, pin_on_flat
+from tribo.verification.cases.pins import disc, pin_on_flat
 
 RADIUS, LOAD, K, MODULUS = 0.3e-3, 100.0, 3.11e-16, 113.736e9
 # Short enough a step to tell the modes apart, and enough steps to be rid of the second.

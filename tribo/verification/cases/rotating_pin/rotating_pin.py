@@ -1,7 +1,7 @@
 """A round flat pin on a turning disk: what its points slide of a straight track."""
 
 import tribo
-from tribo.verification.pins import disc, pin_on_flat
+from tribo.verification.cases.pins import disc, pin_on_flat
 
 K, LOAD = 3e-16, 100.0
 GRID = tribo.Grid(1.1e-3, 48)

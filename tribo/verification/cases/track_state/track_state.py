@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 import tribo
-from tribo.verification.pins import pin_on_flat
+from tribo.verification.cases.pins import pin_on_flat
 
 
 class Film(tribo.Effect):
