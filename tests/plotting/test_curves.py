@@ -39,10 +39,11 @@ def test_runs_of_a_sweep_are_curves_in_the_order_of_what_varies():
 
 
 def test_the_number_that_varies_most_is_the_axis_and_the_rest_makes_curves():
-    runs = pd.DataFrame({"status": "done", "law": ["a", "b"] * 3, "k": [1, 1, 2, 2, 3, 3]})
-    (draw,) = sweep_pictures(runs.assign(load_N=20.0), ["law", "load_N", "k"], ["k"]).values()
+    runs = pd.DataFrame({"status": "done", "load_N": [20.0, 40.0] * 3, "k": [1, 1, 2, 2, 3, 3]})
+    (draw,) = sweep_pictures(runs, ["load_N", "k"], ["k"]).values()
     (axes,) = draw().axes
     assert axes.get_xlabel() == "k"
+    assert len(axes.lines) == 2
     for line in axes.lines:
         np.testing.assert_allclose(line.get_xdata(), [1, 2, 3])
 
