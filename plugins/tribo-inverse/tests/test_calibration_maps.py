@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -33,7 +32,6 @@ CASE = apply_settings(
     {"grid.cells": 16, "stepping.depth_tolerance": 0.1, "bodies.disk.wear.k": 9e-15},
 )
 NOISE, PIXEL = 10e-9, 1e-3 / 640
-DATA = Path(__file__).parents[3] / "docs" / "_data"
 
 
 def worn(factor):
@@ -261,16 +259,3 @@ def test_wrong_maps_are_told(data, words):
     with pytest.raises(CaseError) as caught:
         read_measurements(data)
     assert str(caught.value).startswith(words)
-
-
-def test_the_hidden_spot_is_found_and_intervals_cover():
-    """As `benchmarks/studies/hidden_spot.py` wrote it, in the time of fewer than 200 runs."""
-    spot, shares = (
-        json.loads((DATA / name).read_text()) for name in ("hidden_spot.json", "map_coverage.json")
-    )
-    assert spot["cells"] == 256
-    assert spot["time_in_runs"] < 200
-    assert [spot["in_spot"][0], spot["rest"][0]] == pytest.approx([1, 1], abs=0.05)
-    assert spot["both"] == spot["spot_cells"][0]
-    for share in (spot["covered"], shares["deep"]):
-        assert 0.93 <= share <= 0.97

@@ -25,8 +25,6 @@ REFUSED = {
     "Volume.* is no objective; give a Volume": ({}, Volume),
     "(?i)none.* is no objective; give a Volume": ({}, {}),
     "has the time '20 s', which is no number": ({}, {"20 s": Volume("ball")}),
-    "has the time None, which is no number": ({}, {None: Volume("ball")}),
-    "has the time True, which is no number": ({}, {True: Volume("ball")}),
     "has the time nan, which is no number": ({}, {NAN: Volume("ball")}),
     "nothing is saved at 3 s": ({}, {3.0: Volume("ball")}),
     r"a depth ends the run at 6\.\d+ s, before the time 15 s": (ENDS, {15.0: Volume("ball")}),
