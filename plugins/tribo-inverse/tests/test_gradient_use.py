@@ -5,7 +5,7 @@ import tracemalloc
 
 import numpy as np
 import pytest
-from gradients import BASE, CLOSE, FINE, HARD, Kind, layered, resolved, run
+from gradients import FINE, HARD, layered, resolved, run
 from paper_models import K, archard, motion, pair
 from tribo import Finding, Observer
 from tribo.case import Layer, Stop
@@ -32,7 +32,6 @@ from tribo_inverse.adjoint.objective import (
 )
 from tribo_inverse.adjoint.sensitivity import sensitivity
 from tribo_inverse.adjoint.unknowns import value_and_gradient
-from tribo_inverse.recording import tape
 
 NAN, INF = np.nan, np.inf
 
@@ -276,11 +275,6 @@ def test_a_depth_that_jumps_past_its_limit_is_refused(monkeypatch):
         gradient(run(stop=Stop(depth="0.2 um")), Volume("ball"), [])
 
 
-def test_a_tape_goes_to_disk_and_reads_the_same(monkeypatch):
-    monkeypatch.setattr(tape, "IN_MEMORY", 1)
-    assert Kind(run(contact=Winkler()), Depth("ball"), BASE, 1e-5).off() < CLOSE
-
-
 def peak(steps):
     times = tuple(20 * (step + 1) / steps for step in range(steps))
     long = run(grid=Grid(("0.5 mm", "0.5 mm"), (48, 48)), contact=Winkler(), save_times=times)
@@ -292,8 +286,7 @@ def peak(steps):
 
 
 @pytest.mark.slow
-def test_memory_does_not_grow_with_the_steps_of_a_run(monkeypatch):
-    monkeypatch.setattr(tape, "IN_MEMORY", 1)
+def test_memory_does_not_grow_with_the_steps_of_a_run():
     few, many = (min(peak(steps) for _ in range(2)) for steps in (10, 50))
     # 40 saved times take 90 kB in all variants of the case; with their pressures it is 170 kB.
     assert many - few < 130e3

@@ -6,7 +6,7 @@ import pickle
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
-from tempfile import SpooledTemporaryFile
+from tempfile import TemporaryFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,9 +22,6 @@ from tribo.kernel_api import (
     march,
     union,
 )
-
-IN_MEMORY = 1 << 24
-"""Bytes of a tape that are kept in memory; a longer one goes to a temporary file."""
 
 
 @dataclass(frozen=True)
@@ -91,12 +88,12 @@ Record = Pressed | Gave | Enveloped | Saved
 class Tape:
     """The records of a run in their order, which are read backwards.
 
-    Beyond 16 MiB they lie in a temporary file, so that the memory does not grow with the run.
+    They lie in a temporary file, so that the memory does not grow with the run.
     `touched` is the region that holds all contacts, None before the first.
     """
 
     def __init__(self) -> None:
-        self._file = SpooledTemporaryFile(IN_MEMORY)  # noqa: SIM115
+        self._file = TemporaryFile()  # noqa: SIM115
         self._ends = [0]
         self.touched: Region | None = None
 
