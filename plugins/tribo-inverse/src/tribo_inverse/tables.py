@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from tribo_inverse.calibration.choice import Choice
     from tribo_inverse.calibration.plan import Plan
 
-FAR = 10.0
-"""Ratio of an interval's end to the value above which no percentage is printed."""
 LONGEST_NAME = 30
 """Characters of a name that fit in a table of 80 columns."""
 PER_NM = "mm³/(N·m)"
@@ -188,7 +186,5 @@ def _interval(row: Any, low: str, high: str) -> tuple[str, str]:
         return "not fitted", ""
     if math.isinf(row.upper):
         return f"{low} to open" if row.lower else "open", ""
-    if row.upper > FAR * row.value:
-        return f"{low} to {high}", ""
     below, above = percent(1 - row.lower / row.value), percent(row.upper / row.value - 1)
     return f"{low} to {high}", f"±{above} %" if below == above else f"−{below} +{above} %"

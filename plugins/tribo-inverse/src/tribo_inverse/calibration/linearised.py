@@ -19,9 +19,11 @@ COLLINEAR = 0.01
 orthogonal, up to which the data do not separate them: steps have no part in that direction."""
 _STAY = 0.1
 """Weight of a move in that direction, relative to the effects of the parameters on the data."""
-_ITERATIONS, _CONVERGED, _RIDGE = 30, 1e-5, 1e-12
-"""Most steps of a fit to linearised data, the change of a logarithm that ends it (five digits), and
-a ridge that keeps quotients finite, far below the effect of a parameter."""
+_ITERATIONS, _CONVERGED = 30, 1e-5
+"""Most steps of a fit to linearised data, and the change of a logarithm that ends it: five
+digits."""
+RIDGE = 1e-12
+"""Relative size, about rounding, of what keeps a singular information invertible."""
 
 
 @dataclass(frozen=True)
@@ -242,7 +244,7 @@ class Linearised:
             left, sizes, _ = np.linalg.svd(here.jacobian(point)[:, free], full_matrices=False)
             # By how much a Gauss-Newton step would lower χ².
             fall = np.sum(np.sum(left * here.residuals(point)[:, None], axis=0) ** 2)
-            log_information = 2 * np.sum(np.log(sizes + _RIDGE))
+            log_information = 2 * np.sum(np.log(sizes + RIDGE))
             return float(here.deviance(point) - fall + log_information)
 
         found = minimize_scalar(
@@ -256,7 +258,7 @@ class Linearised:
 
 def normalised(jacobian: Array) -> tuple[Array, Array, Array]:
     """Return the norms of columns, and singular values and directions of the scaled columns."""
-    size = np.sqrt(np.sum(jacobian**2, axis=0)) + _RIDGE
+    size = np.sqrt(np.sum(jacobian**2, axis=0)) + RIDGE
     _, values, directions = np.linalg.svd(jacobian / size, full_matrices=False)
     return size, values, directions
 
@@ -264,4 +266,4 @@ def normalised(jacobian: Array) -> tuple[Array, Array, Array]:
 def root_covariance(jacobian: Array) -> Array:
     """Return a root B of the covariance (JᵀJ)⁻¹ = B Bᵀ, shape (p, p); finite for a singular J."""
     size, values, directions = normalised(jacobian)
-    return np.asarray(directions.T / np.sqrt(values**2 + _RIDGE) / size[:, None])
+    return np.asarray(directions.T / np.sqrt(values**2 + RIDGE) / size[:, None])

@@ -14,14 +14,13 @@ from tribo import Array, Case, CaseError, Finding
 
 from tribo_inverse.calibration.experiment import Experiment
 from tribo_inverse.calibration.fit import FEWEST_DEGREES_OF_FREEDOM, check_effect, differenced
+from tribo_inverse.calibration.linearised import RIDGE
 from tribo_inverse.calibration.measured import Measurements, read_measurements
 from tribo_inverse.calibration.quantities import plain
 from tribo_inverse.findings import unresolved
 
 MOST = 1000
 """Largest number of tests that is tried."""
-_RIDGE = 1e-12
-"""Relative to the information of one test, so that a singular one has an inverse."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,7 +217,7 @@ class Search:
     def _covariance(self, counts: Array) -> Array:
         """Return the covariance of the parameters after a number of tests of each kind."""
         once = self._summed(counts, 1)
-        return np.linalg.inv(once + _RIDGE * np.trace(once) * np.eye(len(once)))
+        return np.linalg.inv(once + RIDGE * np.trace(once) * np.eye(len(once)))
 
     def _size(self, counts: Array) -> float:
         """Return the sum of squares of the variances, in which the largest counts most."""
