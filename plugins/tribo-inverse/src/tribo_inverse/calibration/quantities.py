@@ -92,7 +92,7 @@ def quantity(name: str) -> WornQuantity:
 
 
 def of_all() -> dict[str, WornQuantity]:
-    """Return all quantities, with those of every installed package, by name."""
+    """Return the quantities of tribo and of every installed package, by name."""
     return QUANTITIES | _read_off(from_all_plugins("tribo_quantities"))
 
 
