@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -14,7 +13,6 @@ from pydantic import Field
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import BadValues, NumericalError, PluginError
-from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.core.units import Quantity
 from tribo.evolution.course import Course, course, sloped
@@ -24,6 +22,13 @@ from tribo.evolution.measure import loaded_mean
 from tribo.evolution.rates import wear_rates
 from tribo.evolution.states import filling, remembered
 from tribo.stepping.contacts import counted, extrapolated, solve_cycle, undeformed
+from tribo.stepping.error_control import (
+    FIRST,
+    SHRINK,
+    increment_factor,
+    next_increment,
+    step_errors,
+)
 from tribo.stepping.linear_wear import depths, linear_wear
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
@@ -38,17 +43,6 @@ from tribo.stepping.step import (
 if TYPE_CHECKING:
     from tribo.model.model import Model
 
-FIRST = 0.05
-"""Part of the reference depth that the first step wears at most."""
-VOLUME = 5.0
-"""Error of the volume that a step wears, in depth tolerances: a body ends with 0.1 to 0.4 % too
-little at the default."""
-LATE = 0.003
-"""Depth of a step over the depth worn so far, below which its volume need not be as exact."""
-SAFETY = 0.9
-"""As usual for the control of steps: Hairer, Nørsett & Wanner (1993), section II.4."""
-SHRINK, GROW = 0.2, 2.5
-"""Least and largest change of a step's length, from the same section."""
 MAX_REJECTIONS = 40
 """In a row: shortened by a tenth each time, a hundredth of the step is left."""
 AT_REST, FEW = 1e-9, 3
@@ -104,19 +98,21 @@ class Implicit(Scheme):
         natural = state.increment or _first_increment(model, state, remaining, until)
         rejected = 0
         while True:
-            increment = _fitted(natural, remaining, settle * target)
+            increment = next_increment(natural, remaining, settle * target)
             last = increment == remaining
             time = until if last else time_at(model, state, state.distance + increment, until)
             try:
                 after, slid, forward = self._attempt(model, state, increment, time)
-                errors = depth, pressure, volume = self._errors(model, state, after, forward)
+                errors = depth, pressure, volume = step_errors(
+                    model, state, after, forward, self.depth_tolerance, self.pressure_tolerance
+                )
                 exact = max(errors) <= 1
                 changes = not exact and load_changes(model, state, after)
                 # The load changes over a rest, however short the step.
                 if exact or (changes and increment < AT_REST * target and depth <= 1):
                     ended = with_friction_work(model, state, after, slid)
                     break
-                factor = SHRINK if changes and rejected >= FEW else _factor(*errors)
+                factor = SHRINK if changes and rejected >= FEW else increment_factor(*errors)
                 failure: NumericalError | None = None
             except (StepRejected, BadValues) as error:
                 factor, failure = SHRINK, error
@@ -132,7 +128,9 @@ class Implicit(Scheme):
                 )
             natural = factor * increment
         # A step cut short to meet a save says little about the next: keep the longer of the two.
-        proposal = max(_factor(*errors) * increment, natural if increment < natural else 0.0)
+        proposal = max(
+            increment_factor(*errors) * increment, natural if increment < natural else 0.0
+        )
         return replace(
             ended,
             increment=proposal if exact else 0.0,
@@ -218,65 +216,6 @@ class Implicit(Scheme):
         exact = mismatch <= linear or mismatch <= little * _deformed(contacts, base + implied)
         return accepted(model, after, contacts, loads, exact=exact), slid, forward
 
-    def _errors(
-        self, model: Model, before: State, after: State, forward: Mapping[str, Array]
-    ) -> tuple[float, float, float]:
-        """Return the step's depth, pressure and volume errors as multiples of their tolerances.
-
-        The local error of backward Euler in depth is half the difference between
-        its wear and forward Euler's. It is weighted with the load, since the
-        largest difference is always at newly touched edge cells, and compared
-        with the depth worn so far (and a part of the first approach, below which
-        wear does not alter the contact). The pressure lags by about a quarter of
-        the relative increment of distance, so its load-weighted relative change
-        Σ|Δp|/Σp is limited too.
-
-        Where a body wore too little in depth, the load shifts there and corrects
-        it: errors of depth do not add up. Errors of volume add up, with one sign,
-        for a law that is not linear in pressure or has a state. So the error of
-        the volume is compared with the volume that the step itself wears.
-        """
-        contacts, shares = after.contacts, [position.share for position in model.cycle]
-        pressures = [(share, c.pressure) for share, c in zip(shares, contacts, strict=True)]
-        load = sum(share * float(np.sum(p)) for share, p in pressures)
-        change = sum(
-            share * float(np.sum(np.abs(p - was.pressure)))
-            for (share, p), was in zip(pressures, before.contacts, strict=True)
-        )
-        depth_error = volume_error = 0.0
-        for name, explicit in forward.items():
-            worn = after.bodies[name].wear - before.bodies[name].wear
-            lag = np.abs(worn - explicit)
-            scale = float(np.max(after.bodies[name].wear)) + FIRST * after.reference_depth
-            # Flat bodies that have not begun to wear have neither.
-            scale = scale or float(np.finfo(np.float64).tiny)
-            late = loaded_mean(
-                model, contacts, [model.cycle.maps[name].see(lag, m) for m in range(len(shares))]
-            )
-            depth_error = max(depth_error, 0.5 * late / scale)
-            own = 0.5 * (worn + explicit)
-            # What points that pass a break lag behind is mended too: their load goes elsewhere.
-            if np.any(own > 0) and not model.laws.wear[name].breaks:
-                share = min(1.0, float(np.max(own)) / (LATE * scale))
-                missed = 0.5 * abs(float(np.sum(worn)) - float(np.sum(explicit)))
-                volume_error = max(volume_error, share * missed / float(np.sum(own)))
-        return (
-            depth_error / self.depth_tolerance,
-            change / load / self.pressure_tolerance,
-            volume_error / (VOLUME * self.depth_tolerance),
-        )
-
-
-def _factor(depth: float, pressure: float, volume: float) -> float:
-    """Return the factor for the next increment, by the errors of a step."""
-    # The depth error of a step grows as its square, the two others in proportion.
-    wanted = SAFETY * min(
-        1 / math.sqrt(depth) if depth > 0 else math.inf,
-        1 / pressure if pressure > 0 else math.inf,
-        1 / volume if volume > 0 else math.inf,
-    )
-    return min(GROW, max(SHRINK, wanted))
-
 
 def _deformed(contacts: Sequence[ContactSolution], gaps: Array) -> float:
     """Return the largest deformation of the bodies, in m."""
@@ -284,18 +223,6 @@ def _deformed(contacts: Sequence[ContactSolution], gaps: Array) -> float:
         np.where(contact.pressure > 0, contact.approach - gap, 0.0)
         for contact, gap in zip(contacts, gaps, strict=True)
     )
-
-
-def _fitted(natural: float, remaining: float, last: float) -> float:
-    """Return the next increment with `remaining` metres to go.
-
-    Increments are halved down to `last` metres, which lets the pressure catch up with the wear.
-    """
-    increment = min(natural, max(0.5 * remaining, last)) if last else natural
-    if remaining <= increment * (1 + ROUND_OFF):
-        return remaining
-    # Two equal steps rather than a full one and a sliver.
-    return 0.5 * remaining if remaining < 2 * increment else increment
 
 
 def _opened(
