@@ -11,7 +11,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tribo.closed_forms.ball_on_track import BallOnTrack, ball_on_track
+from ball_on_track import BallOnTrack, ball_on_track
+
 from tribo.lab.formulas import ball_cap_depth, cap_diameter
 
 LOAD = 100.0  # N

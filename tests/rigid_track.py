@@ -1,8 +1,7 @@
 """The paper's ball and track, worn in the rigid limit."""
 
 import numpy as np
-
-from tribo.closed_forms.ball_on_track import ball_on_track
+from ball_on_track import ball_on_track
 
 R = 5e-3
 EQUAL = {

@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 
 from benchmarks.lib.common import Row, Tables, main
 from benchmarks.studies.moved import LOAD, RADIUS, WEAR_COEFFICIENT, on_flat, to_and_fro
-from tribo.closed_forms.ball_on_track import ball_on_track
+from examples.ball_on_track import ball_on_track
 from tribo.contact.dcfft import DcFft
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution

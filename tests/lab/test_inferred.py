@@ -3,10 +3,10 @@
 import tomllib
 
 import pytest
+from ball_on_track import ball_on_track
 from made_results import made
 
 from tribo import Simulation
-from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.config.overrides import apply_settings
 from tribo.lab.formulas import circular_groove_area
 from tribo.lab.inferred import inferred_volumes, track_section

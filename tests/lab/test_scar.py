@@ -5,10 +5,10 @@ from itertools import product
 
 import numpy as np
 import pytest
+from ball_on_track import ball_on_track
 from rigid_track import EQUAL, R, half_lengths
 
 from tribo import load_case
-from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.core.grid import Grid
 from tribo.lab.scar import crown, diameter, groove_length, scar
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from ball_on_track import ball_on_track
 from calibrations import problem
 from scipy.stats import norm, t
-from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.core.errors import CaseError, NumericalError, OutOfWindow
 
 from tribo_inverse.calibration import fit as fitting

@@ -4,8 +4,8 @@ import warnings
 
 import numpy as np
 import pytest
+from ball_on_track import ball_on_track
 from calibrations import cheap, of_kind, on_springs
-from tribo.closed_forms.ball_on_track import ball_on_track
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
 from tribo.core.errors import CaseError, NumericalError, TriboWarning

@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
+from ball_on_track import ball_on_track
 from rigid_track import EQUAL, R, half_lengths
 from scipy.integrate import solve_ivp
-
-from tribo.closed_forms.ball_on_track import ball_on_track
 
 WEIGHED = EQUAL | {
     "ball_wear_coefficient": 2.0e-6 / 7850 / (100 * 360),
