@@ -145,7 +145,6 @@ from tribo.study.sweeping.summary import is_text as is_text
 from tribo.study.sweeping.summary import labelled as labelled
 from tribo.study.sweeping.summary import sweep_pictures as sweep_pictures
 from tribo.study.sweeping.summary import varied_paths as varied_paths
-from tribo.study.variation import by_path as by_path
 from tribo.study.variation import unknown_body as unknown_body
 from tribo.study.variation import valid_case as valid_case
 from tribo.wear.modified import times as times

@@ -21,6 +21,7 @@ from trust.trial import contents, same
 from tribo import Result
 from tribo.core.rounding import SAME
 from tribo.core.toml import to_toml as toml
+from tribo.result.summary import worst
 from tribo.stepping.invariants import CHATTERING, CONDITIONS
 
 DOCUMENTED = {0, 2, 3, 130}
@@ -194,12 +195,12 @@ def broken(path, code):
     with Result.open(path) as result:
         if code == 0 and result.status != "done":
             return f"status {result.status!r} after success"
-        worst, system = result.worst(), result.system
+        off, system = worst(result), result.system
         for name, most in LIMITS.items():
-            if not worst[name] <= most:
-                return f"{name} is {worst[name]:g}"
-        if worst["chattering"] > CHATTERING:
-            return f"chattering is {worst['chattering']:g}"
+            if not off[name] <= most:
+                return f"{name} is {off[name]:g}"
+        if off["chattering"] > CHATTERING:
+            return f"chattering is {off['chattering']:g}"
         along = result.case_tables["load"].get("along")
         for save, load in enumerate(result.table("saves")["load_N"]):
             carried = float(result.field("pressure", save).sum()) * system.grid.cell_area

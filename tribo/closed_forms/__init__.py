@@ -1,4 +1,1 @@
-"""Closed-form solutions that runs, examples and pages compare with, as small pure functions.
-
-Those that only a validation case compares with stand as equations in its `expected.toml`.
-"""
+"""Closed-form solutions that runs and pages compare with, as small pure functions."""

@@ -28,6 +28,7 @@ from tribo.lab.units import shown_in
 from tribo.registry.hookspecs import LabRow
 from tribo.registry.registry import from_plugins_of, place, process_kept
 from tribo.result.read import Result
+from tribo.result.summary import worst
 
 HALF_SPACE = "dcfft"
 """The contact type whose smooth limit is Hertz's theory."""
@@ -180,13 +181,13 @@ def lab_sentences(result: Result, lab: LabReport) -> Iterator[str]:
 
 def run_sentences(result: Result) -> Iterator[str]:
     """Yield the size of a run, and its worst residuals."""
-    totals, worst = result.totals(), result.worst()
+    totals, off = result.totals(), worst(result)
     took = "" if result.wall_time is None else f", {readable(result.wall_time, '.1f')} s"
     yield f"{totals['steps']} steps, {totals['contact_solves']} contact solves{took}."
     yield (
-        f"At worst: load off by {worst['force_error']:.0e}, worn volume by "
-        f"{worst['volume_error']:.0e}, gap under pressure {worst['complementarity_error']:.0e}, "
-        f"overlap {worst['penetration_error']:.0e}, chattering {worst['chattering']:.0e}."
+        f"At worst: load off by {off['force_error']:.0e}, worn volume by "
+        f"{off['volume_error']:.0e}, gap under pressure {off['complementarity_error']:.0e}, "
+        f"overlap {off['penetration_error']:.0e}, chattering {off['chattering']:.0e}."
     )
 
 

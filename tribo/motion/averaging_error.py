@@ -61,8 +61,3 @@ def groove_excess(
     reach = min(1.0, stroke / (2 * half_width))
     passing = (math.asin(reach) + reach * math.sqrt(1 - reach**2)) / (math.pi / 2)
     return (1 + excess) / passing - 1
-
-
-def too_deep(excess: float) -> str:
-    """Word the error of a groove's depth; an estimate beyond 100 % deserves no digits."""
-    return f"about {100 * excess:.2g} % too deep" if excess < 1 else "more than twice too deep"

@@ -15,7 +15,7 @@ from tribo.core.grid import Grid
 from tribo.core.loads import NUMBER, ONE_OR_STAGES, STAGES, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.motion.averaging_error import groove_excess, too_deep
+from tribo.motion.averaging_error import groove_excess
 from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
 from tribo.motion.held import Held, held
@@ -228,12 +228,11 @@ class Reciprocating(Kinematics):
         excess = groove_excess(stroke, half_width_x, depth, approach, volume_ratio, line)
         if depth <= 0 or excess < COARSE or not self._averages:
             return None
-        many = f"{widths:.2g} half-width" + ("" if f"{widths:.2g}" == "1" else "s")
         return (
-            f"the groove{f' of {self.swept}' if self.swept else ''} is {too_deep(excess)} at "
-            f"mid-stroke, because tribo averages over the stroke ({1e3 * stroke:.3g} mm, {many} of "
-            f"the {2e3 * half_width_x:.3g} mm contact); resolve the stroke by "
-            "kinematics.positions = 33 or more"
+            f"the groove{f' of {self.swept}' if self.swept else ''} is about {100 * excess:.2g} % "
+            f"too deep at mid-stroke, because tribo averages over the stroke ({1e3 * stroke:.3g} mm, "
+            f"{widths:.2g} half-widths of the {2e3 * half_width_x:.3g} mm contact); resolve the "
+            "stroke by kinematics.positions = 33 or more"
         )
 
     def check_contact(self, half_width_x: float) -> None:

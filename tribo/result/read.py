@@ -24,7 +24,6 @@ from tribo.core.rounding import ROUND_OFF
 from tribo.core.shorthand import call
 from tribo.core.words import did_you_mean, suggestion
 from tribo.result.body import BodyResult, checked_save
-from tribo.result.columns import INVARIANTS
 from tribo.result.hdf5 import read_variables
 from tribo.result.header import Header, current
 from tribo.result.layout import BETWEEN, EFFECT, HISTORY, STATE
@@ -357,8 +356,7 @@ class Result(AbstractContextManager["Result"]):
 
     def _repr_html_(self) -> str:
         """Show the saves and the pressure in a notebook."""
-        page: str = call("html", self)
-        return page
+        return str(call("html", self))
 
     def totals(self) -> Mapping[str, Any]:
         """Return the cost of the run: solves, iterations, steps and `wall_time`."""
@@ -368,13 +366,6 @@ class Result(AbstractContextManager["Result"]):
             "contact_solves": int(np.sum(history["contact_solves"][-1:])),
             "solver_iterations": int(np.sum(history["solver_iterations"][-1:])),
             "wall_time_s": self.wall_time,
-        }
-
-    def worst(self) -> Mapping[str, float]:
-        """Return the worst value, over all steps, of each invariant that the run was held to."""
-        return {
-            column.label: float(np.max(self._scalars[f"history_{column.name}"], initial=0))
-            for column in INVARIANTS
         }
 
     def fields_of(self, kind: str, body: str | None = None) -> dict[str, Field]:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from tribo.core.column import labelled
+from tribo.result.columns import INVARIANTS
 from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
 
@@ -28,9 +29,15 @@ def summary(result: Result) -> dict[str, Any]:
         "provenance": result.provenance,
         "notices": list(result.warnings),
         "totals": dict(result.totals()),
-        "invariants": dict(result.worst()),
+        "invariants": worst(result),
         "saves": rows,
     }
+
+
+def worst(result: Result) -> dict[str, float]:
+    """Return the worst value, over all steps, of each invariant that the run was held to."""
+    steps = result.table("history")
+    return {each.label: float(np.max(steps[each.label], initial=0)) for each in INVARIANTS}
 
 
 def _ranges(result: Result, kind: str, save: int, body: str | None = None) -> dict[str, Any]:

@@ -43,21 +43,6 @@ def points_of(vary: Mapping[str, Sequence[Any]] | Sequence[Mapping[str, Any]]) -
     return points
 
 
-def by_path(table: Any, where: str, prefix: str = "") -> Any:
-    """Return values by path; a path may be a quoted key, or tables in each other."""
-    if not isinstance(table, Mapping):
-        return table
-    found: dict[str, Any] = {}
-    for key, value in table.items():
-        path = f"{prefix}{key}"
-        nested = isinstance(value, Mapping) and value
-        for name, item in (by_path(value, where, f"{path}.") if nested else {path: value}).items():
-            if name in found:
-                raise CaseError(f"{name!r} is given twice", where)
-            found[name] = item
-    return found
-
-
 def check_distinct(paths: Iterable[str]) -> None:
     """Check that no path is given twice, quoted or not; CaseError if one is."""
     seen = set()

@@ -17,7 +17,7 @@ from pydantic import (
     model_validator,
 )
 from tribo import Array, CaseError, Quantity, Table
-from tribo.kernel_api import by_path, case_error, number, read_toml, to_toml
+from tribo.kernel_api import case_error, number, read_toml, to_toml
 
 from tribo_inverse.calibration.quantities import (
     DEPTH_MAP,
@@ -244,6 +244,21 @@ class FitEntry(Table):
     """Largest value allowed."""
 
 
+def _by_path(table: Any, prefix: str = "") -> Any:
+    """Return values by path; a path may be a quoted key, or tables in each other."""
+    if not isinstance(table, Mapping):
+        return table
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        path = f"{prefix}{key}"
+        nested = isinstance(value, Mapping) and value
+        for name, item in (_by_path(value, f"{path}.") if nested else {path: value}).items():
+            if name in found:
+                raise CaseError(f"{name!r} is given twice", "set")
+            found[name] = item
+    return found
+
+
 class TestEntry(Table):
     """A test, or several repeated ones, on a changed case."""
 
@@ -260,7 +275,7 @@ class TestEntry(Table):
     @classmethod
     def _flat(cls, value: Any) -> Any:
         try:
-            return by_path(value, "set")
+            return _by_path(value)
         except CaseError as error:
             raise ValueError(str(error)) from None
 
