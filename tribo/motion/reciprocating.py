@@ -230,9 +230,9 @@ class Reciprocating(Kinematics):
             return None
         return (
             f"the groove{f' of {self.swept}' if self.swept else ''} is about {100 * excess:.2g} % "
-            f"too deep at mid-stroke, because tribo averages over the stroke ({1e3 * stroke:.3g} mm, "
-            f"{widths:.2g} half-widths of the {2e3 * half_width_x:.3g} mm contact); resolve the "
-            "stroke by kinematics.positions = 33 or more"
+            f"too deep at mid-stroke, because tribo averages over the stroke ({1e3 * stroke:.3g} "
+            f"mm, {widths:.2g} half-widths of the {2e3 * half_width_x:.3g} mm contact); resolve "
+            "the stroke by kinematics.positions = 33 or more"
         )
 
     def check_contact(self, half_width_x: float) -> None:
