@@ -97,7 +97,6 @@ def test_processes_start_where_the_test_of_hostile_folders_looks():
         and STARTS & set(re.findall(r"\w+", ast.unparse(node)))
     }
     assert found == {
-        "tribo/registry/probe.py",
+        "tribo/registry/child.py",
         "tribo/study/sweeping/executors.py",
-        "tribo/testing/child.py",
     }

@@ -139,7 +139,7 @@ def test_verify_has_the_cases_of_every_plugin_and_names_a_folder_without_any(fol
     for name in names:
         mine = folder / f"{name}_cases" / f"case_of_{name}"
         mine.mkdir(parents=True)
-        (mine / f"case_of_{name}.py").write_text("def found(part): return {'x': 2.5}\n")
+        (mine / f"case_of_{name}.py").write_text("def found(): return {'x': 2.5}\n")
         (mine / "expected.toml").write_text(
             "title = 't'\nsource = 'nowhere'\nkind = 'measured'\npublished = true\n"
             "[[expect]]\nquantity = 'x'\nvalue = 2.0\ntolerance = 0.3\nreason = 'made up'\n"

@@ -17,7 +17,9 @@ from tribo import (
     WearRate,
 )
 
-THICKNESS = Field("debris_thickness", "m", "Height of debris in the contact.", at_least=0)
+THICKNESS = Field(
+    "debris_thickness", "m", "Height of debris in the contact.", at_least=0, typical=1e-6
+)
 
 
 class Debris(Effect):
@@ -60,7 +62,7 @@ class Covered(WearLaw):
     cover: Annotated[float, Quantity("m", above=0)]
     """Thickness t₀ of debris that lets through 1/e of the wear."""
 
-    requires = (THICKNESS.name,)
+    requires = (THICKNESS,)
 
     def rate(self, local: LocalConditions) -> WearRate:
         k = self.k * np.exp(-local.fields[THICKNESS.name] / self.cover)

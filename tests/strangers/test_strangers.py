@@ -15,9 +15,7 @@ from tribo.testing import parametrize_checks
 DISKS = {"ball": "150 mm", "disk": "100 mm"}
 
 test_oxide_film = parametrize_checks(OxideFilm, [{"power": "1 MW/m^2"}])
-test_covered = parametrize_checks(
-    Covered, [{"k": "1e-15 1/Pa", "cover": "2 µm"}], fields={"debris_thickness": 1e-6}
-)
+test_covered = parametrize_checks(Covered, [{"k": "1e-15 1/Pa", "cover": "2 µm"}])
 test_running_in = parametrize_checks(
     RunningIn, [{"k_first": "4e-15 1/Pa", "k_last": "1e-15 1/Pa", "length": "2 m"}]
 )

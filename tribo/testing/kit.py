@@ -158,7 +158,7 @@ def check(cls: type[Component], configs: Sequence[Config] | None = None) -> Repo
     --------
     >>> from tribo.testing import check
     >>> str(check(tribo.Flat)).splitlines()[0]
-    'surface Flat (flat): 15 passed'
+    'surface Flat (flat): 13 passed'
     """
     check_class(cls)
     asked = [(checks, name) for checks in suites(cls, configs) for name in names_of(type(checks))]

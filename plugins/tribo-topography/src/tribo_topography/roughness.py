@@ -25,6 +25,15 @@ class Roughness(NamedTuple):
     Areal, about the mean plane: arithmetical mean height Sa, root mean square height Sq, maximum
     height Sz, skewness Ssk, kurtosis Sku. Of the profiles along and across the sliding direction,
     each about its own mean line and then averaged: arithmetical mean Ra and root mean square Rq.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from tribo_topography.roughness import roughness
+    >>> waves = 1e-6 * np.sin(np.arange(64) * np.pi / 4)[:, None] * np.ones(64)
+    >>> found = roughness(waves)
+    >>> f"Sq {1e6 * found.Sq_m:.2f} µm, Rq across {1e6 * found.Rq_across_m:.2f} µm"
+    'Sq 0.70 µm, Rq across 0.00 µm'
     """
 
     Sa_m: float

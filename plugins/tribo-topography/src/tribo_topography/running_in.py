@@ -37,7 +37,17 @@ class BeforeAndAfter(NamedTuple, Generic[T]):
 
 
 def worn_roughness(result: Result, body: BodyResult, save: int) -> BeforeAndAfter[Roughness]:
-    """Return the roughness of a body at a save; NaN where there are too few cells."""
+    """Return the roughness of a body at a save; NaN where there are too few cells.
+
+    Examples
+    --------
+    >>> from tribo_topography import worn_roughness
+    >>> short = ["stop.depth=0.2 um"]
+    >>> result = tribo.load_case("tribo/templates/rough_ball.toml", overrides=short).run()
+    >>> found = worn_roughness(result, result.body("ball"), -1)
+    >>> found.scar.Sa_m < found.unworn.Sa_m
+    True
+    """
     return BeforeAndAfter(*map(parameters, reliefs(result, body, save)))
 
 
