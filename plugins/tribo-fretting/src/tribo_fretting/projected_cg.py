@@ -10,13 +10,11 @@ from tribo import Array, NumericalError
 from tribo_fretting.cerruti import Cerruti
 
 ON_RIM = 1e-12
-"""Relative distance from the rim of its disc within which a traction is on it: some thousand units
-of rounding."""
+"""Relative distance from its rim within which a traction is on it: thousands of roundings."""
 MOST = 500
 """Iterations; a ball on 128² cells takes 43 at most, with two components of traction."""
 TOLERANCE = 1e-9
-"""What the slip within the discs and along their rims must fall to, relative to δ: a millionth of
-the depth tolerance of a step."""
+"""What slip within discs and along rims falls to, over δ: a millionth of a step's tolerance."""
 
 
 @dataclass(frozen=True)
