@@ -84,7 +84,7 @@ def test_a_plugin_is_imported_when_one_of_its_names_is_looked_up(folder):
     registry = found("pair")
     assert registry.waiting == ["pair.one", "pair.two"]
     assert [(str(p), p.status) for p in registry.plugins] == [("pair 1.0", "available")]
-    with pytest.raises(CaseError, match=r"'pair\.one'\? Installed: more: tribo plugins l"):
+    with pytest.raises(CaseError, match=r"'pair\.one'\? Installed: none; more: tribo plugins l"):
         registry.lookup("observer", "pair.oen")
     assert "pair" not in sys.modules
     for name in ("pair.one", "pair.two"):

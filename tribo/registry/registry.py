@@ -236,8 +236,8 @@ class Registry:
     def choices(self, kind: str) -> str:
         """Return the usable names of one kind as text."""
         # Which are of this kind is not known before they are imported.
-        more = ["more: tribo plugins list"] if self.waiting else []
-        return "; ".join(filter(None, [", ".join(self.names(kind)), *more])) or "none"
+        names = ", ".join(self.names(kind)) or "none"
+        return f"{names}; more: tribo plugins list" if self.waiting else names
 
     def load(self, plugin: Plugin) -> None:
         """Import a plugin once; its status says whether that succeeded."""

@@ -49,11 +49,10 @@ def called(name: str, cases: list[ValidationCase]) -> list[ValidationCase]:
     """Return the cases whose name begins so; CaseError if there is none."""
     chosen = [case for case in cases if case.name.startswith(name)]
     if not chosen:
-        names = [case.name for case in cases]
-        meant = suggestion(did_you_mean(name, names))
-        raise CaseError(
-            f"{name}: there is no such file, folder or case{meant} Cases: {', '.join(names)}"
-        )
+        begin = dict.fromkeys(case.name.partition("_")[0] for case in cases)
+        meant = suggestion(did_you_mean(name, begin))
+        listed = f"Names of cases begin with {', '.join(begin)}"
+        raise CaseError(f"{name}: there is no such file, folder or case{meant} {listed}")
     return chosen
 
 
