@@ -41,8 +41,8 @@ def table(found: dict[str, Any]) -> Markdown:
 
 
 def _lines(rows: list[dict[str, Any]]) -> Iterator[str]:
-    yield "| Case, source | Quantity | Expected | Got | Error, order (theory) | Compared with |"
-    yield "| --- | --- | ---: | ---: | ---: | --- |"
+    yield "| Case, source | Quantity, kind | Expected | Got | Error, order (theory) |"
+    yield "| --- | --- | ---: | ---: | ---: |"
     for (case, source), group in groupby(rows, lambda row: (row["case"], row["source"])):
         title = f"**{case.replace('_', '_<wbr>')}**<br>{source}"
         for row in group:
@@ -51,10 +51,10 @@ def _lines(rows: list[dict[str, Any]]) -> Iterator[str]:
             kind = f"{row['kind']}, published" if row["published"] else row["kind"]
             cells = [
                 title,
-                f"{row['quantity']} {row['solver']}".strip(),
+                f"{row['quantity']} {row['solver']}<br>*{kind}*: {row['reason']}",
                 _value(row["expected"], row["unit"]),
                 _value(row["got"], row["unit"]),
-                *(error, f"{kind}: {row['reason']}"),
+                error,
             ]
             yield f"| {' | '.join(cell.replace('|', '/') for cell in cells)} |"
             title = ""
