@@ -221,7 +221,7 @@ class Result(AbstractContextManager["Result"]):
     @property
     def body_names(self) -> tuple[str, ...]:
         """Names of the bodies in the order of the case."""
-        return tuple(self.case_tables["bodies"])
+        return tuple(self._header.case["bodies"])
 
     def field(self, name: str, save: int, body: str | None = None) -> Array:
         """Return a field at a save as a NumPy array, shape (nx, ny).
