@@ -27,7 +27,7 @@ def simulation(**changes):
 
 
 class Acknowledge(Observer):
-    """Tells of each save once the recorder has it."""
+    """Calls `tell` with the time of each save, once the recorder has it."""
 
     tell: object
 

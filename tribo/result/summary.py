@@ -35,7 +35,7 @@ def summary(result: Result) -> dict[str, Any]:
 
 
 def worst(result: Result) -> dict[str, float]:
-    """Return the worst value, over all steps, of each invariant that the run was held to."""
+    """Return the worst value, over all steps, of each invariant of a run."""
     steps = result.table("history")
     return {each.label: float(np.max(steps[each.label], initial=0)) for each in INVARIANTS}
 

@@ -1,4 +1,4 @@
-"""Where a film ends, what the lab is told of it, and the curve of the README."""
+"""Where a film ends, its rows for the lab, and the curve of the README."""
 
 import runpy
 from importlib.resources import files

@@ -165,7 +165,7 @@ class Tribofilm(Effect):
     dry: Part = 0.5
     """Coefficient of friction of bare metal."""
     filmed: Part = 0.1
-    """That of the film."""
+    """Coefficient of friction of the film."""
     length: Length = 2.0
     """Distance over which it forms."""
     life: Duration = 50.0

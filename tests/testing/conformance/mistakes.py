@@ -1,4 +1,4 @@
-"""Models as authors write them, each with one mistake: those of `mistakes/*.toml`.
+"""Models as authors write them, each with one mistake from `mistakes/*.toml`.
 
 By the model and what is wrong, a mistake is a text of the model and what stands in its place, or
 the code of what is defined otherwise. What found each is in `docs/_data/mistakes.json`, which
