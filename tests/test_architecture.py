@@ -21,6 +21,7 @@ RANK = {
     "units": 1,
     "closed_forms": 1,
     "component": 1,
+    "contract": 2,
     "result": 2,
     "contact": 3,
     "wear": 3,

@@ -21,6 +21,7 @@ from tribo.case import Body, Case
 from tribo.cli.commands import imported, offered
 from tribo.cli.main import tribo as command_line
 from tribo.component import Component
+from tribo.contract import ANSWERS
 from tribo.core.errors import (
     CaseError,
     Interrupted,
@@ -31,7 +32,6 @@ from tribo.core.errors import (
 )
 from tribo.core.table import descriptions
 from tribo.core.units import _KINDS, _SYMBOLS, _UNPREFIXED, PREFIXES, Quantity
-from tribo.guards.answers import ANSWERS
 from tribo.packages import COMMANDS
 from tribo.registry import hookspecs
 from tribo.registry.kinds import KINDS

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribo.component import Component
+from tribo.contract import Answer, answers_of
 from tribo.core.arrays import Array
 from tribo.core.errors import BadValues, NumericalError, PluginError, TriboError
 from tribo.core.words import said
-from tribo.guards.answers import Answer, answers_of
 
 REAL = "fiub"
 """Kinds of a dtype that are real numbers."""

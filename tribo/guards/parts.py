@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from tribo.contact.solver import ContactSolver
+from tribo.contract import initial, rate_of
 from tribo.core.arrays import Array, readonly
 from tribo.core.contact import (
     ContactProblem,
@@ -34,7 +35,6 @@ from tribo.core.material import Material
 from tribo.core.rounding import SAME
 from tribo.core.state import Snapshot, key_of
 from tribo.effects.effect import Effect
-from tribo.guards.answers import initial, rate_of
 from tribo.guards.guard import Guard
 from tribo.surfaces.surface import Surface
 from tribo.wear.law import WearLaw

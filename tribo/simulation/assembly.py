@@ -20,7 +20,6 @@ from tribo.core.grid import Grid, RepeatingGrid
 from tribo.core.loads import Loads
 from tribo.core.material import contact_modulus
 from tribo.core.rounding import ROUND_OFF
-from tribo.guards.layered_law import LayeredLaw
 from tribo.guards.motion import GuardedMotion
 from tribo.guards.parts import (
     GuardedEffect,
@@ -31,6 +30,7 @@ from tribo.guards.parts import (
 from tribo.model.contact_setup import ContactSetup
 from tribo.model.cycle import Cycle
 from tribo.model.laws import Laws
+from tribo.model.layered_law import LayeredLaw
 from tribo.model.model import Model
 from tribo.motion.closed_track import Unidirectional
 from tribo.motion.exposure import Exposure

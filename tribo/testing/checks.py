@@ -17,10 +17,10 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from tribo.component import Component, components
+from tribo.contract import answers_of
 from tribo.core.fields import Field
 from tribo.core.table import descriptions
 from tribo.core.units import parts, quantities, scale
-from tribo.guards.answers import answers_of
 from tribo.testing.compare import (
     CheckFailed,
     apply_if,

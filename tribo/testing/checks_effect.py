@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from tribo.contract import initial
 from tribo.core.arrays import Array
 from tribo.core.fields import ContactConditions
 from tribo.core.grid import Grid
@@ -17,7 +18,6 @@ from tribo.core.material import Material
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import Snapshot
 from tribo.effects.effect import Effect
-from tribo.guards.answers import initial
 from tribo.guards.parts import GuardedEffect
 from tribo.testing import samples
 from tribo.testing.checks import BODIES

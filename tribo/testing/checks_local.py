@@ -11,12 +11,12 @@ from typing import Any, ClassVar
 import numpy as np
 from scipy.ndimage import maximum_filter
 
+from tribo.contract import initial, rate_of
 from tribo.core.arrays import Array, Mask
 from tribo.core.fields import Field, names_of
 from tribo.core.material import Material
 from tribo.core.rounding import SAME
 from tribo.core.units import quantities
-from tribo.guards.answers import initial, rate_of
 from tribo.guards.parts import GuardedEffect, GuardedLaw
 from tribo.integration.step_to_break import lasting
 from tribo.testing import samples
