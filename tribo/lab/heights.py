@@ -11,10 +11,11 @@ import scipy.ndimage as ndimage
 from numpy.typing import NDArray
 
 from tribo.core.arrays import Array, Mask
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, located
 from tribo.core.grid import Grid
 from tribo.core.number_tables import table_of_numbers
 from tribo.core.rounding import ROUND_OFF
+from tribo.core.units import Quantity
 from tribo.registry.all_plugins import from_all_plugins
 
 OWN = (".npy", ".csv", ".txt")
@@ -71,8 +72,8 @@ class Heights:
             raise CaseError(
                 f"{len(absurd)} of its {self.heights.size} heights lie further from their median "
                 f"than the map is wide, {1e3 * width:.3g} mm; the first is {absurd[0]:g} m. "
-                "Heights and depths are in m, and NaN where nothing was measured: put NaN for fill "
-                "values, 1e-6 times the height for one in µm"
+                "Put NaN for fill values, where nothing was measured; heights in µm need "
+                "--unit µm, or unit = 'µm' in read_heights"
             )
 
     @cached_property
@@ -87,17 +88,21 @@ class Heights:
         return Grid((nx * self.pitch[0], ny * self.pitch[1]), (nx, ny))
 
 
-def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> Heights:
+def read_heights(
+    path: str | Path, pitch: tuple[float, float] | None = None, unit: str = "m"
+) -> Heights:
     """Read a height map from a file.
 
     Parameters
     ----------
     path : str or Path
-        A NumPy or CSV file with a table of heights in m, a row for each x, NaN or nothing
-        where missing; or a file in a format that a plugin reads, as tribo-topography reads formats
+        A NumPy or CSV file with a table of heights, a row for each x, NaN or nothing where
+        missing; or a file in a format that a plugin reads, as tribo-topography reads formats
         of instruments.
     pitch : tuple of float, optional
         Distance between pixels along x and y, in m; the file's if left out.
+    unit : str, optional
+        Unit of heights in a NumPy or CSV file, as ``"µm"``; other formats state theirs.
 
     Returns
     -------
@@ -114,20 +119,24 @@ def read_heights(path: str | Path, pitch: tuple[float, float] | None = None) -> 
     >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
-    ...     np.save(Path(folder, "disk.npy"), np.zeros((40, 30)))
-    ...     disk = tribo.read_heights(Path(folder, "disk.npy"), pitch=(2e-6, 2e-6))
-    >>> disk.heights.shape
-    (40, 30)
+    ...     np.save(Path(folder, "disk.npy"), np.full((40, 30), 2.0))
+    ...     disk = tribo.read_heights(Path(folder, "disk.npy"), pitch=(2e-6, 2e-6), unit="µm")
+    >>> float(disk.heights.max()), disk.heights.shape
+    (2e-06, (40, 30))
     """
     path = Path(path)
     try:
         if path.suffix.lower() in OWN:
-            heights = table_of_numbers(path)
+            with located("unit"):
+                scale = Quantity("m", above=0).read(f"1 {unit}")
+            heights = scale * table_of_numbers(path)
             if pitch is None:
                 raise CaseError(
                     f"{path} has heights and no scale; give its pitch, the distance between "
                     "pixels, as --pitch '1 um', or pitch = '1 um' in a file"
                 )
+        elif unit != "m":
+            raise CaseError(f"{path} states its own unit; leave {unit!r} out")
         else:
             found = _by_plugin(path)
             heights, pitch = found.heights, pitch or found.pitch

@@ -76,12 +76,23 @@ def test_the_command_says_what_the_maps_do_not_tell_and_what_is_cut_off(tmp_path
     assert "inf" not in done.output
 
 
+def test_a_unit_of_heights_is_given_where_a_file_states_none(standard, tmp_path):
+    heights = standard[1].heights
+    np.save(tmp_path / "micro.npy", 1e6 * heights)
+    read = read_heights(tmp_path / "micro.npy", (PITCH, PITCH), "µm")
+    assert read.heights == pytest.approx(heights, rel=1e-12, abs=0, nan_ok=True)
+    with pytest.raises(CaseError, match=r"^unit: .*'1 kg'"):
+        read_heights(tmp_path / "micro.npy", (PITCH, PITCH), "kg")
+    with pytest.raises(CaseError, match="states its own unit"):
+        read_heights(tmp_path / "map.x3p", unit="nm")
+
+
 def test_heights_in_micrometres_and_fill_values_are_told_by_their_file(standard, tmp_path):
     heights = standard[1].heights
     filled = np.where(np.isnan(heights), -9999, heights)
     for name, wrong in {"micro": 1e6 * heights, "filled": filled}.items():
         np.save(tmp_path / f"{name}.npy", wrong)
-        words = rf"{name}\.npy: .* lie further .* wide, 0\.096 mm; .*put NaN for fill .* one in µm"
+        words = rf"{name}\.npy: .* lie further .* wide, 0\.096 mm; .*Put NaN for fill .*--unit µm"
         with pytest.raises(CaseError, match=words):
             read_heights(tmp_path / f"{name}.npy", (PITCH, PITCH))
     # An instrument may count heights from its own stage.

@@ -36,6 +36,7 @@ DEPTHS = ".npy"
     metavar="LENGTH",
     help="Take this distance of pixels; give it twice for x and y.",
 )
+@click.option("--unit", default="m", show_default=True, help="Unit of heights, as µm.")
 @click.option("--radius", metavar="LENGTH", help="Use formulas for a ball of this radius.")
 @click.option(
     "--track-length", metavar="LENGTH", help="Take a track of this length, by default the map's."
@@ -55,6 +56,7 @@ def scar(
     files: tuple[Path, ...],
     ideal: str | None,
     pitch: tuple[str, ...],
+    unit: str,
     radius: str | None,
     track_length: str | None,
     form: int,
@@ -64,15 +66,15 @@ def scar(
     """Measure a scar between two height maps, BEFORE and AFTER a test.
 
     The maps are laid on each other (shift, rotation, tilt) by their unworn
-    surface, and subtracted. Files are NumPy or CSV with heights in m, which
-    need --pitch, or in a format that a plugin reads, such as tribo-topography. x is
-    the sliding direction; what is missing is NaN. With one file, --ideal gives the
+    surface, and subtracted. Files are NumPy or CSV with heights, which need
+    --pitch, or in a format that a plugin reads, such as tribo-topography. x is the
+    sliding direction; what is missing is NaN. With one file, --ideal gives the
     shape before the test.
 
     \b
     Example:
       tribo scar before.x3p after.x3p --radius '5 mm' -o scar.png -o depth.npy
-      tribo scar after.npy --pitch '1 um' --ideal '{ type = "sphere", radius = "5 mm" }'
+      tribo scar after.npy --pitch '1 um' --unit um --ideal '{ type = "sphere", radius = "5 mm" }'
     """
     from tribo import Quantity, read_heights
     from tribo.kernel_api import Console, picture_format
@@ -100,7 +102,7 @@ def scar(
         raise CaseError("give one --pitch, or two, along x and along y")
     # Beyond 1 mm between two pixels the unit is a wrong one.
     steps = [length("--pitch", text, 1e-3) or 0.0 for text in pitch]
-    maps = [read_heights(path, (steps[0], steps[-1]) if steps else None) for path in files]
+    maps = [read_heights(path, (steps[0], steps[-1]) if steps else None, unit) for path in files]
     before, lengths = _surface(ideal) if ideal else maps[0], (radius, track_length)
     ball, track = map(length, ("--radius", "--track-length"), lengths)
     with Console(stderr=True).status("Laying the maps on each other, and measuring the scar"):
