@@ -95,6 +95,7 @@ from tribo.lab.scar import diameter as diameter
 from tribo.lab.scar import layer_ends as layer_ends
 from tribo.lab.scar import removed as removed
 from tribo.lab.scar import scar_mask as scar_mask
+from tribo.lab.tables import doubt_of_depth as doubt_of_depth
 from tribo.lab.tables import inferred_table as inferred_table
 from tribo.lab.units import axis_units as axis_units
 from tribo.lab.units import height_unit as height_unit

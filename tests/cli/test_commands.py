@@ -171,7 +171,9 @@ def test_check_predicts_what_the_stroke_average_costs_and_the_run_ends_with(case
     ran = tribo("run", "my.toml", *coarse)
     end = [line for line in ran.stderr.splitlines() if "averaging: at 3600 s" in line]
     # What was printed as it ran is not printed again.
-    assert "averaging" not in ran.stdout
+    assert "averaging: at" not in ran.stdout
+    # The number that it is about says so in its own line.
+    assert re.search(r"largest depth, µm \(off: see averaging\) +\d", ran.stdout)
     foreseen, found = (re.search(r"about (\d+) % too deep", text)[1] for text in (problem, *end))
     assert int(foreseen) == pytest.approx(17.7, abs=1.5)
     assert int(found) == pytest.approx(17.7, abs=1.5)

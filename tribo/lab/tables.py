@@ -75,11 +75,22 @@ def wear_table(result: Result, bodies: Mapping[str, BodyReport]) -> DataTable:
             row(f"{name}, {unit}", (mark[key] for mark in marks), factor, form)
             for name, unit, key, factor, form in MEASURES
         ),
-        row("largest depth, µm", (save["max_wear_depth_m"] for save in saves), 1e6, ".3g"),
+        row(
+            f"largest depth, µm{doubt_of_depth(result)}",
+            (save["max_wear_depth_m"] for save in saves),
+            1e6,
+            ".3g",
+        ),
         row("largest plastic depth, µm", (s["max_plastic_depth_m"] for s in saves), 1e6, ".3g"),
     ]
     title = f"Wear after {last['distance_m']:.4g} m{before}"
     return DataTable(title, list(map(Heading, ("", *tracks))), rows)
+
+
+def doubt_of_depth(result: Result) -> str:
+    """Return what to say beside a largest depth that a finding calls wrong; empty if none does."""
+    kinds = {each.kind for each in result.findings} & {"averaging", "quadrature"}
+    return f" (off: see {' and '.join(sorted(kinds))})" if kinds else ""
 
 
 def _marks(result: Result, name: str, body: BodyReport) -> dict[str, Value]:

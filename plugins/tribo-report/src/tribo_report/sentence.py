@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tribo import CaseError, LabReport, Result
-from tribo.kernel_api import plus_minus, size
+from tribo.kernel_api import doubt_of_depth, plus_minus, size
 
 from tribo_report.amounts import amount
 from tribo_report.printed import printed_by
@@ -61,7 +61,7 @@ def sentence(result: Result, lab: LabReport, verified: Sequence[Estimate]) -> st
         if report.mass_kg is not None:
             words += f" ({quoted(report.mass_kg, 'mg')})"
         deepest = quoted(depth, "µm", _of(verified, f"{name}: largest depth"))
-        losses.append(f"{words} and is worn {deepest} deep")
+        losses.append(f"{words} and is worn {deepest} deep{doubt_of_depth(result)}")
     under = f"Over {last['distance_m']:.4g} m of sliding under {load_words(result)}"
     text = f"{under} {', '.join(losses)}."
     for name, body in result.case_tables["bodies"].items():
