@@ -88,33 +88,7 @@ def test_what_tribo_does_not_write_is_refused_in_one_line(path, edit):
         Result.open(path)
 
 
-def test_a_result_of_an_older_version_without_findings_is_read(path):
-    with edited(path) as file:
-        del file.attrs["findings"]
-        text("notices", ["few cells"])(file)
-    with Result.open(path) as result:
-        assert [each.words for each in result.findings] == ["few cells"]
-
-
 def test_a_case_that_was_only_added_to_is_shown(path):
     with edited(path) as file:
         text("case", {**json.loads(file.attrs["case"]), "later": 1})(file)
     assert CliRunner().invoke(command_line, ["show", str(path)]).exception is None
-
-
-def test_keys_of_older_files_that_change_nothing_are_no_part_of_the_case(path):
-    with Result.open(path) as result:
-        before = result.case_tables
-    tables = {**before, "requires": []}
-    with edited(path) as file:
-        text("case", tables)(file)
-    with Result.open(path) as older:
-        assert older.recorded_case == tables
-        assert older.case_tables == before
-
-
-def test_keys_of_older_files_that_change_something_stay(path):
-    with edited(path) as file:
-        text("case", {**json.loads(file.attrs["case"]), "requires": ["acme>=1"]})(file)
-    with Result.open(path) as older:
-        assert older.case_tables["requires"] == ["acme>=1"]

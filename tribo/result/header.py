@@ -16,14 +16,6 @@ from tribo.core.words import checked_name
 
 FORMAT = 2
 _JSON = ("case", "provenance", "findings")
-_SHORT = {"allow_short_track": False}
-_FORMER: dict[str | None, dict[str, Any]] = {
-    None: {"requires": []},
-    "explicit": {"allow_unstable": False},
-    "rotating": _SHORT,
-    "unidirectional": {**_SHORT, "positions": "average"},
-}
-"""Keys that tables of older files have, by type, with the value at which they change nothing."""
 
 
 def _named(case: dict[str, Any]) -> dict[str, Any]:
@@ -31,17 +23,6 @@ def _named(case: dict[str, Any]) -> dict[str, Any]:
     if len({checked_name(name) for name in case["bodies"]}) != 2:
         raise ValueError("a case has two bodies")
     return case
-
-
-def current(case: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the tables of a case without former keys that change nothing."""
-    tables = {key: _current(case[key]) for key in ("kinematics", "stepping") if key in case}
-    return _current({**case, **tables})
-
-
-def _current(table: Mapping[str, Any]) -> dict[str, Any]:
-    former = _FORMER.get(table.get("type"), {})
-    return {key: value for key, value in table.items() if (key, value) not in former.items()}
 
 
 class Header(BaseModel):
@@ -70,10 +51,6 @@ class Header(BaseModel):
             name: value.tolist() if isinstance(value, np.ndarray | np.generic) else value
             for name, value in attributes.items()
         }
-        if "findings" not in plain:
-            # An older file has sentences alone.
-            words = json.loads(plain["notices"])
-            plain["findings"] = json.dumps([{"kind": "notice", "words": each} for each in words])
         return cls.model_validate(plain | {name: json.loads(plain[name]) for name in _JSON})
 
     def attributes(self) -> dict[str, Any]:

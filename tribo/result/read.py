@@ -25,7 +25,7 @@ from tribo.core.shorthand import call
 from tribo.core.words import did_you_mean, suggestion
 from tribo.result.body import BodyResult, checked_save
 from tribo.result.hdf5 import read_variables
-from tribo.result.header import Header, current
+from tribo.result.header import Header
 from tribo.result.layout import BETWEEN, EFFECT, HISTORY, STATE
 from tribo.result.opening import interpreting, source_of
 from tribo.result.sealed import write_sealed
@@ -164,11 +164,6 @@ class Result(AbstractContextManager["Result"]):
     @property
     def case_tables(self) -> dict[str, Any]:
         """The full configuration, as plain data in SI units."""
-        return current(self._header.case)
-
-    @property
-    def recorded_case(self) -> dict[str, Any]:
-        """The same as its file has it, perhaps with keys of an older version."""
         return dict(self._header.case)
 
     @property

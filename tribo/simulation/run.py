@@ -172,7 +172,7 @@ class Simulation:
         with Result.open(path) as result:
             status = result.status
             changes = self.changed_since(result)
-            case, recorded = result.case_tables, result.recorded_case
+            case = result.case_tables
         listed = "; ".join(f"{place} was {old}, is {new}" for place, old, new in changes)
         if status == "done":
             folder = RunFolder(path.resolve())
@@ -196,7 +196,7 @@ class Simulation:
             raise CaseError(f"{path} is the result of another case; resume that one")
         recorder = Recorder(path=path)
         try:
-            state, wall_time = recorder.resume(recorded)
+            state, wall_time = recorder.resume(case)
         except CaseError:
             if status in ("running", "killed") and not is_unfinished(path):
                 # Its run has ended since.
