@@ -9,10 +9,8 @@ from pathlib import Path
 import pytest
 from made_results import written
 
-from tribo import Registry, TriboWarning, compare
-from tribo.config.load import validate_case
+from tribo import TriboWarning, compare
 from tribo.config.overrides import apply_settings
-from tribo.contact.winkler import Winkler
 from tribo.core.errors import CaseError, NumericalError
 from tribo.study.runs import file_names
 from tribo.templates import template
@@ -30,21 +28,10 @@ CASE = apply_settings(
 CONTACTS = {"contact.type": ("dcfft", "winkler")}
 
 
-def case(**changes):
-    return CASE | changes
-
-
 @pytest.fixture(scope="module")
 def foundations(tmp_path_factory):
     with compare(CASE, CONTACTS, tmp_path_factory.mktemp("whole")) as comparison:
         yield comparison
-
-
-@pytest.fixture
-def done(foundations, tmp_path):
-    """Return a folder with the same results."""
-    kept = Path(foundations.results["dcfft"].name).parent
-    return shutil.copytree(kept, tmp_path / "done")
 
 
 def test_json_has_every_common_save_and_is_json(foundations):
@@ -99,23 +86,10 @@ def test_bodies_of_other_names_are_refused(tmp_path):
         compare([written(tmp_path / "ball.h5"), pin])
 
 
-@pytest.mark.slow
-def test_a_folder_with_another_case_is_left_alone_unless_told(done):
+def test_a_folder_with_another_case_is_left_alone(foundations):
+    folder = Path(foundations.results["dcfft"].name).parent
     with pytest.raises(CaseError, match="is the result of another case; choose another folder"):
-        compare(case(load={"normal": 120}), CONTACTS, done)
-    with compare(case(load={"normal": 120}), CONTACTS, done, overwrite=True) as comparison:
-        assert all(r.case_tables["load"]["normal"] == 120 for r in comparison.results.values())
-
-
-@pytest.mark.parametrize("damaged", [False, True])
-def test_a_file_that_is_not_a_sound_result_is_kept(done, damaged):
-    path = done / "contact.type=dcfft.h5"
-    content = bytearray(path.read_bytes() if damaged else b"my notes")
-    content[len(content) // 2] ^= 1
-    path.write_bytes(content)
-    with pytest.raises(CaseError, match=r"dcfft\.h5 is .* or run all again with --force"):
-        compare(CASE, CONTACTS, done)
-    assert path.read_bytes() == content
+        compare(CASE | {"load": {"normal": 120}}, CONTACTS, folder)
 
 
 @pytest.mark.slow
@@ -158,16 +132,14 @@ def test_files_are_compared_under_their_names(tmp_path):
             compare(names)
 
 
-def test_a_finding_of_several_runs_is_given_once_and_a_registry_of_ones_own_is_used():
-    registry = Registry.with_plugins()
-    coarse = validate_case(case(grid={"size": "0.9 mm", "cells": 12}))
+def test_a_finding_of_several_runs_is_given_once():
+    coarse = CASE | {"grid": {"size": "0.9 mm", "cells": 12}}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", TriboWarning)
-        with compare(coarse, CONTACTS, registry=registry) as comparison:
+        with compare(coarse, CONTACTS) as comparison:
             found, *_ = comparison.findings
     assert (found.kind, found.limit) == ("resolution", 8)
     assert found.words.startswith("dcfft; winkler: ")
-    assert registry.lookup("contact_solver", "winkler") is Winkler
 
 
 def test_file_names_are_safe_and_different():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +25,6 @@ BESIDE = 3
 @PLUGIN
 @click.option("-o", "--output", type=PATH, help="Write to this folder, by default CASE-compare.")
 @click.option("--at", "at", multiple=True, metavar="TIME", help="Show this saved time, as '1 h'.")
-@click.option("--force", is_flag=True, help="Run all again.")
 @JSON
 @click.option("--no-plots", is_flag=True, help="Write no pictures.")
 def compare(
@@ -34,7 +33,6 @@ def compare(
     overrides: tuple[str, ...],
     output: Path | None,
     at: tuple[str, ...],
-    force: bool,
     as_json: bool,
     no_plots: bool,
 ) -> None:
@@ -60,10 +58,8 @@ def compare(
     folder = output or files[0].with_name("-".join([*stems, "compare"]))
     with located("--at"):
         times = [Quantity("s", at_least=0).read(parse_value(text)) for text in at]
-    what, options = _asked(files, vary, overrides, force)
-    if vary:
-        options["folder"] = folder
-    with run(what, **options) as comparison:
+    what, axes = _asked(files, vary, overrides)
+    with run(what, axes, folder, progress=True) as comparison:
         chosen = comparison.chosen_times(times)
         if not as_json:
             print_comparison(comparison, chosen)
@@ -103,12 +99,11 @@ def print_comparison(comparison: Comparison, times: Sequence[float]) -> None:
 
 
 def _asked(
-    files: tuple[Path, ...], vary: tuple[str, ...], overrides: tuple[str, ...], force: bool
-) -> tuple[Any, dict[str, Any]]:
+    files: tuple[Path, ...], vary: tuple[str, ...], overrides: tuple[str, ...]
+) -> tuple[Any, Mapping[str, Sequence[Any]]]:
     """Return the operands, a case or result files, and the variation of a case."""
     from tribo.config.load import read_toml
     from tribo.config.overrides import apply_settings
-    from tribo.observers.progress import Progress
     from tribo.study.variation import read_axes
 
     if not vary:
@@ -118,14 +113,9 @@ def _asked(
                 f"{cases[0]} is a case; give result files, or say what varies in it, as: "
                 f"tribo compare {cases[0]} --vary contact.type=dcfft,winkler"
             )
-        if overrides or force:
-            raise CaseError("--set and --force are for a case that varies, with --vary")
+        if overrides:
+            raise CaseError("--set is for a case that varies, with --vary")
         return files, {}
     if len(files) > 1:
         raise CaseError(f"--vary varies one case, {len(files)} files are given")
-    return apply_settings(read_toml(files[0]), overrides), {
-        "vary": read_axes(vary),
-        "observers": lambda: [Progress()],
-        "tell": lambda text: click.echo(text, err=True),
-        "overwrite": force,
-    }
+    return apply_settings(read_toml(files[0]), overrides), read_axes(vary)

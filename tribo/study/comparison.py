@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -18,8 +18,7 @@ from tribo.core.findings import Finding
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.shorthand import call
 from tribo.lab.report import quantity_rows
-from tribo.observers.observer import Observer
-from tribo.registry.registry import Registry
+from tribo.observers.progress import Progress
 from tribo.result.read import Result
 from tribo.simulation.run import Simulation
 from tribo.study.differences import differences
@@ -246,10 +245,7 @@ def compare(
     folder: str | Path | None = None,
     *,
     labels: Sequence[str] | None = None,
-    registry: Registry | None = None,
-    observers: Callable[[], Sequence[Observer]] = list,
-    tell: Callable[[str], None] = lambda text: None,
-    overwrite: bool = False,
+    progress: bool = False,
 ) -> Comparison:
     """Run variants of a case, or take any cases and results, and set them side by side.
 
@@ -268,14 +264,8 @@ def compare(
     labels : sequence of str, optional
         Names of the variants or of the items of the list; if left out the values
         that differ, or stems of files, or whole names where stems are alike.
-    registry : Registry, optional
-        Where to look components up; the installed plugins if left out.
-    observers : callable, optional
-        Makes the watchers of a run.
-    tell : callable, optional
-        Gets a line on each run before it starts.
-    overwrite : bool, optional
-        Whether to run all again, whatever is in the folder.
+    progress : bool, optional
+        Whether to show on stderr which run is in progress, with a bar.
 
     Returns
     -------
@@ -301,21 +291,14 @@ def compare(
     if isinstance(what, Sequence) and not isinstance(what, str):
         if vary:
             raise CaseError("a list of results has nothing to vary; give one case")
-        return _of_list(what, labels, registry)
+        return _of_list(what, labels, progress)
     points = points_of(vary)
     _check_count(len(points), "variant")
-    cases = variants(case_tables(what), points, registry)
+    cases = variants(case_tables(what), points)
     names = list(labels or short_labels(points))
     if len(set(names)) != len(points):
         raise CaseError(f"{len(points)} variants need as many different labels, not {names}")
-    results = run_variants(
-        cases,
-        None if folder is None else Path(folder),
-        registry=registry,
-        observers=observers,
-        tell=tell,
-        overwrite=overwrite,
-    )
+    results = run_variants(cases, None if folder is None else Path(folder), progress)
     return Comparison(dict(zip(names, results, strict=True)), dict(zip(names, points, strict=True)))
 
 
@@ -325,9 +308,7 @@ def _check_count(count: int, what: str) -> None:
 
 
 def _of_list(
-    given: Sequence[Case | Result | str | Path],
-    labels: Sequence[str] | None,
-    registry: Registry | None,
+    given: Sequence[Case | Result | str | Path], labels: Sequence[str] | None, progress: bool
 ) -> Comparison:
     _check_count(len(given), "result")
     files = [Path(each) for each in given if isinstance(each, str | Path)]
@@ -349,7 +330,7 @@ def _of_list(
             if isinstance(each, str | Path) and Path(each).suffix != ".toml":
                 each = Result.open(each)
             elif not isinstance(each, Result):
-                each = Simulation(each, registry).run()
+                each = Simulation(each).run(observers=[Progress()] * progress)
             results[name] = unless_kept.enter_context(each)
         comparison = Comparison(results)
         unless_kept.pop_all()

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Mapping, Sequence
+import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from tribo.case import Case
 from tribo.core.errors import CaseError, about, warn
 from tribo.core.writing import make_folder
 from tribo.observers.observer import Observer
-from tribo.registry.registry import Registry
+from tribo.observers.progress import Progress
 from tribo.result.read import Result
 from tribo.simulation.run import Simulation
 
 _LONGEST_NAME = 100
 """Characters, of up to two bytes; file systems allow 255 bytes with the ending."""
-_OTHERWISE = (
-    "choose another folder with -o, or run all again with --force (in Python overwrite=True)"
-)
 
 
 def is_done(path: Path, simulation: Simulation) -> bool:
@@ -38,10 +36,12 @@ def is_done(path: Path, simulation: Simulation) -> bool:
 
 
 def complete(simulation: Simulation, path: Path, observers: Sequence[Observer]) -> Result:
-    """Continue the stopped run of a file, or else run the case from its beginning.
+    """Return the result of a file that is done; else continue its run, or run from the beginning.
 
     A file that cannot be resumed is replaced, with a warning that names the reason.
     """
+    if is_done(path, simulation):
+        return Result.open(path)
     if os.path.exists(path):
         try:
             go_on = simulation.reopen(path, observers=observers)
@@ -53,41 +53,28 @@ def complete(simulation: Simulation, path: Path, observers: Sequence[Observer]) 
     return simulation.run(path, observers=observers, overwrite=True)
 
 
-def run_variants(
-    cases: Mapping[str, Case],
-    folder: Path | None,
-    *,
-    registry: Registry | None = None,
-    observers: Callable[[], Sequence[Observer]] = list,
-    tell: Callable[[str], None] = lambda text: None,
-    overwrite: bool = False,
-) -> list[Result]:
-    """Run cases one after another, each into a file of a folder, named after its label.
+def run_variants(cases: Mapping[str, Case], folder: Path | None, progress: bool) -> list[Result]:
+    """Complete cases one after another, each in a file of a folder named after its label.
 
-    Finished results of the same cases are taken as they are, and interrupted
-    runs are continued; see `tribo.compare`. CaseError if a file is no result
-    of its case.
+    In memory without a folder; see `tribo.compare`. CaseError if a file is no result of its case.
     """
-    simulations = [Simulation(case, registry) for case in cases.values()]
+    simulations = [Simulation(case) for case in cases.values()]
     paths = [folder / name if folder else None for name in file_names(list(cases))]
-    if folder is not None:
-        for path, simulation in zip(paths, simulations, strict=True):
-            if path is not None and not overwrite:
-                _check_own(path, simulation)
-        make_folder(folder)
-    results = []
+    for path, simulation in zip(paths, simulations, strict=True):
+        if path is not None:
+            _check_own(path, simulation)
+            make_folder(path.parent)
+    watchers, results = [Progress()] * progress, []
     for number, (label, path, simulation) in enumerate(
         zip(cases, paths, simulations, strict=True), start=1
     ):
-        done = path is not None and not overwrite and is_done(path, simulation)
-        tell(f"{number} of {len(cases)}, {label}" + (f": done already, {path}" if done else ""))
+        if progress:
+            print(f"{number} of {len(cases)}, {label}", file=sys.stderr)
         with about(label):
-            if path is None or overwrite:
-                results.append(simulation.run(path, observers=observers(), overwrite=True))
-            elif done:
-                results.append(Result.open(path))
+            if path is None:
+                results.append(simulation.run(observers=watchers))
             else:
-                results.append(complete(simulation, path, observers()))
+                results.append(complete(simulation, path, watchers))
     return results
 
 
@@ -101,12 +88,9 @@ def file_names(labels: Sequence[str]) -> list[str]:
 def _check_own(path: Path, simulation: Simulation) -> None:
     """Check that a file, if there is one, is a result of this simulation."""
     # A killed run may leave an empty file.
-    if not os.path.exists(path) or path.stat().st_size == 0:
-        return
-    try:
+    if os.path.exists(path) and path.stat().st_size > 0:
         with Result.open(path) as result:
-            own = result.case_tables == simulation.model.data
-    except CaseError as error:
-        raise CaseError(f"{error}; {_OTHERWISE}") from error
-    if not own:
-        raise CaseError(f"{path} is the result of another case; {_OTHERWISE}")
+            if result.case_tables != simulation.model.data:
+                raise CaseError(
+                    f"{path} is the result of another case; choose another folder with -o"
+                )

@@ -11,7 +11,6 @@ from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings, parse_value, path_keys
 from tribo.core.errors import CaseError, located
 from tribo.core.words import did_you_mean, suggestion
-from tribo.registry.registry import Registry
 from tribo.simulation.run import Simulation
 
 Point = dict[str, Any]
@@ -53,9 +52,7 @@ def check_distinct(paths: Iterable[str]) -> None:
         seen.add(keys)
 
 
-def variants(
-    data: Mapping[str, Any], points: Sequence[Point], registry: Registry | None = None
-) -> dict[str, Case]:
+def variants(data: Mapping[str, Any], points: Sequence[Point]) -> dict[str, Case]:
     """Return the cases that follow from `data` with each of the points, by their labels.
 
     All are validated and composed first, so that wrong input costs no run. CaseError names the
@@ -66,7 +63,7 @@ def variants(
     for point in points:
         label = _label(point)
         try:
-            cases.append((label, valid_case(data, point, registry)))
+            cases.append((label, valid_case(data, point)))
         except CaseError as error:
             # A label has the place that it varies.
             reason = str(error).removeprefix(f"{error.path}: " if error.path in point else "")
@@ -83,10 +80,10 @@ def variants(
     return found
 
 
-def valid_case(data: Mapping[str, Any], point: Point, registry: Registry | None = None) -> Case:
+def valid_case(data: Mapping[str, Any], point: Point) -> Case:
     """Return the validated case that follows from `data` with one point; CaseError if not valid."""
-    case = validate_case(apply_settings(data, point), registry=registry)
-    Simulation(case, registry)
+    case = validate_case(apply_settings(data, point))
+    Simulation(case)
     return case
 
 
