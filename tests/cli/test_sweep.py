@@ -52,6 +52,6 @@ def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path, monkeypatch):
     code, out, err = tribo("sweep", "my.toml", *vary, "-o", "out", "--jobs", 1, cwd=tmp_path)
     assert code == 3
     assert "\n1 of 2 runs are done.\n" in out
-    told = "error: 1 of 2 runs failed; --retry runs them again:\n  run 2 (grid.size=0.2 mm): "
+    told = "error: 1 of 2 runs failed; the same command repeats them:\n  run 2 (grid.size=0.2 mm): "
     assert told in err
     assert "Traceback" not in err

@@ -3,7 +3,6 @@
 import os
 import signal
 import time
-from concurrent.futures import Executor, Future
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from pathlib import Path
@@ -13,7 +12,7 @@ import pytest
 import sweeps
 
 from tribo import Result, sweep
-from tribo.core.errors import CaseError, OutputError
+from tribo.core.errors import CaseError
 from tribo.study.sweeping.executors import processes
 
 # Of checkpoints that were not whole when their process was killed.
@@ -111,7 +110,7 @@ def swept(folder, *options):
 
 
 def assert_ends_as(whole, folder):
-    swept = sweep(folder / "my.toml", LOADS, executor=sweeps.Inline(), retry=True)
+    swept = sweep(folder / "my.toml", LOADS, executor=sweeps.Inline())
     assert swept.failures() == {}
     pandas.testing.assert_frame_equal(table(folder), whole)
 
@@ -163,20 +162,3 @@ def test_the_death_of_a_worker_costs_no_other_run():
             fatal.result(PATIENCE)
         assert slow.result(PATIENCE) is None
         assert executor.submit(abs, -1).result(PATIENCE) == 1
-
-
-class Dropping(Executor):
-    """An executor that ends before its calls do."""
-
-    def submit(self, fn, /, *args, **kwargs):
-        future = Future()
-        future.cancel()
-        future.set_running_or_notify_cancel()
-        return future
-
-
-def test_an_executor_that_ends_is_an_error_of_writing(tmp_path):
-    sweeps.case(tmp_path)
-    with pytest.raises(OutputError, match="the executor dropped its runs"):
-        sweep(tmp_path / "my.toml", LOADS, tmp_path / "out", executor=Dropping())
-    assert not done(tmp_path)

@@ -1,7 +1,7 @@
 """A sweep does every run once, records what fails, and its tables agree with its results."""
 
 import shutil
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
 import numpy as np
@@ -10,7 +10,7 @@ import pytest
 import sweeps
 
 from tribo import sweep
-from tribo.core.errors import CaseError, OutputError, TriboWarning
+from tribo.core.errors import CaseError, TriboWarning
 from tribo.result.checkpoint import hold
 from tribo.study.sweeping.sweep import plan
 
@@ -81,7 +81,7 @@ FAILING = [
 
 
 @pytest.mark.slow
-def test_a_failing_run_is_recorded_and_run_again_only_when_told(tmp_path):
+def test_a_failing_run_is_recorded_and_repeated(tmp_path):
     path = sweeps.case(tmp_path)
     swept = sweep(path, FAILING, executor=sweeps.Inline())
     assert statuses(swept) == ["done", "failed", "failed"]
@@ -92,12 +92,10 @@ def test_a_failing_run_is_recorded_and_run_again_only_when_told(tmp_path):
     assert np.isnan(table["max_pressure_Pa"][1])
     executor = sweeps.Inline()
     pandas.testing.assert_frame_equal(sweep(path, FAILING, executor=executor).table, swept.table)
-    assert executor.calls == []
-    assert statuses(sweep(path, FAILING, executor=executor, retry=True)) == statuses(swept)
     assert executor.calls == [str(run.path) for run in swept.runs[1:]]
 
 
-def test_a_run_whose_worker_dies_fails_and_is_done_when_told(again):
+def test_a_run_whose_worker_dies_fails_and_is_repeated(again):
     # Of another case, so that it has no result yet.
     loads = {"load.normal": [50, 61]}
     executor = sweeps.Inline(sweeps.dies_at(61.0))
@@ -105,20 +103,13 @@ def test_a_run_whose_worker_dies_fails_and_is_done_when_told(again):
     assert statuses(found) == ["done", "failed"]
     assert "its worker process died" in found.table["message"][1]
     assert executor.calls == [str(found.runs[1].path)]
-    assert statuses(sweep(again, loads, executor=sweeps.Inline(), retry=True)) == ["done"] * 2
+    assert statuses(sweep(again, loads, executor=sweeps.Inline())) == ["done"] * 2
 
 
 def test_a_worker_with_a_folder_of_its_own_is_told_of(tmp_path):
     swept = sweep(sweeps.case(tmp_path), sweeps.LOADS, executor=sweeps.Inline(lambda case: ""))
     assert statuses(swept) == ["failed"] * 2
     assert "all workers must share" in swept.table["message"][0]
-
-
-def test_an_executor_that_takes_no_runs_ends_the_sweep(tmp_path):
-    executor = ThreadPoolExecutor(1)
-    executor.shutdown()
-    with pytest.raises(OutputError, match="takes no more runs"):
-        sweep(sweeps.case(tmp_path), sweeps.LOADS, executor=executor)
 
 
 ENERGY = {
@@ -140,7 +131,7 @@ def test_a_worker_that_lacks_a_plugin_says_so(tmp_path):
     message = swept.table["message"][0]
     assert "cannot compose this case: bodies.ball.wear.type: " in message
     assert "tribo-energy" in message
-    assert statuses(sweep(path, [ENERGY], executor=sweeps.Inline(), retry=True)) == ["done"]
+    assert statuses(sweep(path, [ENERGY], executor=sweeps.Inline())) == ["done"]
 
 
 @pytest.mark.slow

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     type=click.IntRange(1),
     help="Run this many cases at once, by default one a core.",
 )
-@click.option("--retry", is_flag=True, help="Repeat failed runs.")
 @JSON
 @PLUGIN
 def sweep(
@@ -36,7 +35,6 @@ def sweep(
     overrides: tuple[str, ...],
     output: Path | None,
     jobs: int | None,
-    retry: bool,
     as_json: bool,
 ) -> None:
     """Run variants of CASE in parallel.
@@ -45,8 +43,8 @@ def sweep(
     Every case is validated before any is run. Afterwards the folder holds
     runs.csv (a row a run), saves.csv (a row a save), the folder results and,
     where curves say it, a picture of the depth of each worn body. A
-    failing run is recorded and the others continue. A sweep that was stopped,
-    or has more values now, continues with the same command.
+    failing run is recorded and the others continue. A sweep that was stopped, has failed
+    runs or has more values now continues with the same command.
 
     \b
     Example:
@@ -62,7 +60,7 @@ def sweep(
     tables, axes = apply_settings(read_toml(case), overrides), read_axes(vary)
     folder = output or case.with_name(f"{case.stem}-sweep")
     with _shown() as tell:
-        swept = run(tables, axes, folder, jobs=jobs, retry=retry, tell=tell)
+        swept = run(tables, axes, folder, jobs=jobs, tell=tell)
     total, reasons = len(swept.runs), swept.failures()
     failed = sum(map(len, reasons.values()))
     if as_json:
@@ -78,7 +76,7 @@ def sweep(
         for path in draw_runs(swept.table, swept.folder):
             click.echo(f"Wrote {path}")
     if failed:
-        lines = [f"{failed} of {total} runs failed; --retry runs them again:"]
+        lines = [f"{failed} of {total} runs failed; the same command repeats them:"]
         for message, (first, *others) in reasons.items():
             more = f" and {len(others)} more" if others else ""
             lines.append(f"  run {first.number} ({first.label}){more}: {message}")

@@ -3,18 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import (
-    FIRST_COMPLETED,
-    BrokenExecutor,
-    CancelledError,
-    Executor,
-    Future,
-    wait,
-)
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from pathlib import Path
 
 from tribo.component import components
-from tribo.core.errors import Interrupted, OutputError
+from tribo.core.errors import Interrupted
 from tribo.core.writing import write_file
 from tribo.registry.registry import default_registry
 from tribo.simulation.interrupt import interrupts_held
@@ -23,7 +16,6 @@ from tribo.study.sweeping.worker import carry_out
 
 TICK = 0.2
 """Interval between checks for Ctrl-C, in s, which is answered at once to the eye."""
-_GOES_ON = "finished runs are kept; the same command continues"
 
 
 def carry(
@@ -33,7 +25,7 @@ def carry(
 
     Whatever ends this early makes the file `stop`, at which workers stop. `ended` is called with
     each run that ends, and with the reason if it failed. Interrupted if it was stopped from
-    outside, OutputError if the executor has broken.
+    outside.
     """
     futures: dict[Future[str], Run] = {}
     with interrupts_held() as requested:
@@ -58,12 +50,7 @@ def _submitted(run: Run, executor: Executor, stop: Path) -> Future[str]:
     what = run.case.model_dump(mode="json"), str(run.path.resolve()), str(stop.resolve())
     classes = {type(component) for _, component in components(run.case)}
     own = [(c.__module__, c.__qualname__) for c in classes if default_registry().is_own(c)]
-    try:
-        return executor.submit(carry_out, *what, own)
-    except Exception as error:
-        raise OutputError(
-            f"the executor takes no more runs ({type(error).__name__}: {error}); {_GOES_ON}"
-        ) from error
+    return executor.submit(carry_out, *what, own)
 
 
 def _failure(future: Future[str], run: Run) -> str:
@@ -72,10 +59,6 @@ def _failure(future: Future[str], run: Run) -> str:
         why = future.result()
     except BrokenExecutor:
         return "its worker process died: was it killed, or out of memory?"
-    except CancelledError:
-        raise OutputError(
-            f"the executor dropped its runs: has its scheduler ended? {_GOES_ON.capitalize()}"
-        ) from None
     except Exception as error:
         return f"its worker did not do it: {type(error).__name__}: {error}"
     if not why and not run.path.exists():

@@ -73,16 +73,6 @@ def tables(
     return table, pandas.concat(saves) if saves else pandas.DataFrame(columns=["run", "save"])
 
 
-def failed_before(path: Path) -> dict[str, str]:
-    """Return why runs failed, by the names of their files, from a table; empty without one."""
-    try:
-        table = pandas.read_csv(path, dtype=str, keep_default_na=False)
-        failed = table[table["status"] == "failed"]
-        return dict(zip(failed["file"], failed["message"], strict=True))
-    except (OSError, ValueError, KeyError):
-        return {}
-
-
 def _measured(result: Result) -> dict[str, Any]:
     """Return the scalars of the last save, and what a lab would report."""
     row: dict[str, Any] = {k: float(values[-1]) for k, values in result.table("saves").items()}

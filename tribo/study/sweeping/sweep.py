@@ -21,7 +21,7 @@ from tribo.simulation.run import Simulation
 from tribo.study.runs import is_done
 from tribo.study.sweeping.carrying import carry
 from tribo.study.sweeping.executors import processes
-from tribo.study.sweeping.runs_table import Run, failed_before, tables
+from tribo.study.sweeping.runs_table import Run, tables
 from tribo.study.variation import points_of, variants
 
 RUNS, SAVES, STOP, LOCK = "runs.csv", "saves.csv", "sweep.stop", "sweep.lock"
@@ -78,14 +78,14 @@ def sweep(
     *,
     executor: Executor | None = None,
     jobs: int | None = None,
-    retry: bool = False,
     tell: Callable[[int, int, int], None] = lambda total, done, failed: None,
 ) -> Sweep:
     """Run variants of a case, in parallel.
 
     All are validated and composed before any is run. Finished results of the
-    same case and components are reused, and stopped runs continue from their
-    checkpoints. A failing run is recorded, and the others continue.
+    same case and components are reused, stopped runs continue from their
+    checkpoints, and failed runs are repeated. A failing run is recorded, and the
+    others continue.
 
     Parameters
     ----------
@@ -102,8 +102,6 @@ def sweep(
         `folder` under the same path. It is left open.
     jobs : int, optional
         Number of processes if there is no `executor`; a core each if left out.
-    retry : bool, optional
-        Whether to repeat failed runs.
     tell : callable, optional
         Gets the numbers of all, finished and failed runs, at the beginning and
         as each run ends.
@@ -119,7 +117,7 @@ def sweep(
         If any of the cases is not valid, or another sweep is writing to the
         folder.
     OutputError
-        If the folder cannot be written to, or the executor has broken.
+        If the folder cannot be written to.
     Interrupted
         If it was stopped from outside; calling it again continues.
 
@@ -142,17 +140,10 @@ def sweep(
     folder = Path(folder)
     runs, paths = plan(what, vary, folder)
     with _holding(folder):
-        names = {run.path.name for run in runs}
-        before = {} if retry else failed_before(folder / RUNS)
-        failures = {name: why for name, why in before.items() if name in names}
         # A table must agree with the results, so there is none while they change.
         remove(folder / RUNS, folder / SAVES)
-        left = [
-            run
-            for run in runs
-            if run.path.name not in failures and not is_done(run.path, Simulation(run.case))
-        ]
-        done = len(runs) - len(left) - len(failures)
+        left = [run for run in runs if not is_done(run.path, Simulation(run.case))]
+        done, failures = len(runs) - len(left), dict[str, str]()
 
         def ended(run: Run, failure: str) -> None:
             nonlocal done
@@ -162,7 +153,7 @@ def sweep(
                 done += 1
             tell(len(runs), done, len(failures))
 
-        tell(len(runs), done, len(failures))
+        tell(len(runs), done, 0)
         try:
             with nullcontext(executor) if executor else processes(jobs) as workers:
                 carry(left, workers, folder / STOP, ended)

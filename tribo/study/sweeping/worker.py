@@ -14,7 +14,7 @@ from tribo.core.state import Snapshot
 from tribo.observers.observer import Observer
 from tribo.registry.registry import default_registry
 from tribo.simulation.run import Simulation
-from tribo.study.runs import complete, is_done
+from tribo.study.runs import complete
 
 
 def carry_out(
@@ -32,8 +32,7 @@ def carry_out(
         _know(own)
         with about(f"the worker on {socket.gethostname()} cannot compose this case"):
             simulation = Simulation(case)
-        if not is_done(result, simulation):
-            complete(simulation, result, [_StopFile(path=Path(stop))]).close()
+        complete(simulation, result, [_StopFile(path=Path(stop))]).close()
     except Interrupted:
         return "its worker was stopped"
     except TriboError as error:
