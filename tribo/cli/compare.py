@@ -86,9 +86,9 @@ def print_comparison(comparison: Comparison, times: Sequence[float]) -> None:
     if varied := comparison.varied:
         console.print(f"Varied: {', '.join(varied)}")
     console.print(
-        f"Percentages are relative to {escape(comparison.reference)}. Maps are compared cell by "
-        "cell, sections where grids differ: the L2 norm of the difference, then the largest, "
-        "which for a pressure often lies in a cell at the rim."
+        f"Percentages are relative to {escape(comparison.reference)}. Maps are compared in its "
+        "cells: the L2 norm of the difference, then the largest, which for a pressure often lies "
+        "in a cell at the rim."
     )
     table = comparison_table(comparison, times)
     indices = range(1, len(labels) + 1)

@@ -257,8 +257,8 @@ def other_grid(labels: Sequence[str], reference: str) -> Finding:
     """Word results on another grid than the reference result."""
     return Finding(
         "grid",
-        f"{', '.join(labels)}: not on the grid of {reference}; only scalars and "
-        "sections are compared, sections by interpolation where both windows reach",
+        f"{', '.join(labels)}: not on the grid of {reference}; maps are compared by "
+        "interpolation where both windows reach",
     )
 
 

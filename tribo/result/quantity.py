@@ -9,6 +9,7 @@ from scipy.ndimage import map_coordinates
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
+from tribo.core.grid import Grid
 from tribo.result.read import Result
 
 
@@ -37,10 +38,17 @@ def quantity(
     if places and "y" not in dims:
         raise CaseError(f"{name} is one number at each time; leave out the places")
     if places:
-        axes = zip(zip(*places, strict=True), result.grid.spacing, values.shape, strict=True)
-        at = [np.array(axis) / cell + 0.5 * (count - 1) for axis, cell, count in axes]
-        for axis, where, count in zip("xy", at, values.shape, strict=True):
-            if not np.all((where >= -0.5) & (where <= count - 0.5)):
-                raise CaseError(f"a place lies outside of the window along {axis}; it is in m")
-        values = map_coordinates(values, at, order=1, mode="nearest")
+        values = interpolated(values, result.grid, *map(np.array, zip(*places, strict=True)))
+        if np.isnan(values).any():
+            raise CaseError("a place lies outside of the window; it is in m")
     return np.atleast_1d(values if places else np.max(values)), known.unit
+
+
+def interpolated(field: Array, grid: Grid, x: Array, y: Array) -> Array:
+    """Return a field on a grid at places, in m: linear between cells; NaN outside of the window."""
+    # A cell more at each end extrapolates over the last half cell; a single cell is constant.
+    padded = np.pad(field, 1, "reflect", reflect_type="odd")
+    axes = zip((x, y), grid.spacing, field.shape, strict=True)
+    at = np.broadcast_arrays(*(axis / cell + 0.5 * (count + 1) for axis, cell, count in axes))
+    inside = (np.abs(x) <= 0.5 * grid.size[0]) & (np.abs(y) <= 0.5 * grid.size[1])
+    return np.where(inside, map_coordinates(padded, at, order=1), np.nan)

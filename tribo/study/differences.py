@@ -6,9 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribo.core.arrays import Array
-from tribo.core.grid import Grid
-from tribo.result.export import profile
+from tribo.result.quantity import interpolated
 from tribo.result.read import Result
 
 
@@ -25,9 +23,8 @@ def differences(result: Result, reference: Result, time: float) -> dict[str, Dif
     """Return the differences of pressure and wear depths from the reference, by field, at a save.
 
     Fields are ``"pressure"`` and ``"bodies.NAME.wear_depth"``, without those that are zero in the
-    reference. On the same grid the norms run over all cells; else over the sections along and
-    across sliding through the centre, at the reference's positions in both windows. Values there
-    are interpolated linearly, and extrapolated over the last half cell.
+    reference. The norms run over the reference's cells in both windows; values of another grid are
+    interpolated linearly there.
     """
     saves = [(each, each.save_at(time)) for each in (result, reference)]
     pairs = {"pressure": [each.field("pressure", save) for each, save in saves]}
@@ -37,7 +34,9 @@ def differences(result: Result, reference: Result, time: float) -> dict[str, Dif
     found = {}
     for name, (values, expected) in pairs.items():
         if result.grid != reference.grid:
-            values, expected = _sections(values, expected, result.grid, reference.grid)
+            values = interpolated(values, result.grid, *reference.grid.mesh)
+            inside = np.isfinite(values)
+            values, expected = values[inside], expected[inside]
         largest = float(np.max(np.abs(expected), initial=0.0))
         if largest > 0:
             # Squares of small depths may underflow, so scale first.
@@ -47,18 +46,3 @@ def differences(result: Result, reference: Result, time: float) -> dict[str, Dif
                 largest=float(np.max(np.abs(off))),
             )
     return found
-
-
-def _sections(field: Array, expected: Array, grid: Grid, on: Grid) -> tuple[Array, Array]:
-    """Return both sections of two fields where the windows of both reach, on the grid `on`."""
-    values, there = [], []
-    for axis in (0, 1):
-        own, positions = (grid.x, grid.y)[axis], (on.x, on.y)[axis]
-        inside = np.abs(positions) <= 0.5 * grid.size[axis]
-        # One more cell at each end, for linear extrapolation; a single cell is constant.
-        at, known = (
-            np.pad(v, 1, "reflect", reflect_type="odd") for v in (own, profile(field, axis))
-        )
-        values.append(np.interp(positions[inside], at, known))
-        there.append(profile(expected, axis)[inside])
-    return np.concatenate(values), np.concatenate(there)

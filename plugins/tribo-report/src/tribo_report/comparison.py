@@ -68,7 +68,7 @@ def comparison_page(comparison: Comparison) -> str:
 def _how_compared(comparison: Comparison) -> str:
     """Say what the percentages of the table are."""
     return (
-        f"Percentages are relative to {comparison.reference}; for fields and sections they are "
+        f"Percentages are relative to {comparison.reference}; for maps they are "
         "the L2 norm and the largest difference, which for a pressure often lies at the rim."
     )
 
