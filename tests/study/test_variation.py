@@ -76,22 +76,13 @@ def test_values_alone_are_the_labels_where_the_paths_are_the_same():
         (["loda.normal=1,2"], "did you mean 'load'?"),
         (["bodies.bal.wear.k=1,2"], "two bodies, as [bodies.ball] and [bodies.disk]; given: "),
         (["contact.type=winklr,dcfft"], "did you mean 'winkler'?"),
-        (["load.normal='1 N,2 N'"], "load.normal=1 N,2 N: '1 N,2 N': cannot read the unit"),
-        (["load.normal=1 N,2 Pa"], "with load.normal=2 Pa: '2 Pa'"),
+        (["load.normal='1 N,2 N'"], "with load.normal=1 N,2 N: load.normal: '1 N,2 N': "),
+        (["load.normal=1 N,2 Pa"], "with load.normal=2 Pa: load.normal: '2 Pa'"),
         # It is only when the parts are joined that this one is found.
-        (["kinematics.swept=disk,dsk"], "with kinematics.swept=dsk: no body"),
+        (["kinematics.swept=disk,dsk"], "with kinematics.swept=dsk: kinematics.swept: no body"),
     ],
 )
 def test_what_is_wrong_is_said_before_anything_runs(axes, message):
     with pytest.raises(CaseError) as caught:
         made(*axes)
     assert message in str(caught.value)
-
-
-def test_variants_with_one_reason_are_told_together():
-    with pytest.raises(CaseError) as caught:
-        made("load.normal=-1,-2,1", "grid.cells=16,32")
-    first, *others = str(caught.value).splitlines()
-    assert first.startswith("4 of 6 variants cannot be run")
-    assert len(others) == 2
-    assert "load.normal=-1, grid.cells=16 and 1 more: " in others[0]

@@ -9,7 +9,7 @@ from typing import Any
 from tribo.case import Case
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings, parse_value, path_keys
-from tribo.core.errors import CaseError, located
+from tribo.core.errors import CaseError, about, located
 from tribo.core.words import did_you_mean, suggestion
 from tribo.simulation.run import Simulation
 
@@ -55,24 +55,15 @@ def check_distinct(paths: Iterable[str]) -> None:
 def variants(data: Mapping[str, Any], points: Sequence[Point]) -> dict[str, Case]:
     """Return the cases that follow from `data` with each of the points, by their labels.
 
-    All are validated and composed first, so that wrong input costs no run. CaseError names the
-    variants that are not valid, or the same case, and the reason.
+    All are validated and composed first, so that wrong input costs no run. CaseError names a
+    variant that is not valid, or two of the same case.
     """
-    cases: list[tuple[str, Case]] = []
-    reasons: dict[str, list[str]] = {}
-    for point in points:
-        label = _label(point)
-        try:
-            cases.append((label, valid_case(data, point)))
-        except CaseError as error:
-            # A label has the place that it varies.
-            reason = str(error).removeprefix(f"{error.path}: " if error.path in point else "")
-            reasons.setdefault(reason, []).append(label)
-    if reasons:
-        raise CaseError(_refusal(reasons, len(points)))
     found: dict[str, Case] = {}
     same: dict[str, str] = {}
-    for label, case in cases:
+    for point in points:
+        label = _label(point)
+        with about(f"with {label}"):
+            case = valid_case(data, point)
         other = same.setdefault(repr(case), label)
         if other != label or label in found:
             raise CaseError(f"{other} and {label} are the same case; leave one of them out")
@@ -117,15 +108,6 @@ def _axis(text: str) -> tuple[str, tuple[Any, ...]]:
             f"a value is missing; write the values with commas between them, as in {path}=1,2", path
         )
     return path, values
-
-
-def _refusal(reasons: Mapping[str, Sequence[str]], count: int) -> str:
-    failing = sum(map(len, reasons.values()))
-    lines = [f"{failing} of {count} variants cannot be run; nothing was started:"]
-    for reason, (first, *others) in reasons.items():
-        more = f" and {len(others)} more" if others else ""
-        lines.append(f"  with {first}{more}: {reason}")
-    return "\n".join(lines)
 
 
 def _label(point: Point) -> str:
