@@ -66,7 +66,7 @@ def test_resume_needs_the_same_file_again_unless_another_is_allowed(asked, folde
     (folder / "law.py").write_text(newer)
     changed = asked("resume", "my.h5", "--plugin", "law.py")
     assert changed.returncode == 2
-    assert "--plugin law.py was" in changed.stderr
+    assert "bodies.ball.wear was code" in changed.stderr
     allowed = asked("resume", "my.h5", "--plugin", "law.py", "--allow-changed")
     assert allowed.returncode == 0, allowed.stderr
     with Result.open(folder / "my.h5") as result:

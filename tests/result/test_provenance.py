@@ -43,25 +43,24 @@ def test_being_editable_is_no_change():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"version": "9.9"}, "Archard of tribo 9.9"),
-        ({"class": "other.Law"}, "other.Law of tribo"),
-        ({"distribution": "fork"}, "Archard of fork"),
-        ({"code": "abcdef0123456789"}, "(source code abcdef0123)"),
-        ({"facts": {"sha256": "beef"}}, "(with sha256 beef)"),
+        ({"version": "9.9"}, "version 9.9"),
+        ({"class": "other.Law", "distribution": "fork"}, "class other.Law, distribution fork"),
+        ({"code": "abcdef0123456789"}, "code abcdef0123"),
+        ({"facts": {"sha256": "beef"}}, "facts sha256 beef"),
     ],
 )
 def test_a_change_is_told_by_what_differs(changes, words):
     ((place, old, new),) = changed_components(made(), made(**changes))
     assert place == "contact"
-    assert words in new
+    assert new == words
     assert old != new
 
 
 def test_a_component_more_or_less_is_a_change():
     fewer = made()
     del fewer["components"]["contact"]
-    ((_, old, new),) = changed_components(fewer, made())
-    assert (old, new[:6]) == ("not there", "tribo.")
+    ((_, old, _),) = changed_components(fewer, made())
+    assert old == "not there"
 
 
 def test_a_run_does_not_go_on_with_another_file_behind_its_surface(tmp_path, monkeypatch):
@@ -71,7 +70,7 @@ def test_a_run_does_not_go_on_with_another_file_behind_its_surface(tmp_path, mon
     with edited(path) as file:
         file.attrs["status"] = "interrupted"
     monkeypatch.setattr(Stated, "serial", "8")
-    with pytest.raises(CaseError, match=r"was .*\(with serial number 7\), is .*number 8\)"):
+    with pytest.raises(CaseError, match=r"was facts serial number 7, is facts .*number 8"):
         Simulation(model().case).resume(path)
 
 

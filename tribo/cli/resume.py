@@ -31,7 +31,6 @@ def resume(output: Path, allow_changed: bool) -> None:
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
     from tribo.result.checkpoint import RunFolder
-    from tribo.result.provenance import plugin_files
     from tribo.result.read import Result
     from tribo.simulation.run import Simulation
 
@@ -44,7 +43,8 @@ def resume(output: Path, allow_changed: bool) -> None:
         simulation = Simulation(case)
     except CaseError as error:
         makers = {f"{o['distribution']} {o['version']}" for o in made["components"].values()}
-        makers |= {f"--plugin {name}" for name in plugin_files(made)}
+        files = (each for each in made["plugins"] if each["origin"] == "file")
+        makers |= {f"--plugin {each['distribution']}" for each in files}
         listed = ", ".join(sorted(makers - {" "}))
         raise CaseError(f"{error} (the run was begun with {listed})") from error
     resumed = simulation.resume(output, observers=[Progress()], allow_changed=allow_changed)

@@ -57,17 +57,7 @@ def changed_components(
         differing = [key for key in _IDENTITY if was.get(key) != is_now.get(key)]
         if differing:
             changes.append((place, _words(was, differing), _words(is_now, differing)))
-    was_given, given = plugin_files(before), plugin_files(now)
-    for name in {**was_given, **given}:
-        if was_given.get(name) != given.get(name):
-            was, is_now = (files.get(name, "not given") for files in (was_given, given))
-            changes.append((f"--plugin {name}", was, is_now))
     return changes
-
-
-def plugin_files(made: Mapping[str, Any]) -> dict[str, str]:
-    """Return the hash of each file that a command line named as a plugin, by its name."""
-    return {p["distribution"]: p["version"] for p in made["plugins"] if p.get("origin") == "file"}
 
 
 def stated_facts(component: Component) -> dict[str, str]:
@@ -81,17 +71,12 @@ def stated_facts(component: Component) -> dict[str, str]:
 
 
 def _words(origin: Mapping[str, Any], differing: Sequence[str]) -> str:
-    """Return the class and version of a component, and its other differing facts."""
+    """Return what differs in the origin of a component."""
     if not origin:
         return "not there"
-    words = f"{origin['class']} of {origin['distribution'] or 'no distribution'}"
-    words = f"{words} {origin['version']}".rstrip()
-    if "code" in differing:
-        words += f" (source code {origin['code'][:10] or 'unknown'})"
-    if "facts" in differing:
-        stated = ", ".join(f"{name} {text}" for name, text in origin["facts"].items())
-        words += f" (with {stated or 'no facts'})"
-    return words
+    stated = "; ".join(f"{name} {text}" for name, text in origin["facts"].items())
+    shown = {**origin, "code": origin["code"][:10], "facts": stated}
+    return ", ".join(f"{key} {shown[key] or 'unknown'}" for key in differing)
 
 
 def origin(component: Component) -> dict[str, object]:
