@@ -10,10 +10,9 @@ from typing import Any
 
 from pydantic import PrivateAttr
 from rich.console import Console
-from rich.progress import BarColumn, Task, TaskID, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, TaskID, TextColumn, TimeRemainingColumn
 from rich.progress import Progress as Bar
 from rich.table import Column
-from rich.text import Text
 
 from tribo.core.state import RunInfo, Snapshot
 from tribo.core.words import readable
@@ -25,15 +24,6 @@ RENEWED = 0.1
 """Time between two renewals of the line, in s, as rich's own ten a second."""
 
 
-class _Described(TextColumn):
-    """The description of a task, cut where a narrow terminal ends: the other parts stay whole."""
-
-    def render(self, task: Task) -> Text:
-        text = super().render(task)
-        text.no_wrap, text.overflow = True, "ellipsis"
-        return text
-
-
 def progress_bar(**options: Any) -> Bar:
     """Return a bar on stderr: the time to go, and what a task is described as.
 
@@ -43,7 +33,12 @@ def progress_bar(**options: Any) -> Bar:
     return Bar(
         BarColumn(6, table_column=Column(no_wrap=True)),
         TimeRemainingColumn(compact=True, table_column=Column(no_wrap=True)),
-        _Described("left · {task.description}", table_column=Column()),
+        # Cut where a narrow terminal ends: the other parts stay whole.
+        TextColumn(
+            "left · {task.description}",
+            table_column=Column(ratio=1, no_wrap=True, overflow="ellipsis"),
+        ),
+        expand=True,
         console=Console(file=sys.stderr),
         transient=True,
         disable=not sys.stderr.isatty(),
