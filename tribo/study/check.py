@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from html import escape
@@ -65,31 +65,17 @@ class Check:
         """Exit code of a run; 0 unless a finding must stop it."""
         return int(self.data["exit_code"])
 
-    @property
-    def verdict(self) -> str:
-        """Whether the case can run, to be put after its name."""
-        if self.exit_code:
-            return "would stop on its way:"
-        return "is valid, but:" if self.problems else "is valid."
-
-    def blocks(self) -> Iterator[tuple[str, list[tuple[str, str]]]]:
-        """Yield headings, each with its lines of names and texts."""
-        yield "", [("  -", problem.words) for problem in self.problems]
-        yield "", [(f"  {name}", text) for name, text in self.rows]
-        for kind, group in groupby(self.facts, key=lambda finding: finding.kind):
-            yield kind, [(f"    {each.place}".rstrip(), each.words) for each in group]
-        for place, facts in self.data["facts"].items():
-            yield place, [(f"    {name}", text) for name, text in facts.items()]
-
     def text(self, case: str = "The case") -> str:
         """Return it as `tribo check` prints it, in lines of at most 80 characters."""
-        lines = [f"{case} {self.verdict}"]
-        for heading, rows in self.blocks():
-            lines += [f"  {heading}:"] if heading else []
-            width = 1 + max((len(name) for name, _ in rows), default=0)
-            for name, text in rows:
-                begin = f"{name:{width}}"
-                lines += wrap(text, 80, initial_indent=begin, subsequent_indent=" " * width)
+        verdict = "is valid, but:" if self.problems else "is valid."
+        lines = [f"{case} {'would stop on its way:' if self.exit_code else verdict}"]
+        lines += _lines(("  -", problem.words) for problem in self.problems)
+        lines += _lines((f"  {name}", text) for name, text in self.rows)
+        for kind, group in groupby(self.facts, key=lambda finding: finding.kind):
+            named = ((f"    {each.place}".rstrip(), each.words) for each in group)
+            lines += [f"  {kind}:", *_lines(named)]
+        for place, facts in self.data["facts"].items():
+            lines += [f"  {place}:", *_lines((f"    {name}", text) for name, text in facts.items())]
         return "\n".join(lines)
 
     __str__ = __repr__ = text
@@ -99,12 +85,21 @@ class Check:
 
     def as_json(self) -> dict[str, Any]:
         """Return it as plain data, in SI units."""
-        averaging = (each.words for each in self.problems if each.kind == "averaging")
         return dict(self.data) | {
-            "limitation": next(averaging, None),
             "problems": [each.words for each in self.problems],
             "findings": [asdict(each) for each in (*self.problems, *self.facts)],
         }
+
+
+def _lines(rows: Iterable[tuple[str, str]]) -> list[str]:
+    """Return names with their texts, which begin below each other, in lines."""
+    rows = list(rows)
+    width = 1 + max((len(name) for name, _ in rows), default=0)
+    return [
+        line
+        for name, text in rows
+        for line in wrap(text, 80, initial_indent=f"{name:{width}}", subsequent_indent=" " * width)
+    ]
 
 
 def check_case(case: Case) -> Check:
