@@ -18,7 +18,6 @@ from tribo.core import locks
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.observers import recorder
 from tribo.observers.observer import Observer
-from tribo.observers.recorder import Recorder
 from tribo.result.checkpoint import RunFolder, _load, _store
 from tribo.result.sealed import open_sealed
 
@@ -157,21 +156,6 @@ def test_a_run_that_ends_while_it_is_opened_is_read_whole(killed, monkeypatch, u
         return kept
 
     monkeypatch.setattr(RunFolder, "read_checkpoint", ends)
-    with Result.open(killed) as result:
-        assert bits(result) == undisturbed
-
-
-def test_a_run_that_ends_as_it_is_resumed_is_done(killed, monkeypatch, undisturbed):
-    resume = Recorder.resume
-
-    def ends(recorder, case):
-        monkeypatch.setattr(Recorder, "resume", resume)
-        simulation().resume(killed).close()
-        return resume(recorder, case)
-
-    monkeypatch.setattr(Recorder, "resume", ends)
-    with pytest.raises(CaseError, match="is done; there is nothing to resume"):
-        simulation().resume(killed)
     with Result.open(killed) as result:
         assert bits(result) == undisturbed
 

@@ -25,7 +25,6 @@ from tribo.observers.recorder import Recorder
 from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry, default_registry
 from tribo.result.checkpoint import RunFolder
-from tribo.result.opening import is_unfinished
 from tribo.result.provenance import changed_components, origin, provenance
 from tribo.result.read import Result
 from tribo.simulation.audience import Audience
@@ -195,13 +194,7 @@ class Simulation:
         if case != self.model.data and not changes:
             raise CaseError(f"{path} is the result of another case; resume that one")
         recorder = Recorder(path=path)
-        try:
-            state, wall_time = recorder.resume(case)
-        except CaseError:
-            if status in ("running", "killed") and not is_unfinished(path):
-                # Its run has ended since.
-                return self.reopen(path, observers=observers, allow_changed=allow_changed)
-            raise
+        state, wall_time = recorder.resume(case)
         state = state.without_findings("failed")
         return partial(
             self._follow,
