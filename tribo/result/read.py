@@ -20,7 +20,6 @@ from tribo.core.fields import Field
 from tribo.core.findings import Finding, worn_through
 from tribo.core.grid import Grid
 from tribo.core.hdf5 import open_hdf5
-from tribo.core.rounding import ROUND_OFF
 from tribo.core.shorthand import call
 from tribo.core.words import did_you_mean, suggestion
 from tribo.result.body import BodyResult, checked_save
@@ -261,8 +260,7 @@ class Result(AbstractContextManager["Result"]):
         if len(times):
             nearest = int(np.argmin(np.abs(times - time)))
             # Tables and names of files have the digits of :g.
-            alike = f"{times[nearest]:g}" == f"{time:g}"
-            if alike or abs(times[nearest] - time) <= ROUND_OFF * times[-1]:
+            if f"{times[nearest]:g}" == f"{time:g}":
                 return nearest
         listed = ", ".join(f"{saved:g}" for saved in times)
         raise CaseError(f"{self.name} has no saved time {time:g} s; saved times: {listed} s")
