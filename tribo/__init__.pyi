@@ -50,7 +50,6 @@ from tribo.core.fields import WearRate as WearRate
 from tribo.core.findings import Finding as Finding
 from tribo.core.grid import Grid as Grid
 from tribo.core.loads import Load as Load
-from tribo.core.loads import Place as Place
 from tribo.core.loads import Stage as Stage
 from tribo.core.material import Material as Material
 from tribo.core.material import materials as materials

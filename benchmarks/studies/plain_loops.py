@@ -45,15 +45,15 @@ def pressed(gaps: Array, total: Array | float) -> Array:
     return np.maximum(high[:, None, None] - gaps, 0)
 
 
-def along_stroke(distance: float, shares: Array | float = 1.0, steps: int = 1000) -> list[Array]:
-    """Wear on springs by forward Euler, under a share of the load at each cell of the stroke."""
+def along_stroke(distance: float, steps: int = 1000) -> list[Array]:
+    """Wear on springs by forward Euler, at each cell of the stroke."""
     (nx, ny), (dx, dy) = CELLS, SPACING
     worn, disk, gap = np.zeros(CELLS), np.zeros((nx + STROKE, ny)), ball(CELLS, SIZE)
     path = np.full(STROKE + 1, 1 / STROKE)
     path[[0, -1]] /= 2
     for length in distance * np.diff(np.linspace(0, 1, steps + 1) ** 1.5):
         gaps = np.stack([gap + worn + disk[at : at + nx] for at in range(STROKE + 1)])
-        p = STIFFNESS * pressed(gaps, LOAD * shares / (dx * dy * STIFFNESS))
+        p = STIFFNESS * pressed(gaps, LOAD / (dx * dy * STIFFNESS))
         worn += K * length * np.einsum("i,ijk->jk", path, p)
         for at in range(STROKE + 1):
             disk[at : at + nx] += K * length * path[at] * p[at]
@@ -157,10 +157,8 @@ def round_circle(gap: Array, turns: int = 100, count: int = 49) -> list[Array]:
 def main() -> None:
     """Print the largest depths of both bodies, in m."""
     path = 2 * STROKE * SPACING[0] * 25
-    uneven = np.interp(np.arange(-6, 7), [-6, -3, 3, 6], [0.5, 1.0, 1.0, 0.8])[::-1]
     for name, worn in {
         "loop_stroke": along_stroke(path * 600),
-        "loop_load_along": along_stroke(path * 200, uneven, 800),
         "loop_half_space": on_half_spaces(path * 300),
         "loop_blocks": under_load(lambda time: 20.0 if time < 6 else 100.0, 20.0),
         "loop_ramp": under_load(lambda t: float(np.interp(t, [0, 8, 60], [20, 100, 10])), 20.0),

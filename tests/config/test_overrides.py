@@ -68,7 +68,6 @@ def test_a_value_that_is_short_for_a_table_is_one():
     data = {"load": "40 N", "friction": 0.1, "begin": "former.h5"}
     changed = apply_settings(data, ["load.normal=25 N", "friction.coefficient=0.2"])
     assert changed == data | {"load": {"normal": "25 N"}, "friction": {"coefficient": 0.2}}
-    assert apply_settings(data, "load.along=[1, 2]")["load"] == {"normal": "40 N", "along": [1, 2]}
     stages = {"load": [{"until": 1, "force": 2}]}
     assert apply_settings(stages, "load.1.force=3") == {"load": [{"until": 1, "force": 3}]}
 

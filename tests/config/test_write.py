@@ -22,4 +22,4 @@ def test_what_is_written_is_read_back(tables):
 
 
 def test_what_is_not_given_is_left_out():
-    assert to_toml({"load": {"normal": 1.0, "along": None}}) == "[load]\nnormal = 1.0\n"
+    assert to_toml({"load": {"normal": 1.0, "other": None}}) == "[load]\nnormal = 1.0\n"

@@ -55,8 +55,8 @@ def test_a_jump_to_a_higher_load_yields_anew_up_to_the_hardness():
 
 
 def test_at_a_jump_the_loads_before_it_and_after_it_differ():
-    loads = Loads(Load(normal=BLOCKS).points, shares=(1.0, 0.5), weights=(0.5, 0.5))
-    assert (loads.before(6.0), loads.after(6.0)) == ((20.0, 10.0), (100.0, 50.0))
+    loads = Loads(Load(normal=BLOCKS).points, factor=0.5)
+    assert (loads.before(6.0), loads.after(6.0)) == (10.0, 50.0)
 
 
 def test_an_estimate_takes_few_stages_that_carry_as_much():

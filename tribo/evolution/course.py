@@ -181,11 +181,11 @@ def with_loads(
     model: Model, contacts: Sequence[ContactSolution], interval: Interval, passed: float
 ) -> list[ContactSolution]:
     """Return contacts whose pressures carry the load after a part of the interval."""
-    halfway, last = map(model.contact.loads.before, (interval.at(0.5).time, interval.end_time))
-    cell, found = model.grid.cell_area, []
-    for contact, half, whole in zip(contacts, halfway, last, strict=True):
-        load = interval.load_factor * (whole + 2 * (1 - passed) * (half - whole))
-        share = load / (float(np.sum(contact.pressure)) * cell)
+    half, whole = map(model.contact.loads.before, (interval.at(0.5).time, interval.end_time))
+    load = interval.load_factor * (whole + 2 * (1 - passed) * (half - whole))
+    found = []
+    for contact in contacts:
+        share = load / (float(np.sum(contact.pressure)) * model.grid.cell_area)
         found.append(replace(contact, pressure=readonly(share * contact.pressure)))
     return found
 

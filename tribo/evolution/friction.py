@@ -29,7 +29,7 @@ def friction_force(model: Model, state: State) -> float:
     if state.speed == 0:
         return 0.0
     moment = Moment(state.time, state.distance, state.speed)
-    load = model.contact.loads.over_cycle(model.loads(state).before(state.time))
+    load = model.loads(state).before(state.time)
     return load * _mean(model, state.contacts, remembered(model, state), moment)
 
 

@@ -50,7 +50,7 @@ def measure(model: Model, state: State) -> Measures:
     touched = pressure[extent]
     own = caps(model, state.bodies)[len(model.cycle) // 2]
     cap = model.contact.system.cap if own is None else own[extent]
-    load = model.contact.loads.over_cycle(model.loads(state).before(state.time))
+    load = model.loads(state).before(state.time)
     friction = friction_force(model, state)
     width, breadth = half_widths(state.contact, model.grid)
     bodies = {

@@ -34,17 +34,12 @@ def lab_tables(result: Result, lab: LabReport) -> Iterator[DataTable]:
 
 def saves_table(result: Result) -> DataTable:
     """Return the contact and the largest depths at each save."""
-    saves, along, notes = result.saves(), _shares_along(result), []
-    if along:
-        notes.append(
-            f"The load changes along the stroke, from {min(along):g} to {max(along):g} of the "
-            "normal load; the table has its mean over the path, and pressures in the middle."
-        )
+    saves = result.saves()
     headings, columns = [], []
     for heading, key, factor in COLUMNS:
         values = [factor * save[key] for save in saves]
         # A load has a column only where it changes.
-        if heading.label != "load" or along or len({readable(v, heading.form) for v in values}) > 1:
+        if heading.label != "load" or len({readable(v, heading.form) for v in values}) > 1:
             headings.append(heading)
             columns.append(values)
     for body in result.body_names:
@@ -52,13 +47,7 @@ def saves_table(result: Result) -> DataTable:
         columns.append([1e6 * save["bodies"][body]["max_wear_depth_m"] for save in saves])
     title = "Contact, full widths along and across sliding; wear depth of each body"
     rows = list(map(TableRow, zip(*columns, strict=True)))
-    return DataTable(title, headings, rows, notes)
-
-
-def _shares_along(result: Result) -> list[float]:
-    """Return the shares of a load that changes along the stroke; none if it does not."""
-    load = result.case_tables.get("load", {})
-    return [place["share"] for place in load.get("along", ())] if isinstance(load, Mapping) else []
+    return DataTable(title, headings, rows)
 
 
 def wear_table(result: Result, bodies: Mapping[str, BodyReport]) -> DataTable:

@@ -24,7 +24,7 @@ class ContactSetup:
     system : ContactSystem
         The two bodies, under the load of the first contact.
     loads : Loads
-        Normal load over time, at each position.
+        Normal load over time.
     gaps : tuple of ndarray
         Initial gap at each position, shape (nx, ny), in m, with minimum 0 in the middle.
     plastic_share : Mapping of float

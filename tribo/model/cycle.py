@@ -60,14 +60,10 @@ class Cycle:
 
     @cached_property
     def offsets(self) -> Array:
-        """Place of the moving body at each position, from the middle one, in cells.
-
-        Shape (positions, 2): along x and y.
-        """
+        """The window's first cell on a moving body at each position, shape (positions, 2)."""
         places = ([each.first_cell(i) for i in range(len(self))] for each in self.maps.values())
         cells = np.array(max(places, key=lambda each: np.max(np.ptp(each, axis=0))), dtype=float)
-        # The window's place on the body moves against the body itself.
-        return readonly(cells[self.middle] - cells)
+        return readonly(cells)
 
     @cached_property
     def path(self) -> Array:

@@ -56,9 +56,9 @@ class Model:
         return tuple(name for name in self.case.bodies if name in self.cycle.swept & alter)
 
     def loads(self, state: State) -> Loads:
-        """Return the normal loads at a state, and over the step from there."""
+        """Return the normal load at a state, and over the step from there."""
         loads, by = self.contact.loads, state.load_factor
-        return loads if by == 1 else replace(loads, shares=tuple(by * s for s in loads.shares))
+        return loads if by == 1 else replace(loads, factor=by)
 
     @property
     def couples(self) -> bool:

@@ -65,23 +65,12 @@ def assemble(case: Case) -> Model:
                 _check_ring(surfaces[name], exposure, exposure.track(grid), grid)
         if body.wear is not None:
             laws[name] = _law(body, name, grid, exposure)
-    shares = (1.0,) * len(cycle)
-    if case.load.along:
-        if case.contact.periodic:
-            raise CaseError(
-                f"contact.type = {case.contact.type!r} repeats with the window and has many places "
-                "along the stroke at once; leave load.along out, or use a contact that does not "
-                "repeat, as 'dcfft'",
-                "load.along",
-            )
-        dx = grid.spacing[0]
-        shares = case.load.shares_at(dx * cycle.offsets[:, 0], dx)
-    loads = Loads(case.load.points, shares, tuple(position.share for position in cycle))
+    loads = Loads(case.load.points)
     known = [each.curvature for each in surfaces.values() if each.curvature is not None]
     system = ContactSystem(
         grid=grid,
         modulus=contact_modulus([body.material for body in bodies.values()]),
-        load=loads.after(0.0)[len(cycle) // 2],
+        load=loads.after(0.0),
         cap=cap,
         # Along x and y; none if a surface states none.
         curvature=(sum(c[0] for c in known), sum(c[1] for c in known))

@@ -36,8 +36,7 @@ def composed(case: Case) -> Model:
     The average is taken where the stroke is 20 lengths of the first contact or longer, where
     nothing that passes wears, and where stepping is explicit. Else positions are less than half the
     half-width of the first contact apart, 9 at least; they are at each cell where the average is
-    refused or the contact repeats. A load that changes along the stroke is resolved always, and
-    worn bodies of a result as they were.
+    refused or the contact repeats, and as they were where a run begins with worn bodies.
 
     The choice follows from the case alone. The model's case states it.
     """
@@ -46,21 +45,18 @@ def composed(case: Case) -> Model:
         return assemble(case)
     if case.begin is not None:
         return assemble(_as_begun(case, case.begin))
-    # The first contact is that in the middle of the stroke.
-    even = case.model_copy(update={"load": case.load.in_the_middle()})
     try:
-        averaged = assemble(_fixed(even, "average"))
+        averaged = assemble(_fixed(case, "average"))
     except CaseError:
         return _resolved(case, "cells")
-    must = bool(case.load.along)
-    if not must and (isinstance(case.stepping, Explicit) or not averaged.changing):
+    if isinstance(case.stepping, Explicit) or not averaged.changing:
         return averaged
     if case.contact.periodic:
         return _resolved(case, "cells")
     # By Hertz where the bodies have such a contact, so that it does not depend on the grid.
     half_width = hertz_half_width(averaged.contact.system)
     half_width = half_width or half_widths(first_contact(averaged).contact, averaged.grid)[0]
-    if not must and motion.stroke >= LENGTHS * 2 * half_width:
+    if motion.stroke >= LENGTHS * 2 * half_width:
         return averaged
     return _resolved(case, max(FEWEST, least_positions(motion.stroke, SPARE * half_width)))
 

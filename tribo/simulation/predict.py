@@ -20,7 +20,7 @@ from tribo.guards.guard import Guard
 from tribo.lab.against_hertz import HertzContact, hertz_contact, softer_known
 from tribo.model.model import Model
 from tribo.result.provenance import stated_facts
-from tribo.simulation.assembly import as_it_repeats, assemble, varied
+from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.hardness import at_surface
 from tribo.simulation.march import begin, march
 from tribo.simulation.memory import memory_needed
@@ -189,9 +189,12 @@ def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) 
     lx, ly = (margin * size for size in case.grid.size)
     grid = Grid((lx, ly), (nx, ny), ends_at_window=True)
     motion = case.kinematics.coarsened(half_width_x)
-    cycle = motion.cycle(as_it_repeats(grid, case.contact))
-    load = case.load.averaged() if len(cycle) == 1 else case.load
-    changes = {"kinematics": motion, "load": load.thinned(), "stepping": LOOSE, "begin": None}
+    changes = {
+        "kinematics": motion,
+        "load": case.load.thinned(),
+        "stepping": LOOSE,
+        "begin": None,
+    }
     return assemble(varied(smoothed(case), grid=grid, output=Output(), **changes))
 
 

@@ -15,7 +15,6 @@ from tribo.core.contact import (
     CycleCompliance,
     WearCompliance,
 )
-from tribo.core.loads import ByPosition
 from tribo.core.state import BodyState, State
 from tribo.evolution.states import filling, remembered
 from tribo.evolution.yielding import caps
@@ -30,26 +29,26 @@ MIRRORED = 1e-12
 def solve_cycle(
     model: Model,
     gaps: Iterable[Array],
-    loads: ByPosition,
+    load: float,
     starts: Sequence[ContactSolution],
     bodies: Mapping[str, BodyState],
     wear: Sequence[WearCompliance] | CycleCompliance | None = None,
 ) -> list[ContactSolution]:
     """Solve the contact at each position of a cycle, from gaps of shape (nx, ny), in m.
 
-    `loads` are in N, and `wear` is from `linear_wear`; the layers that `bodies` are worn down to
+    `load` is in N, and `wear` is from `linear_wear`; the layers that `bodies` are worn down to
     limit the pressure. Where the positions are solved together and each mirrors another along x, as
     on a stroke of smooth bodies, half of them are solved.
     """
     coupling = None
-    alone: Sequence[WearCompliance | None] = [None] * len(loads)
+    alone: Sequence[WearCompliance | None] = [None] * len(model.cycle)
     if isinstance(wear, CycleCompliance):
         coupling = wear
     elif wear is not None:
         alone = wear
     problems = [
-        ContactProblem(model.contact.system, *given)
-        for given in zip(gaps, loads, alone, caps(model, bodies), strict=True)
+        ContactProblem(model.contact.system, gap, load, own, cap)
+        for gap, own, cap in zip(gaps, alone, caps(model, bodies), strict=True)
     ]
     if not (model.couples and _all_mirror(problems, coupling)):
         return model.contact.solver.solve_cycle(problems, starts, coupling)
@@ -96,10 +95,10 @@ def counted(state: State, contacts: Sequence[ContactSolution]) -> State:
     )
 
 
-def solved_anew(model: Model, state: State, loads: ByPosition) -> State:
-    """Return `state` with its contacts solved under other loads (N), without wear."""
+def solved_anew(model: Model, state: State, load: float) -> State:
+    """Return `state` with its contacts solved under another load (N), without wear."""
     gaps = undeformed(model, state)
-    contacts = solve_cycle(model, gaps, loads, state.contacts, state.bodies)
+    contacts = solve_cycle(model, gaps, load, state.contacts, state.bodies)
     model.listener.solved(contacts)
     return replace(counted(state, contacts), contacts=tuple(contacts), rates=())
 
@@ -107,8 +106,7 @@ def solved_anew(model: Model, state: State, loads: ByPosition) -> State:
 def _all_mirror(problems: Sequence[ContactProblem], coupling: CycleCompliance | None) -> bool:
     """Whether each position mirrors another along x, and the middle one itself."""
     mirrored = len(problems) % 2 == 1 and all(
-        abs(one.load - other.load) <= MIRRORED * one.load
-        and _mirrors(one.gap, other.gap)
+        _mirrors(one.gap, other.gap)
         and (one.cap is None or other.cap is None or _mirrors(one.cap, other.cap))
         for one, other in zip(problems, reversed(problems), strict=True)
     )

@@ -97,12 +97,12 @@ class Explicit(Scheme):
         depths = worn_depths(model, slid.rates, increment)
         model.listener.worn(state.contacts, interval, memory, slid.plan, ahead=True)
         after = worn_by(model, state, slid, depths, interval)
-        loads = model.loads(after).before(time)
+        load = model.loads(after).before(time)
         contacts = solve_cycle(
-            model, undeformed(model, after), loads, extrapolated(state), after.bodies
+            model, undeformed(model, after), load, extrapolated(state), after.bodies
         )
         model.listener.solved(contacts)
-        after = accepted(model, counted(after, contacts), contacts, loads)
+        after = accepted(model, counted(after, contacts), contacts, load)
         return with_friction_work(model, state, after, slid)
 
 

@@ -53,16 +53,15 @@ def first_contact(
 
 def _solved(model: Model, state: State, gaps: Sequence[Array]) -> State:
     """Return `state` in contact and yielded, from the gaps (m) before contact."""
-    solutions: dict[tuple[int, float], ContactSolution] = {}
-    loads = model.loads(state).after(0.0)
-    asked = [(id(gap), load) for gap, load in zip(gaps, loads, strict=True)]
-    for gap, key, cap in zip(gaps, asked, caps(model, state.bodies), strict=True):
+    solutions: dict[int, ContactSolution] = {}
+    load = model.loads(state).after(0.0)
+    for gap, cap in zip(gaps, caps(model, state.bodies), strict=True):
         # Where nothing varies along the path, one solve serves all positions.
-        if key not in solutions:
-            problem = ContactProblem(model.contact.system, gap, key[1], cap=cap)
+        if id(gap) not in solutions:
+            problem = ContactProblem(model.contact.system, gap, load, cap=cap)
             start = next(reversed(solutions.values()), None)
-            solutions[key] = model.contact.solver.solve(problem, start)
-    contacts = tuple(solutions[key] for key in asked)
+            solutions[id(gap)] = model.contact.solver.solve(problem, start)
+    contacts = tuple(solutions[id(gap)] for gap in gaps)
     if any(map(model.leaves_window, contacts)):
         size = f"{1e3 * model.grid.size[0]:.4g} × {1e3 * model.grid.size[1]:.4g} mm"
         remedy = (

@@ -171,9 +171,9 @@ class Implicit(Scheme):
         height = filling(model, before)
         worn = worn_depths(model, slid.rates, increment)
         opened, deepest = _opened(model, height, slid, worn)
-        loads = model.loads(state).mean(state.time, time)
-        # What is remembered is integrated under the loads of the step already.
-        heavier = 1.0 if before.values else loads[0] / model.loads(state).after(state.time)[0]
+        load = model.loads(state).mean(state.time, time)
+        # What is remembered is integrated under the load of the step already.
+        heavier = 1.0 if before.values else load / model.loads(state).after(state.time)
         forward = {name: heavier * depth for name, depth in worn.items()}
         contacts = extrapolated(state)
         solved, passes = state, 0
@@ -184,7 +184,7 @@ class Implicit(Scheme):
             beyond = opened - depths(wear, slid.contacts, dx)
             gaps = base + beyond
             try:
-                contacts = solve_cycle(model, gaps, loads, contacts, state.bodies, wear)
+                contacts = solve_cycle(model, gaps, load, contacts, state.bodies, wear)
             except PluginError:
                 raise
             except NumericalError as error:
@@ -214,7 +214,7 @@ class Implicit(Scheme):
         # would keep so much of it that no later step, however short, could change it little.
         little, linear = LEFT_OVER * self.pressure_tolerance, self.nonlinear_tolerance * deepest
         exact = mismatch <= linear or mismatch <= little * _deformed(contacts, base + implied)
-        return accepted(model, after, contacts, loads, exact=exact), slid, forward
+        return accepted(model, after, contacts, load, exact=exact), slid, forward
 
 
 def _deformed(contacts: Sequence[ContactSolution], gaps: Array) -> float:

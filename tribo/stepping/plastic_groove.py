@@ -11,7 +11,6 @@ import numpy as np
 
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import NumericalError
-from tribo.core.loads import ByPosition
 from tribo.core.state import BodyState, State
 from tribo.evolution.yielding import plastic_share
 from tribo.stepping.contacts import solved_anew
@@ -51,7 +50,7 @@ def yielded(
     return found
 
 
-def settled(model: Model, state: State, loads: ByPosition) -> State:
+def settled(model: Model, state: State, load: float) -> State:
     """Draw grooves out along the track and re-solve until nothing yields any more."""
     drawn_out = any(
         name in model.cycle.swept and np.any(body.plastic > 0)
@@ -67,7 +66,7 @@ def settled(model: Model, state: State, loads: ByPosition) -> State:
             envelope = model.cycle.maps[name].envelope(body.plastic)
             plastic = np.array(np.broadcast_to(envelope, body.plastic.shape))
             drawn[name] = replace(body, plastic=plastic)
-        state = solved_anew(model, replace(state, bodies=drawn), loads)
+        state = solved_anew(model, replace(state, bodies=drawn), load)
         deepest = max(float(np.max(body.plastic)) for body in drawn.values())
         still = max(float(np.max(contact.overlap)) for contact in state.contacts)
         if still <= SETTLED * deepest:
@@ -76,7 +75,7 @@ def settled(model: Model, state: State, loads: ByPosition) -> State:
         state = replace(state, bodies=yielded(model, drawn, state.contacts, everywhere))
     raise NumericalError(
         f"at {state.distance:.6g} m the groove still yields after {SETTLE_PASSES} passes of the "
-        f"contact, by {still:.2g} m a pass, under {max(loads):g} N at a hardness of "
+        f"contact, by {still:.2g} m a pass, under {load:g} N at a hardness of "
         f"{1e-9 * (model.contact.system.cap or 0):g} GPa; lower load.normal, or set "
         "contact.plasticity = false"
     )

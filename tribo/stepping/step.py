@@ -12,7 +12,6 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import PluginError
 from tribo.core.findings import Finding, layer_worn_through
-from tribo.core.loads import ByPosition
 from tribo.core.measures import Invariants
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import BodyState, State
@@ -65,9 +64,8 @@ def time_at(model: Model, state: State, distance: float, until: float) -> float:
 
 def load_changes(model: Model, before: State, after: State) -> bool:
     """Whether the load, and so the pressure, changes between two states."""
-    loads = model.loads(before).after(before.time), model.loads(after).before(after.time)
-    pairs = zip(*loads, strict=True)
-    return any(abs(last - first) > ONE_LOAD * first for first, last in pairs)
+    first, last = model.loads(before).after(before.time), model.loads(after).before(after.time)
+    return abs(last - first) > ONE_LOAD * first
 
 
 def rested(model: Model, state: State, time: float) -> State:
@@ -78,13 +76,13 @@ def rested(model: Model, state: State, time: float) -> State:
         after = course(model, memory, state.contacts, rest)
         model.listener.worn(state.contacts, rest, memory, after.plan, ahead=True)
         state = replace(state, between=after.memory.between)
-    loads = model.loads(state).before(time)
-    anew = loads != model.loads(state).before(state.time) or any(
+    load = model.loads(state).before(time)
+    anew = load != model.loads(state).before(state.time) or any(
         body is None for body, _ in model.laws.filling
     )
     state = replace(state, speed=0.0)
     if anew:
-        state = _under(model, state, loads)
+        state = _under(model, state, load)
     state = replace(state, time=time, steps=state.steps + 1, invariants=Invariants())
     return reloaded(model, state)
 
@@ -97,13 +95,13 @@ def start_sliding(model: Model, state: State) -> State:
     down to a softer layer is solved again as well.
     """
     known = model.loads(state)
-    loads = known.after(state.time)
-    if loads != known.before(state.time):
+    load = known.after(state.time)
+    if load != known.before(state.time):
         # How far a step may go under the load before says little.
-        state = replace(_under(model, state, loads), increment=0.0)
+        state = replace(_under(model, state, load), increment=0.0)
     elif _too_soft(model, state):
-        state = _under(model, state, loads)
-    return settled(model, state, loads) if state.distance == 0 else state
+        state = _under(model, state, load)
+    return settled(model, state, load) if state.distance == 0 else state
 
 
 def _too_soft(model: Model, state: State) -> bool:
@@ -152,7 +150,7 @@ def worn_by(
         if name in between:
             missed = between[name] if body.missed is None else body.missed + between[name]
             bodies[name] = replace(body, missed=missed)
-    mean = model.contact.loads.over_cycle(model.loads(before).mean(before.time, interval.end_time))
+    mean = model.loads(before).mean(before.time, interval.end_time)
     end = interval.end
     return replace(
         before,
@@ -192,19 +190,19 @@ def accepted(
     model: Model,
     after: State,
     contacts: Sequence[ContactSolution],
-    loads: ByPosition,
+    load: float,
     *,
     exact: bool = True,
 ) -> State:
     """Return `after`, the worn bodies, in contact, with yielding done and the load of effects.
 
-    The contacts carry `loads`, in N; they are solved again where the loads at the end differ, or
+    The contacts carry `load`, in N; they are solved again where the load at the end differs, or
     where they do not belong to the bodies `exact`ly.
     """
     after = replace(after, contacts=tuple(contacts))
     at_end = model.loads(after).before(after.time)
-    kept = exact and loads == at_end
-    state = _at_rest(model, after, loads) if kept else _under(model, after, at_end)
+    kept = exact and load == at_end
+    state = _at_rest(model, after, load) if kept else _under(model, after, at_end)
     return reloaded(model, state)
 
 
@@ -217,16 +215,16 @@ def reloaded(model: Model, state: State) -> State:
     return _under(model, state, model.loads(state).before(state.time))
 
 
-def _under(model: Model, state: State, loads: ByPosition) -> State:
-    """Return `state` with its contacts solved under other loads (N), without wear."""
-    return _at_rest(model, solved_anew(model, state, loads), loads)
+def _under(model: Model, state: State, load: float) -> State:
+    """Return `state` with its contacts solved under another load (N), without wear."""
+    return _at_rest(model, solved_anew(model, state, load), load)
 
 
-def _at_rest(model: Model, state: State, loads: ByPosition) -> State:
-    """Return `state` after its contacts have yielded under `loads`."""
+def _at_rest(model: Model, state: State, load: float) -> State:
+    """Return `state` after its contacts have yielded under `load`."""
     if not yields(state.contacts):
         return state
     # Before it slides the load stands in the middle alone.
     places = range(len(state.contacts)) if state.distance > 0 else [len(state.contacts) // 2]
     state = replace(state, bodies=yielded(model, state.bodies, state.contacts, places))
-    return settled(model, state, loads) if state.distance > 0 else state
+    return settled(model, state, load) if state.distance > 0 else state

@@ -100,7 +100,6 @@ def bodies(**changes):
 LONG = [STAGES[0], {"until": "5000 s", "amplitude": "100 um"}]
 ALUMINIUM = {"young": "70 GPa", "poisson": 0.33}
 LAYER = {"thickness": "1 um", "young": "400 GPa"}
-ENDS = [{"at": "-3 um", "share": 0.9}, {"at": "3 um", "share": 1.1}]
 WITHIN = [{"until": "0.02 s", "normal": 0.8 * LOAD}, {"until": "2 h", "normal": LOAD}]
 REFUSED = {
     "no friction": ({"friction": None}, "coefficient of friction"),
@@ -111,7 +110,6 @@ REFUSED = {
         {"bodies": bodies(layers=[LAYER], wear={"type": "archard", "k": 0})},
         "elastic layer",
     ),
-    "load along": ({"load": {"normal": LOAD, "along": ENDS}}, "changes by 22.2 %"),
     "load in a cycle": ({"load": {"normal": WITHIN}}, r"load\.normal: .* changes by 20 %"),
     "hardness": ({"bodies": bodies(material={**STEEL, "hardness": "1 GPa"})}, "1 GPa"),
     "unlike": (

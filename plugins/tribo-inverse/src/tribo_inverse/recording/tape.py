@@ -44,7 +44,7 @@ class Pressed:
 
     Pressures, and depths by which the bodies overlap at the hardness (None where nothing yields),
     have the shape (positions, rows, columns). The method `load` of `tribo.core.loads.Loads` gave
-    their loads at `times` (s), and the step `slid` wore the bodies under them, if any.
+    their load at `times` (s), and the step `slid` wore the bodies under them, if any.
     """
 
     region: Region
