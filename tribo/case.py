@@ -359,3 +359,8 @@ class Case(Table):
             options["observers"] = [*options.get("observers", ()), Progress()]
         result: Result = call("simulation", self).run(output, **options)
         return result
+
+
+def keys() -> Iterable[str]:
+    """Return the keys of a case that stand above the first table of its file."""
+    return Case.model_fields

@@ -72,7 +72,7 @@ def explained(
     for details in error.errors():
         kind, loc, given = details["type"], _keys_of(details, data), details["input"]
         if kind == "extra_forbidden" and len(details["loc"]) == 1:
-            text, like = _unknown(details["loc"][0], allowed, data, model, info)
+            text, like = _unknown(details["loc"][0], allowed, data)
             meant.add(like)
             lines.append(_line(details["loc"], text, given, UNKNOWN))
         elif kind == "missing" and len(loc) == 1:
@@ -94,16 +94,16 @@ def explained(
     return ValidationError.from_exception_data(error.title, lines)
 
 
-def _unknown(
-    key: object, allowed: Sequence[str], data: object, model: type[BaseModel], info: ValidationInfo
-) -> tuple[str, str | None]:
+def _unknown(key: object, allowed: Sequence[str], data: object) -> tuple[str, str | None]:
     """Return the message for an unknown key, and the key that it is likely to mean."""
     given = data if isinstance(data, Mapping) else {}
     # A key that is given may still be meant: an override adds its key beside it.
     like = did_you_mean(key, [name for name in allowed if name not in given])
     like = like or did_you_mean(key, allowed)
-    home = suggestion(like) if like else call("home", key, model, info)
-    return f"unknown key{home} Allowed: {', '.join(allowed)}", like
+    remedy = suggestion(like)
+    if not like and key in call("keys"):
+        remedy = "; write it above the first table of the file."
+    return f"unknown key{remedy} Allowed: {', '.join(allowed)}", like
 
 
 def case_error(error: ValidationError) -> WrongValues:
