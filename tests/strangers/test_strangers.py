@@ -1,15 +1,12 @@
 """What strangers wrote holds to the contract, and a law without its effect is named."""
 
-import tomllib
-
 import pytest
 from strangers.debris import Covered
 from strangers.oxidation import OXIDE, OxideFilm
 from strangers.running_in import RunningIn
 from strangers.twin_disk import TwinDisk
 
-from tribo import CaseError, Registry, Simulation, hookimpl
-from tribo.templates import template
+from tribo import CaseError, Simulation, load_case
 from tribo.testing import parametrize_checks
 
 DISKS = {"ball": "150 mm", "disk": "100 mm"}
@@ -30,18 +27,10 @@ class Oxidised(Covered):
     requires = (OXIDE,)
 
 
-class Offered:
-    @hookimpl
-    def tribo_components(self):
-        return [Oxidised, OxideFilm]
-
-
-def test_a_missing_effect_is_named_with_the_law_its_place_and_who_provides_it():
-    case = tomllib.loads(template("ball_on_disk"))
-    case["bodies"]["ball"]["wear"] = {"type": "stranger.oxidised", "k": 1e-15, "cover": 1e-6}
-    with pytest.raises(CaseError) as caught:
-        Simulation(case, registry=Registry.with_plugins(Offered()))
-    message = str(caught.value)
-    assert message.startswith("bodies.ball.wear: wear law 'stranger.oxidised' needs ")
-    assert OXIDE in message
-    assert "effects = [{ type = 'stranger.oxide_film'" in message
+def test_a_missing_effect_is_named_with_the_law_and_its_place():
+    case = load_case("tribo/templates/ball_on_disk.toml")
+    law = Oxidised(k=1e-15, cover=1e-6)
+    bodies = {name: b.model_copy(update={"wear": law}) for name, b in case.bodies.items()}
+    with pytest.raises(CaseError, match=rf"needs {OXIDE}") as caught:
+        Simulation(case.model_copy(update={"bodies": bodies}))
+    assert caught.value.path == "bodies.ball.wear"

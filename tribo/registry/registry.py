@@ -196,14 +196,6 @@ class Registry:
         for plugin in self.plugins:
             self.load(plugin)
 
-    def providers(self, fields: set[str]) -> list[str]:
-        """Return the effects of imported plugins that provide any of `fields`, as in a case."""
-        return [
-            f"[{{ type = {name!r} }}]"
-            for name in self.names("effect")
-            if fields & {field.name for field in getattr(self.components[name], "provides", ())}
-        ]
-
     def ask(
         self, hook: str, own: object = None, types: Set[str] | None = None, **arguments: object
     ) -> list[Any]:

@@ -41,13 +41,12 @@ def in_order(case: Case, effects: Sequence[GuardedEffect]) -> tuple[GuardedEffec
     for effect in effects:
         others = {f.name for other in effects if other is not effect for f in other.provides}
         if missing := sorted(set(effect.requires) - others - states):
-            text = _missing(f"effect {effect.component.type!r}", missing)
-            raise MissingFieldError(text, "effects", missing)
+            raise CaseError(_missing(f"effect {effect.component.type!r}", missing), "effects")
     for name in case.bodies:
         for law in case.bodies[name].laws():
             if missing := sorted(set(names_of(law.requires)) - known):
                 text = _missing(f"wear law {law.type!r}", missing)
-                raise MissingFieldError(text, f"bodies.{name}.wear", missing)
+                raise CaseError(text, f"bodies.{name}.wear")
     # What several provide is known once all have.
     after = {
         one: [at for at, other in enumerate(effects) if at != one and _needs(effect, other)]
@@ -71,14 +70,6 @@ def _twice(field: Field, effect: GuardedEffect) -> CaseError:
     second = effect.component.type
     text = f"{field.name!r} is provided twice, the second time by {second!r}; keep one"
     return CaseError(text, "effects")
-
-
-class MissingFieldError(CaseError):
-    """A law or an effect needs fields that nothing provides."""
-
-    def __init__(self, message: str, path: str, missing: Sequence[str]) -> None:
-        super().__init__(message, path)
-        self.missing = set(missing)
 
 
 def _missing(who: str, missing: Sequence[str]) -> str:

@@ -29,7 +29,6 @@ from tribo.result.provenance import changed_components, origin, provenance
 from tribo.result.read import Result
 from tribo.simulation.audience import Audience
 from tribo.simulation.beginning import checksum
-from tribo.simulation.effects import MissingFieldError
 from tribo.simulation.interrupt import interrupts_held
 from tribo.simulation.march import begin, march
 from tribo.simulation.positions import composed
@@ -81,13 +80,8 @@ class Simulation:
         # So that its result finds classes of one's own again.
         with suppress(CaseError):
             known.know_all(case)
-        try:
-            with doubting(case):
-                self.model = composed(case)
-        except MissingFieldError as error:
-            if providers := " or ".join(known.providers(error.missing)):
-                raise CaseError(f"{error}, as effects = {providers}") from error
-            raise
+        with doubting(case):
+            self.model = composed(case)
         self._plugins = known.plugins
 
     def run(
