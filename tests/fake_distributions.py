@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 from tribo.registry.hookspecs import GROUP
@@ -62,7 +62,6 @@ def distribute(
     name: str,
     version: str,
     points: Mapping[str, str],
-    requires: Iterable[str] = (),
     group: str = GROUP,
     **modules: str,
 ) -> None:
@@ -71,7 +70,6 @@ def distribute(
     info.mkdir(parents=True)
     (info / "METADATA").write_text(
         f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\nSummary: A {name} for tests.\n"
-        + "".join(f"Requires-Dist: {requirement}\n" for requirement in requires)
     )
     lines = [f"[{group}]", *(f"{key} = {value}" for key, value in points.items()), ""]
     (info / "entry_points.txt").write_text("\n".join(lines) if points else "")

@@ -15,9 +15,9 @@ GOOD = LAW.format(name="odd.one")
 CASE = template("ball_on_disk")
 
 
-def install(folder, distribution="odd", code=GOOD, requires=(), name="odd.one"):
+def install(folder, distribution="odd", code=GOOD, name="odd.one"):
     module = distribution.replace("-", "_")
-    distribute(folder, distribution, "1.0", {name: module}, requires, **{module: code})
+    distribute(folder, distribution, "1.0", {name: module}, **{module: code})
 
 
 def cases(folder):
@@ -57,9 +57,8 @@ def test_a_plugin_that_breaks_or_crashes_is_named_and_ends_no_command(folder, as
 
 @pytest.mark.slow
 def test_the_doctor_names_every_fault_and_none_hurts_a_list_or_a_check(folder, asked, monkeypatch):
-    monkeypatch.setenv("TRIBO_PLUGINS", "endless,needy,left,right")
+    monkeypatch.setenv("TRIBO_PLUGINS", "endless,left,right")
     install(folder, "endless", "while True: pass", name="odd.endless")
-    install(folder, "needy", requires=["tribo<0.0.1"], name="odd.needy")
     install(folder, "left", name="odd.both")
     install(folder, "right", name="odd.both")
     conflict = "'odd.both' is offered by left 1.0 and right"
@@ -80,7 +79,6 @@ def test_the_doctor_names_every_fault_and_none_hurts_a_list_or_a_check(folder, a
     doctor = asked("doctor")
     assert doctor.returncode == 3
     assert "broken: its import crashed the process (SIGABRT)" in doctor.stdout
-    assert "incompatible: it requires tribo<0.0.1" in doctor.stdout
     assert conflict in doctor.stdout
 
 

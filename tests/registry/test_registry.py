@@ -10,7 +10,6 @@ import pytest
 from fake_distributions import LAW, distribute, observer, plugins
 
 from tribo import CaseError, Observer, Registry, Surface, hookimpl
-from tribo.registry.catalogue import catalogue
 from tribo.registry.plugins import builtin
 
 
@@ -128,30 +127,6 @@ def test_a_broken_plugin_is_fatal_only_where_it_is_named_and_says_where(folder, 
     if line:
         assert f"({folder / 'two_calm.py'}, line {line})" in broken.reason
     assert registry.lookup("wear_law", "archard").type == "archard"
-
-
-@pytest.mark.parametrize(
-    ("requires", "lack"),
-    [
-        ("tribo<0.0.1", "it requires tribo<0.0.1, but tribo is installed in version "),
-        ("no-such-thing>=2", "it requires no-such-thing>=2, but no-such-thing is not installed"),
-        ("no-such; extra == 'x'", ""),
-        ("no-such; python_version < '3'", ""),
-    ],
-)
-def test_a_plugin_is_used_where_its_requirements_hold(folder, requires, lack):
-    code = {"needy": observer("needy.calm")}
-    distribute(folder, "needy", "1", {"needy.calm": "needy"}, [requires], **code)
-    registry = found("needy")
-    (row,) = (row for row in catalogue(registry) if row["name"] == "needy.calm")
-    assert (row["status"] == "incompatible", lack in row["reason"]) == (bool(lack), True)
-    if not lack:
-        assert registry.lookup("observer", "needy.calm").type == "needy.calm"
-        return
-    with pytest.raises(CaseError, match=r"'needy\.calm' cannot be used: needy 1 is incompatible"):
-        registry.lookup("observer", "needy.calm")
-    assert lack in registry.plugins[0].reason
-    assert "needy" not in sys.modules
 
 
 def test_a_name_without_a_prefix_is_tribo_s(folder):

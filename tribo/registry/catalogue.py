@@ -9,7 +9,6 @@ from contextlib import suppress
 from pydantic import BaseModel
 
 from tribo.component import Component
-from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError
 from tribo.core.table import about, descriptions
 from tribo.core.units import quantities
@@ -86,8 +85,6 @@ def _words(cls: type[Component]) -> str:
 
 def _row(name: str, plugin: Plugin, cls: type[Component] | None = None) -> dict[str, str]:
     facts = {key: plugin.facts[key] for key in ("distribution", "version", "status", "reason")}
-    if plugin.status == "available" and (lacks := unmet(plugin.distribution)):
-        facts |= {"status": "incompatible", "reason": lacks}
     kind, summary = "", ""
     if cls is not None:
         kind, summary = _words(cls), about(cls).partition("\n")[0]

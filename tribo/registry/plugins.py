@@ -30,11 +30,10 @@ class Plugin:
 
     It came with a version of a distribution, or none, and lies in the module `entry_point`. Its
     status is ``available`` (not imported yet), ``loaded``, ``disabled`` by the user, ``broken`` (it
-    raised, breaks the contract of plugins, or did not end in time) or ``incompatible`` (a
-    requirement of its distribution is not met, or it is for another contract), the `reason` why it
-    cannot be used; in lists, a name that two plugins declare is in ``conflict``. `names` are those
-    that its entry points declare, `classes` the components by name once `load`, which returns the
-    object that carries the hooks, has imported it.
+    raised, breaks the contract of plugins, or did not end in time) or ``incompatible`` (it is for
+    another contract), the `reason` why it cannot be used; in lists, a name that two plugins declare
+    is in ``conflict``. `names` are those that its entry points declare, `classes` the components by
+    name once `load`, which returns the object that carries the hooks, has imported it.
 
     Examples
     --------

@@ -20,7 +20,6 @@ import pluggy
 from pydantic import BaseModel
 
 from tribo.component import Component, components
-from tribo.core.distributions import unmet
 from tribo.core.errors import CaseError, warn
 from tribo.core.words import did_you_mean, said, suggestion
 from tribo.registry import hookspecs
@@ -237,9 +236,6 @@ class Registry:
             return
         plugin.status = "loaded"
         try:
-            if lacks := unmet(plugin.distribution):
-                plugin.status, plugin.reason = "incompatible", lacks
-                return
             with process_kept():
                 self._register(plugin)
         except KeyboardInterrupt:
