@@ -73,7 +73,7 @@ def test_a_lab_table_has_a_row_for_each(swept):
 
 
 def test_a_comparison_has_a_row_for_each_in_table_and_json(compared):
-    for result, lost in zip(compared.as_json()["results"], LOST, strict=True):
+    for result, lost in zip(compared.as_json()["results"].values(), LOST, strict=True):
         assert result["quantities"]["quantities.slid_m"] == pytest.approx(SLID)
         found = result["quantities"]["quantities.ball.lost_m3"]
         assert found == pytest.approx(lost, rel=1e-9, abs=0)

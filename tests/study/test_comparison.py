@@ -37,13 +37,11 @@ def foundations(tmp_path_factory):
 def test_json_has_every_common_save_and_is_json(foundations):
     data = json.loads(json.dumps(foundations.as_json(), allow_nan=False))
     assert data["reference"] == "dcfft"
-    assert [each["label"] for each in data["results"]] == ["dcfft", "winkler"]
-    assert data["results"][1]["settings"] == {"contact.type": "winkler"}
-    assert data["results"][0]["totals"]["contact_solves"] > 3
-    dx = foundations.results["dcfft"].grid.spacing[0]
-    assert data["results"][0]["uncertainty"]["contact_half_width_x_m"] == dx / 2
-    assert [save["time_s"] for save in data["saves"]] == [0, 100, 300]
-    first, *_, last = (save["differences"]["winkler"] for save in data["saves"])
+    assert list(data["results"]) == ["dcfft", "winkler"]
+    assert data["results"]["winkler"]["settings"] == {"contact.type": "winkler"}
+    assert data["results"]["dcfft"]["totals"]["contact_solves"] > 3
+    assert [each["time_s"] for each in data["differences"]] == [0, 100, 300]
+    first, *_, last = (each["results"]["winkler"] for each in data["differences"])
     assert list(first) == ["pressure"]
     # Once worn, depths are compared as well.
     assert list(last) == ["pressure", "bodies.ball.wear_depth", "bodies.disk.wear_depth"]

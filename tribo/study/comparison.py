@@ -20,6 +20,7 @@ from tribo.core.shorthand import call
 from tribo.lab.report import quantity_rows
 from tribo.observers.progress import Progress
 from tribo.result.read import Result
+from tribo.result.summary import summary
 from tribo.simulation.run import Simulation
 from tribo.study.differences import differences
 from tribo.study.runs import run_variants
@@ -184,54 +185,34 @@ class Comparison:
         result = self.results[label]
         return result.saves()[result.save_at(time)]
 
-    def cell_error(self, label: str) -> dict[str, float]:
-        """Return the uncertainty of each half-width of a result by its cells, in m.
-
-        The two ends of a width lie within half a cell each.
-        """
-        dx, dy = self.results[label].grid.spacing
-        return {"contact_half_width_x_m": 0.5 * dx, "contact_half_width_y_m": 0.5 * dy}
-
     def as_json(self, times: Sequence[float] = ()) -> dict[str, Any]:
         """Return the comparison as plain data, in SI units.
 
-        Parameters
-        ----------
-        times : sequence of float, optional
-            Which saves, in s; all common ones if left out.
+        Results are as in ``tribo show --json``, differences at `times`, in s; at all in common if
+        left out.
         """
-        first = self.results[self.reference]
-        saves = {label: result.saves() for label, result in self.results.items()}
+        first, *others = self.results.items()
         return {
             "reference": self.reference,
-            "notes": self.notes,
             "findings": [asdict(each) for each in self.findings],
-            "results": [
-                {
-                    "label": label,
+            "results": {
+                label: summary(result)
+                | {
                     "file": result.name,
                     "settings": dict(self.settings.get(label, {})),
-                    "status": result.status,
-                    "uncertainty": self.cell_error(label),
-                    "totals": dict(result.totals()),
                     "quantities": {row.key: row.value for row in quantity_rows(result)},
                 }
                 for label, result in self.results.items()
-            ],
-            "saves": [
+            },
+            "differences": [
                 {
                     "time_s": time,
                     "results": {
-                        label: saves[label][result.save_at(time)]
-                        for label, result in self.results.items()
-                    },
-                    "differences": {
                         label: {
                             name: each._asdict()
-                            for name, each in differences(result, first, time).items()
+                            for name, each in differences(result, first[1], time).items()
                         }
-                        for label, result in self.results.items()
-                        if label != self.reference
+                        for label, result in others
                     },
                 }
                 for time in times or self.times

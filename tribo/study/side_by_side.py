@@ -28,8 +28,8 @@ _TOTALS = (
 _SCALARS = (
     ("largest pressure", "max_pressure_Pa", "Pa", 1, ".4g"),
     ("centre pressure", "centre_pressure_Pa", "Pa", 1, ".4g"),
-    ("width along", "contact_half_width_x_m", "m", 2, ".3g"),
-    ("width across", "contact_half_width_y_m", "m", 2, ".3g"),
+    ("width along ± a cell", "contact_half_width_x_m", "m", 2, ".3g"),
+    ("width across ± a cell", "contact_half_width_y_m", "m", 2, ".3g"),
 )
 """Name, key in a save, SI unit, multiple and format of each row."""
 _OF_BODIES = (
@@ -64,17 +64,13 @@ def _at(comparison: Comparison, time: float) -> Iterator[TableRow]:
         tables = [save["bodies"][whose] for save in saves] if whose else saves
         for name, key, unit, multiple, form in (*(_OF_BODIES if whose else _SCALARS), *own):
             values = [multiple * float(table.get(key, nan)) for table in tables]
-            errors = [multiple * comparison.cell_error(each).get(key, 0.0) for each in labels]
             if any(values) and not isnan(sum(values)):
                 row, size = _unit(f"{whose} {name}".lstrip(), unit, values)
-                cells = [row]
-                for value, error in zip(values, errors, strict=True):
-                    cell = readable(value / size, form)
-                    cell += f" ± {readable(error / size, '.2g')}" if error else ""
-                    # The first column is the reference.
-                    cell += _off(value, error, values[0], errors[0]) if cells[1:] else ""
-                    cells.append(cell)
-                yield TableRow(tuple(cells))
+                cells = (
+                    readable(value / size, form) + (_off(value, values[0]) if i else "")
+                    for i, value in enumerate(values)
+                )
+                yield TableRow((row, *cells))
     off: dict[str, list[str | None]] = {}
     for i, label in enumerate(labels[1:], start=1):
         for name, each in differences(comparison.results[label], first, time).items():
@@ -90,17 +86,9 @@ def _unit(name: str, unit: str, values: Sequence[float]) -> tuple[str, float]:
     return f"{name}, {shown}".removesuffix(", "), size
 
 
-def _off(value: float, error: float, reference: float, its_error: float) -> str:
-    """Return the difference of a value from the reference's, ± the sum of both errors."""
-    if reference == 0:
-        return ""
-    ratio = value / reference
-    off = signed(100 * (ratio - 1), 1)
-    total = 100 * (error + ratio * its_error) / reference
-    if not total:
-        return f" {off} %"
-    # Of widths that count as many cells nothing more is known.
-    return f"\n{off} ± {total:.2g} %" if ratio != 1 else "\nwithin a cell"
+def _off(value: float, reference: float) -> str:
+    """Return the difference of a value from the reference's."""
+    return f" {signed(100 * (value / reference - 1), 1)} %" if reference else ""
 
 
 def _percent(part: float) -> str:
