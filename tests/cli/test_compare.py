@@ -71,7 +71,7 @@ def test_json_is_one_object_and_files_compare_alike(folder, compared):
 @pytest.mark.parametrize(
     ("files", "options", "message"),
     [
-        (["my.toml"], [], "--vary contact.type=dcfft,winkler"),
+        (["my.toml"], [], "1 to compare; give 2 or more, or what varies in a case"),
         (["my.toml", "b.h5"], CONTACTS, "--vary varies one case, 2 files are given"),
         (["a.h5", "b.h5"], ["--set", "a=1"], "--set is for a case that varies"),
         (["a.h5", "b.h5"], ["--at", "1 mm"], "--at: '1 mm' is a length [m]; a time [s] is needed"),

@@ -121,8 +121,8 @@ def test_files_are_compared_under_their_names(tmp_path):
     with compare([a, b, c]) as comparison:
         assert list(comparison.results) == [str(path) for path in (a, b, c)]
     for names, message in (
-        ([], "0 results; give 2 or more"),
-        ([a], "1 result; give 2 or more"),
+        ([], "0 to compare; give 2 or more"),
+        ([a], "1 to compare; give 2 or more"),
         ([a, a], "2 results need as many different labels"),
         ([a, tmp_path / "none.h5"], "is not a file"),
     ):

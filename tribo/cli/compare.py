@@ -36,7 +36,7 @@ def compare(
     as_json: bool,
     no_plots: bool,
 ) -> None:
-    """Run variants of a case, or take result FILES, and set them side by side.
+    """Run variants of a case, or take FILES, results and cases, and set them side by side.
 
     With --vary FILES is one case. Any of its values can vary: commas stand
     between what takes turns, or it is a TOML list in brackets. Several --vary
@@ -59,7 +59,7 @@ def compare(
     with located("--at"):
         times = [Quantity("s", at_least=0).read(parse_value(text)) for text in at]
     what, axes = _asked(files, vary, overrides)
-    with run(what, axes, folder, progress=True) as comparison:
+    with run(what, axes, folder if vary else None, progress=bool(vary)) as comparison:
         chosen = comparison.chosen_times(times)
         if not as_json:
             print_comparison(comparison, chosen)
@@ -107,12 +107,6 @@ def _asked(
     from tribo.study.variation import read_axes
 
     if not vary:
-        cases = [path for path in files if path.suffix == ".toml"]
-        if cases:
-            raise CaseError(
-                f"{cases[0]} is a case; give result files, or say what varies in it, as: "
-                f"tribo compare {cases[0]} --vary contact.type=dcfft,winkler"
-            )
         if overrides:
             raise CaseError("--set is for a case that varies, with --vary")
         return files, {}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass, field
@@ -13,7 +14,7 @@ import numpy as np
 from tribo.case import Case
 from tribo.config.load import case_tables
 from tribo.core import findings
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, about
 from tribo.core.findings import Finding
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.shorthand import call
@@ -23,9 +24,9 @@ from tribo.result.read import Result
 from tribo.result.summary import summary
 from tribo.simulation.run import Simulation
 from tribo.study.differences import differences
-from tribo.study.runs import run_variants
+from tribo.study.runs import complete, own_files
 from tribo.study.side_by_side import comparison_table
-from tribo.study.variation import points_of, short_labels, variants
+from tribo.study.variation import Point, points_of, short_labels, variants
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -269,50 +270,58 @@ def compare(
     >>> tribo.compare(case, {"bodies.ball.surface.radius": ["5 mm", "10 mm"]})
     <Comparison of 5 mm, 10 mm>
     """
+    settings, cases = list[Point](), dict[str, Case]()
     if isinstance(what, Sequence) and not isinstance(what, str):
         if vary:
             raise CaseError("a list of results has nothing to vary; give one case")
-        return _of_list(what, labels, progress)
-    points = points_of(vary)
-    _check_count(len(points), "variant")
-    cases = variants(case_tables(what), points)
-    names = list(labels or short_labels(points))
-    if len(set(names)) != len(points):
-        raise CaseError(f"{len(points)} variants need as many different labels, not {names}")
-    results = run_variants(cases, None if folder is None else Path(folder), progress)
-    return Comparison(dict(zip(names, results, strict=True)), dict(zip(names, points, strict=True)))
-
-
-def _check_count(count: int, what: str) -> None:
-    if count < 2:
-        raise CaseError(f"{count} {what}{'s' * (count != 1)}; give 2 or more to compare")
-
-
-def _of_list(
-    given: Sequence[Case | Result | str | Path], labels: Sequence[str] | None, progress: bool
-) -> Comparison:
-    _check_count(len(given), "result")
-    files = [Path(each) for each in given if isinstance(each, str | Path)]
-    stems = len({path.stem for path in files}) == len(files)
-    names = list(labels or ())
-    if not names:
-        for number, each in enumerate(given, start=1):
-            path = Path(each) if isinstance(each, str | Path) else None
-            of_file = None if path is None else path.stem if stems else str(path)
-            names.append(of_file or f"{'case' if isinstance(each, Case) else 'result'} {number}")
+        given, names = list(what), labels or _names(what)
+    else:
+        settings = points_of(vary)
+        cases = variants(case_tables(what), settings)
+        given, names = list(cases.values()), labels or short_labels(settings)
+    if len(given) < 2:
+        raise CaseError(f"{len(given)} to compare; give 2 or more, or what varies in a case")
     if len(names) != len(given) or len(set(names)) != len(names):
         raise CaseError(
             f"{len(given)} results need as many different labels, and have {', '.join(names)}; "
             "give each result once, or labels of your own in Python"
         )
+    files = own_files(cases, Path(folder)) if cases and folder else [None] * len(given)
     with ExitStack() as unless_kept:
-        results = {}
-        for name, each in zip(names, given, strict=True):
-            if isinstance(each, str | Path) and Path(each).suffix != ".toml":
-                each = Result.open(each)
-            elif not isinstance(each, Result):
-                each = Simulation(each).run(observers=[Progress()] * progress)
-            results[name] = unless_kept.enter_context(each)
-        comparison = Comparison(results)
+        results: dict[str, Result] = {}
+        for name, each, file in zip(names, given, files, strict=True):
+            if progress:
+                print(f"{len(results) + 1} of {len(given)}, {name}", file=sys.stderr)
+            results[name] = unless_kept.enter_context(_result(name, each, file, progress))
+        comparison = Comparison(results, dict(zip(names, settings, strict=False)))
         unless_kept.pop_all()
     return comparison
+
+
+def _result(
+    name: str, given: Case | Result | str | Path, file: Path | None, progress: bool
+) -> Result:
+    """Return a result, of a file or after its case is run; of a variant in a file of its own."""
+    if isinstance(given, Result):
+        return given
+    if isinstance(given, str | Path) and Path(given).suffix != ".toml":
+        return Result.open(given)
+    watchers = [Progress()] * progress
+    with about(name):
+        simulation = Simulation(given)
+        if file is None:
+            return simulation.run(observers=watchers)
+        return complete(simulation, file, watchers)
+
+
+def _names(given: Sequence[Case | Result | str | Path]) -> list[str]:
+    """Return a name for each: the stem of a file, whole where stems are alike, or a number."""
+    files = [Path(each) for each in given if isinstance(each, str | Path)]
+    stems = len({path.stem for path in files}) == len(files)
+    names = []
+    for number, each in enumerate(given, start=1):
+        if isinstance(each, str | Path):
+            names.append(Path(each).stem if stems else str(each))
+        else:
+            names.append(f"{'case' if isinstance(each, Case) else 'result'} {number}")
+    return names

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import os
 import re
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from tribo.case import Case
-from tribo.core.errors import CaseError, about, warn
+from tribo.core.errors import CaseError, warn
 from tribo.core.writing import make_folder
 from tribo.observers.observer import Observer
-from tribo.observers.progress import Progress
 from tribo.result.read import Result
 from tribo.simulation.run import Simulation
 
@@ -53,29 +51,22 @@ def complete(simulation: Simulation, path: Path, observers: Sequence[Observer]) 
     return simulation.run(path, observers=observers, overwrite=True)
 
 
-def run_variants(cases: Mapping[str, Case], folder: Path | None, progress: bool) -> list[Result]:
-    """Complete cases one after another, each in a file of a folder named after its label.
+def own_files(cases: Mapping[str, Case], folder: Path) -> list[Path]:
+    """Make a folder for the results of cases, and return their files, named after their labels.
 
-    In memory without a folder; see `tribo.compare`. CaseError if a file is no result of its case.
+    `CaseError` if a file is no result of its case.
     """
-    simulations = [Simulation(case) for case in cases.values()]
-    paths = [folder / name if folder else None for name in file_names(list(cases))]
-    for path, simulation in zip(paths, simulations, strict=True):
-        if path is not None:
-            _check_own(path, simulation)
-            make_folder(path.parent)
-    watchers, results = [Progress()] * progress, []
-    for number, (label, path, simulation) in enumerate(
-        zip(cases, paths, simulations, strict=True), start=1
-    ):
-        if progress:
-            print(f"{number} of {len(cases)}, {label}", file=sys.stderr)
-        with about(label):
-            if path is None:
-                results.append(simulation.run(observers=watchers))
-            else:
-                results.append(complete(simulation, path, watchers))
-    return results
+    files = [folder / name for name in file_names(list(cases))]
+    for path, case in zip(files, cases.values(), strict=True):
+        # A killed run may leave an empty file.
+        if os.path.exists(path) and path.stat().st_size > 0:
+            with Result.open(path) as result:
+                if result.case_tables != Simulation(case).model.data:
+                    raise CaseError(
+                        f"{path} is the result of another case; choose another folder with -o"
+                    )
+    make_folder(folder)
+    return files
 
 
 def file_names(labels: Sequence[str]) -> list[str]:
@@ -83,14 +74,3 @@ def file_names(labels: Sequence[str]) -> list[str]:
     stems = [re.sub(r"[^\w.,=+-]+", "_", label)[:_LONGEST_NAME] for label in labels]
     before = [stems[:i].count(stem) for i, stem in enumerate(stems)]
     return [f"{stem}~{n}.h5" if n else f"{stem}.h5" for stem, n in zip(stems, before, strict=True)]
-
-
-def _check_own(path: Path, simulation: Simulation) -> None:
-    """Check that a file, if there is one, is a result of this simulation."""
-    # A killed run may leave an empty file.
-    if os.path.exists(path) and path.stat().st_size > 0:
-        with Result.open(path) as result:
-            if result.case_tables != simulation.model.data:
-                raise CaseError(
-                    f"{path} is the result of another case; choose another folder with -o"
-                )
