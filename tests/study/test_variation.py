@@ -5,14 +5,14 @@ import tomllib
 import pytest
 
 from tribo.core.errors import CaseError
-from tribo.study.variation import grid, read_axes, short_labels, variants
+from tribo.study.variation import points_of, read_axes, short_labels, variants
 from tribo.templates import template
 
 DATA = tomllib.loads(template("ball_on_disk")) | {"grid": {"size": "2 mm", "cells": 16}}
 
 
 def made(*axes):
-    return variants(DATA, grid(read_axes(axes)))
+    return variants(DATA, points_of(read_axes(axes)))
 
 
 @pytest.mark.parametrize(

@@ -28,15 +28,14 @@ def read_axes(texts: Iterable[str]) -> dict[str, tuple[Any, ...]]:
     return dict(axes)
 
 
-def grid(axes: Mapping[str, Sequence[Any]]) -> list[Point]:
-    """Return every combination of the values at several paths; the last path varies first."""
-    check_distinct(axes)
-    return [dict(zip(axes, values, strict=True)) for values in product(*axes.values())]
-
-
 def points_of(vary: Mapping[str, Sequence[Any]] | Sequence[Mapping[str, Any]]) -> list[Point]:
     """Return the settings of each variant: every combination of values by path, or as listed."""
-    points = grid(vary) if isinstance(vary, Mapping) else [dict(point) for point in vary]
+    if isinstance(vary, Mapping):
+        check_distinct(vary)
+        # The last path varies first.
+        points = [dict(zip(vary, values, strict=True)) for values in product(*vary.values())]
+    else:
+        points = [dict(point) for point in vary]
     if not any(points):
         raise CaseError('nothing varies; give values by path, as {"load.normal": [50, 100]}')
     return points

@@ -93,9 +93,7 @@ def labelled(name: str, runs: pd.DataFrame) -> tuple[str, str, float]:
     """Return the label of a column, its unit, "" for none, and the unit's size."""
     from tribo.lab.units import column_label
 
-    if is_text(runs, name):
-        return name.replace("_", " ").replace(".", " "), "", 1.0
-    return column_label(name, runs[name].to_numpy(float))
+    return column_label(name, pd.to_numeric(runs[name], errors="coerce").to_numpy(float))
 
 
 def column_heading(name: str, runs: pd.DataFrame) -> Heading:
