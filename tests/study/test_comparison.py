@@ -62,15 +62,11 @@ def saved_at(tmp_path_factory):
     return compared
 
 
-def test_only_common_saves_count_and_a_run_that_goes_on_alone_is_told(saved_at):
+def test_only_common_saves_count(saved_at):
     with saved_at((0, 50, 100, 300), (0, 100, 150)) as comparison:
         assert comparison.times == comparison.chosen_times() == [0, 100]
         with pytest.raises(CaseError, match="has no saved time 50 s; saved times: "):
             comparison.chosen_times([50])
-        assert [note.split(",")[0] for note in comparison.notes] == [
-            "300 continues to 300 s",
-            "150 continues to 150 s",
-        ]
 
 
 def test_results_without_a_common_save_are_refused(saved_at):

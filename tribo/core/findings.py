@@ -262,12 +262,6 @@ def other_grid(labels: Sequence[str], reference: str) -> Finding:
     )
 
 
-def goes_on(label: str, end: float, last: float) -> Finding:
-    """Word a result that has later saves than the last common one, both in s."""
-    words = f"{label} continues to {end:g} s, beyond the last common saved time"
-    return Finding("end", words, value=end, limit=last)
-
-
 def not_done(label: str, status: str) -> Finding:
     """Word a run that did not finish."""
     return Finding("status", f"{label} is {status}, not done")

@@ -155,13 +155,11 @@ class Comparison:
     @property
     def findings(self) -> list[Finding]:
         """Findings on other grids, and findings of the runs."""
-        first, last = self.results[self.reference], self.times[-1]
+        first = self.results[self.reference]
         apart = [label for label, result in self.results.items() if result.grid != first.grid]
         found = [findings.other_grid(apart, self.reference)] if apart else []
         of_runs: dict[str, tuple[Finding, list[str]]] = {}
         for label, result in self.results.items():
-            if result.save_at(last) != len(result.times) - 1:
-                found.append(findings.goes_on(label, result.times[-1], last))
             if result.status != "done":
                 found.append(findings.not_done(label, result.status))
             for each in result.findings:
