@@ -18,7 +18,7 @@ from tribo.core import locks
 from tribo.core.errors import OutputError, TriboWarning
 from tribo.observers import recorder
 from tribo.observers.observer import Observer
-from tribo.result.checkpoint import RunFolder, _load, _store
+from tribo.result.checkpoint import RunFolder, _load, store
 from tribo.result.sealed import open_sealed
 
 
@@ -165,7 +165,7 @@ def test_a_checkpoint_of_another_version_of_tribo_is_refused(killed):
     for path in (folder.checkpoint, folder.previous):
         data = _load(path)
         data["state"]["invariants"]["unheard_of"] = 1.0
-        _store(path, data)
+        store(path, data)
     with pytest.raises(CaseError, match=r"another version.*unheard_of"):
         simulation().resume(killed)
 
@@ -173,7 +173,7 @@ def test_a_checkpoint_of_another_version_of_tribo_is_refused(killed):
 def test_every_bit_of_a_state_is_kept(killed, tmp_path):
     folder = RunFolder(killed)
     kept, _ = folder.read_checkpoint(simulation().model.data)
-    _store(tmp_path / "again", kept)
+    store(tmp_path / "again", kept)
     first, second = folder.checkpoint.read_bytes(), (tmp_path / "again").read_bytes()
     assert first == second
 

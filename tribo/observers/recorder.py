@@ -15,8 +15,9 @@ from pydantic import PrivateAttr
 from tribo.core.errors import CaseError, OutputError, warn
 from tribo.core.findings import as_json
 from tribo.core.state import RunInfo, Snapshot, State
+from tribo.core.writing import move
 from tribo.observers.observer import Observer
-from tribo.result.checkpoint import Checkpoint, RunFolder, fingerprint
+from tribo.result.checkpoint import Checkpoint, RunFolder, fingerprint, store
 from tribo.result.hdf5 import empty_image, filled_image
 from tribo.result.layout import EFFECT, SAVED, Rows, Variable
 from tribo.result.read import Result
@@ -74,7 +75,7 @@ class Recorder(Observer):
                 warn(
                     f"{damage}; going on from the checkpoint before, at {kept.state.time:.6g} s",
                 )
-                folder.drop_newest()
+                move(folder.previous, folder.checkpoint)
         except CaseError as error:
             raise CaseError(f"{self.path} cannot be resumed: {error}") from error
         finally:
@@ -181,7 +182,7 @@ class Recorder(Observer):
             return
         with self._writing():
             if part := part_of(self._steps) | part_of(self._saves):
-                self._folder.write_part(self._count, part)
+                store(self._folder.part(self._count), part)
                 self._count += 1
                 self._steps, self._saves = [], []
             kept = self._case, state, self._spent(), self._count, self._saved, self._rows

@@ -151,19 +151,11 @@ class RunFolder:
         """Return the file of a part."""
         return self.path / f"{number:06}.part"
 
-    def write_part(self, number: int, rows: Rows) -> None:
-        """Write a part."""
-        _store(self.part(number), rows)
-
     def write_checkpoint(self, checkpoint: Checkpoint) -> None:
         """Write a checkpoint, after its parts are written, and keep the one before."""
         if self.checkpoint.exists():
             move(self.checkpoint, self.previous)
-        _store(self.checkpoint, checkpoint)
-
-    def drop_newest(self) -> None:
-        """Put the checkpoint before in the place of the newest."""
-        move(self.previous, self.checkpoint)
+        store(self.checkpoint, checkpoint)
 
     def read_checkpoint(self, case: Mapping[str, object]) -> tuple[Checkpoint, str]:
         """Return the newest sound checkpoint of a case, and the damage of a newer one.
@@ -230,7 +222,7 @@ def fingerprint(case: Mapping[str, object]) -> str:
     return sha256(json.dumps(case, sort_keys=True).encode()).hexdigest()
 
 
-def _store(path: Path, data: object) -> None:
+def store(path: Path, data: object) -> None:
     """Write plain data, dataclasses and arrays, so that `_load` returns the same bits."""
     arrays: list[Array] = []
 

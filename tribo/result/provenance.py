@@ -33,12 +33,13 @@ def provenance(
     }
 
 
-def environment() -> dict[str, object]:
+@cache
+def environment() -> Mapping[str, object]:
     """Return the versions of Python, the platform and the packages that matter."""
     return {
         "python": platform.python_version(),
         "platform": platform.platform(),
-        "packages": {name: _version(name) for name in PACKAGES},
+        "packages": {name: metadata.version(name) for name in PACKAGES},
     }
 
 
@@ -159,11 +160,3 @@ def _distribution(module: str) -> metadata.Distribution | None:
         return max(named, key=lambda each: len(commonprefix([each[0], parts])))[1]  # noqa: RUF071
     names = _packages().get(parts[0], [])
     return metadata.distribution(names[0]) if names else None
-
-
-@cache
-def _version(distribution: str) -> str:
-    try:
-        return metadata.version(distribution)
-    except metadata.PackageNotFoundError:
-        return ""
