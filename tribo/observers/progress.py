@@ -5,10 +5,8 @@ from __future__ import annotations
 import math
 import sys
 import time
-from collections.abc import Callable
 from typing import Any
 
-from pydantic import PrivateAttr
 from rich.console import Console
 from rich.progress import BarColumn, TaskID, TextColumn, TimeRemainingColumn
 from rich.progress import Progress as Bar
@@ -20,8 +18,6 @@ from tribo.observers.observer import Observer
 
 QUIET = 2.0
 """Time without a word, in s: a run that is done by then needs none."""
-RENEWED = 0.1
-"""Time between two renewals of the line, in s, as rich's own ten a second."""
 
 
 def progress_bar(**options: Any) -> Bar:
@@ -55,19 +51,15 @@ class Progress(Observer):
 
     type = "progress"
 
-    _clock: Callable[[], float] = PrivateAttr(default=time.monotonic)
     _bar: Bar | None = None
     _task: TaskID = TaskID(0)
     _run: RunInfo | None = None
     _begun: float = 0.0
-    _renewed: float = 0.0
 
     def on_start(self, run: RunInfo) -> None:
         """Start the clock."""
-        self._run, self._begun = run, self._clock()
-        self._bar = progress_bar(
-            auto_refresh=False, get_time=self._clock, speed_estimate_period=math.inf
-        )
+        self._run, self._begun = run, time.monotonic()
+        self._bar = progress_bar(speed_estimate_period=math.inf)
         before = run.resumed_from
         done = 0.0 if before is None else self._part(before)
         self._task = self._bar.add_task("", total=1.0)
@@ -77,11 +69,8 @@ class Progress(Observer):
         """Renew the line."""
         assert self._run is not None
         assert self._bar is not None
-        now = self._clock()
-        if self._bar.disable or now - self._begun < QUIET or now - self._renewed < RENEWED:
+        if self._bar.disable or time.monotonic() - self._begun < QUIET:
             return
-        self._renewed = now
-        self._bar.start()
         m = snapshot.measures
         worn = [f"{name} {1e6 * body.max_wear_depth:.3g}" for name, body in m.bodies.items()]
         words = (
@@ -90,13 +79,13 @@ class Progress(Observer):
             f"step {snapshot.state.steps}"
         )
         self._bar.update(self._task, completed=self._part(snapshot), description=words)
-        self._bar.refresh()
+        self._bar.start()
 
     def on_save(self, snapshot: Snapshot) -> None:
         """Print a plain line where there is no terminal."""
         assert self._run is not None
         assert self._bar is not None
-        if self._bar.disable and self._clock() - self._begun > QUIET:
+        if self._bar.disable and time.monotonic() - self._begun > QUIET:
             print(
                 f"{snapshot.measures.time:g} s of {self._run.end_time:g} s, "
                 f"step {snapshot.state.steps}",
