@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -50,16 +50,22 @@ def compare(
       tribo compare my.toml --vary load.normal='50 N,100 N' --vary grid.cells=64,128 -o grids
       tribo compare a.h5 b.h5 --at 0 --at '10 min'
     """
-    from tribo.config.overrides import parse_value
+    from tribo.config.load import read_toml
+    from tribo.config.overrides import apply_settings, parse_value
     from tribo.core.units import Quantity
     from tribo.study.comparison import compare as run
+    from tribo.study.variation import read_axes
 
     stems = dict.fromkeys(path.stem for path in files)
     folder = output or files[0].with_name("-".join([*stems, "compare"]))
     with located("--at"):
         times = [Quantity("s", at_least=0).read(parse_value(text)) for text in at]
-    what, axes = _asked(files, vary, overrides)
-    with run(what, axes, folder if vary else None, progress=bool(vary)) as comparison:
+    if vary and len(files) > 1:
+        raise CaseError(f"--vary varies one case, {len(files)} files are given")
+    if overrides and not vary:
+        raise CaseError("--set is for a case that varies, with --vary")
+    what = apply_settings(read_toml(files[0]), overrides) if vary else files
+    with run(what, read_axes(vary), folder, progress=bool(vary)) as comparison:
         chosen = comparison.chosen_times(times)
         if not as_json:
             print_comparison(comparison, chosen)
@@ -96,20 +102,3 @@ def print_comparison(comparison: Comparison, times: Sequence[float]) -> None:
         console.table(table, (0, *indices[start - 1 : start - 1 + BESIDE]))
     for note in comparison.notes:
         console.print(f"[yellow]Note:[/] {escape(note)}")
-
-
-def _asked(
-    files: tuple[Path, ...], vary: tuple[str, ...], overrides: tuple[str, ...]
-) -> tuple[Any, Mapping[str, Sequence[Any]]]:
-    """Return the operands, a case or result files, and the variation of a case."""
-    from tribo.config.load import read_toml
-    from tribo.config.overrides import apply_settings
-    from tribo.study.variation import read_axes
-
-    if not vary:
-        if overrides:
-            raise CaseError("--set is for a case that varies, with --vary")
-        return files, {}
-    if len(files) > 1:
-        raise CaseError(f"--vary varies one case, {len(files)} files are given")
-    return apply_settings(read_toml(files[0]), overrides), read_axes(vary)
