@@ -109,7 +109,7 @@ def test_of_a_result_without_a_save_it_is_told_where_its_rest_is(state, name, co
         assert said.startswith("r.h5 exists; ")
     else:
         assert ("r.h5.run, which is not beside it" in said) == (name == "alone")
-        # Elsewhere there may be good checkpoints, which --force would set aside.
+        # Elsewhere there may be good checkpoints, which --force would remove.
         assert ("--force" in said) == (name == "unsaved")
         assert ("try again" in said) == (name == "running, unsaved")
 

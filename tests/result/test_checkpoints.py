@@ -263,13 +263,3 @@ def test_what_is_put_into_the_folder_of_a_run_stays(tmp_path):
 
     simulation().run(tmp_path / "run.h5", observers=[Puts()]).close()
     assert [path.name for path in (tmp_path / "run.h5.run").iterdir()] == ["notes.txt"]
-
-
-@pytest.mark.slow
-def test_a_stopped_run_that_is_set_aside_is_resumed_to_the_same_bits(killed, undisturbed):
-    aside = RunFolder(killed).set_aside()
-    assert aside == killed.with_name("run.1.h5")
-    assert not killed.exists()
-    assert not RunFolder(killed).path.exists()
-    with simulation().resume(aside) as result:
-        assert bits(result) == undisturbed

@@ -14,11 +14,7 @@ from tribo.cli.options import CASE, PATH, PLUGIN, SET
 @click.option("-o", "--output", type=PATH, help="Write this result file, by default CASE.h5.")
 @SET
 @PLUGIN
-@click.option(
-    "--force",
-    is_flag=True,
-    help="Replace a result; a run that can be resumed is kept under another name.",
-)
+@click.option("--force", is_flag=True, help="Replace a result, also of a run that was stopped.")
 def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool) -> None:
     """Run CASE, a TOML file, and print what a lab would report.
 
@@ -35,7 +31,6 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     from tribo.config.load import load_case
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
-    from tribo.result.checkpoint import RunFolder
     from tribo.simulation.run import Simulation
     from tribo.simulation.validity import unusual
 
@@ -46,8 +41,6 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     path = output or case.with_suffix(".h5")
     if path.resolve() == case.resolve():
         raise CaseError(f"{path} is the case itself; choose another file with -o")
-    if force and (aside := RunFolder(path).set_aside()):
-        click.echo(f"The run that was stopped is now {aside}, and can be resumed.", err=True)
     with simulation.run(path, observers=[Progress()], overwrite=force) as result, printing(path):
         print_report(result, warned=True)
         click.echo(f"Saved {path}; see it with: tribo plot {path}")

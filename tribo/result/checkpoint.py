@@ -16,7 +16,6 @@ from contextlib import suppress
 from dataclasses import fields
 from hashlib import sha256
 from io import BytesIO
-from itertools import count
 from pathlib import Path
 from typing import IO, Any
 
@@ -91,21 +90,6 @@ class RunFolder:
         """Let other processes write the result."""
         if self._lock is not None:
             self._lock.close()
-
-    def set_aside(self) -> Path | None:
-        """Give a run that was stopped another name, free until now, under which it can be resumed.
-
-        Return the new name of the result; None without a checkpoint, or while a process is writing
-        it.
-        """
-        stopped = self.checkpoint.exists() and (self.path / "lock").exists()
-        if not (stopped and self.result.is_file()) or self.busy():
-            return None
-        names = (self.result.with_stem(f"{self.result.stem}.{number}") for number in count(1))
-        aside = next(each for each in names if not (each.exists() or RunFolder(each).path.exists()))
-        move(self.path, RunFolder(aside).path)
-        move(self.result, aside)
-        return aside
 
     def busy(self) -> bool:
         """Whether a process is writing the result, as far as can be told."""
