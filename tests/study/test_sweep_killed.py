@@ -32,12 +32,6 @@ def until(found, what):
     raise AssertionError(f"no {what} within {PATIENCE:g} s")
 
 
-def finished(process):
-    out, err = process.communicate(timeout=PATIENCE)
-    assert "Traceback" not in err
-    return process.returncode, out, err
-
-
 def workers(parent):
     """Return the worker processes of a process."""
     threads = Path(f"/proc/{parent.pid}/task").glob("*/children")
@@ -70,23 +64,15 @@ def in_progress(folder):
     until(lambda: written_since(folder, moment), "run in progress")
 
 
-def is_done(path):
-    try:
-        with Result.open(path) as result:
-            return result.status == "done"
-    except CaseError:
-        # What another process is writing cannot always be read.
-        return False
-
-
 def done(folder):
     """Return the finished results, each with what changes when a file is written."""
-    files = [
-        path
-        for path in results(folder).glob("*.h5")
-        if not path.with_name(f"{path.name}.run").exists() and is_done(path)
-    ]
-    return {path: (path.stat().st_ino, path.stat().st_mtime_ns) for path in files}
+    found = {}
+    for path in results(folder).glob("*.h5"):
+        # What another process is writing cannot always be read.
+        with suppress(CaseError), Result.open(path) as result:
+            if result.status == "done" and not path.with_name(f"{path.name}.run").exists():
+                found[path] = (path.stat().st_ino, path.stat().st_mtime_ns)
+    return found
 
 
 def table(folder):
@@ -95,50 +81,22 @@ def table(folder):
     )
 
 
-def swept(folder, *options):
-    """Start a sweep; return its process once a run is in progress, and its command."""
-    command = (
-        "sweep",
-        sweeps.case(folder, sweeps.SLOW),
-        "--vary",
-        "load.normal=50,60,70",
-        *options,
-    )
-    process = sweeps.tribo(*command, cwd=folder)
-    until(lambda: half_done(folder), "run in progress")
-    return process, command
-
-
-def assert_ends_as(whole, folder):
-    swept = sweep(folder / "my.toml", LOADS, executor=sweeps.Inline())
-    assert swept.failures() == {}
-    pandas.testing.assert_frame_equal(table(folder), whole)
-
-
-def assert_stopped(folder, process):
-    code, _, err = finished(process)
-    assert code == 130
-    assert err.endswith("error: stopped; the same command continues\n")
-    assert "interrupted" in set(table(folder)["status"])
-
-
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory):
-    """Return the table of a sweep that nothing disturbed."""
-    folder = tmp_path_factory.mktemp("whole")
-    sweep(sweeps.case(folder, sweeps.SLOW), LOADS, executor=sweeps.Inline())
-    return table(folder)
-
-
-def test_a_sweep_survives_a_killed_worker_ctrl_c_and_a_killed_parent(tmp_path, whole):
-    process, command = swept(tmp_path, "--jobs", 2)
+def test_a_sweep_survives_a_killed_worker_ctrl_c_and_a_killed_parent(tmp_path):
+    case = sweeps.case(tmp_path, sweeps.SLOW)
+    command = "sweep", case, "--vary", "load.normal=50,60,70", "--jobs", 2
+    process = sweeps.tribo(*command, cwd=tmp_path)
+    until(lambda: half_done(tmp_path), "run in progress")
     os.kill(workers(process)[0], signal.SIGKILL)
     until(lambda: done(tmp_path), "run that is done")
     in_progress(tmp_path)
     assert len(workers(process)) == 2
     # As a terminal does, to the parent and to its workers.
     os.killpg(process.pid, signal.SIGINT)
-    assert_stopped(tmp_path, process)
+    _, err = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 130
+    assert err.endswith("error: stopped; the same command continues\n")
+    assert "Traceback" not in err
+    assert "interrupted" in set(table(tmp_path)["status"])
     begun = time.time()
     killed = sweeps.tribo(*command, cwd=tmp_path)
     # A worker that loses its parent while it starts complains, in words of Python's.
@@ -151,7 +109,10 @@ def test_a_sweep_survives_a_killed_worker_ctrl_c_and_a_killed_parent(tmp_path, w
     # A worker may still have ended its run.
     assert 0 < len(before) < 3
     assert not (tmp_path / "my-sweep" / "runs.csv").exists()
-    assert_ends_as(whole, tmp_path)
+    assert sweep(case, LOADS, executor=sweeps.Inline()).failures() == {}
+    undisturbed = tmp_path / "undisturbed"
+    sweep(sweeps.case(undisturbed, sweeps.SLOW), LOADS, executor=sweeps.Inline())
+    pandas.testing.assert_frame_equal(table(tmp_path), table(undisturbed))
     assert before.items() <= done(tmp_path).items()
 
 
