@@ -25,13 +25,13 @@ def test_it_ends_with_tables_and_a_folder_of_results(swept):
     table, told = out.split("2 of 2 runs are done.\n")
     assert "normal load (N)" in table
     pictures = ("ball_depth.png", "disk_depth.png")
-    wrote = ("runs.csv and my-sweep/saves.csv", *pictures)
+    wrote = ("runs.csv", *pictures)
     assert told == "".join(f"Wrote my-sweep/{name}\n" for name in wrote)
     runs = pandas.read_csv(folder / "my-sweep" / "runs.csv")
     files = {path.name for path in (folder / "my-sweep" / "results").iterdir()}
     assert files == set(runs["file"])
     left = {path.name for path in (folder / "my-sweep").iterdir()}
-    assert left == {"runs.csv", "saves.csv", "results", "sweep.lock", *pictures}
+    assert left == {"runs.csv", "results", "sweep.lock", *pictures}
 
 
 @pytest.mark.slow

@@ -41,10 +41,10 @@ def sweep(
 
     Any of its values can vary, as with 'tribo compare'; several --vary multiply.
     Every case is validated before any is run. Afterwards the folder holds
-    runs.csv (a row a run), saves.csv (a row a save), the folder results and,
-    where curves say it, a picture of the depth of each worn body. A
-    failing run is recorded and the others continue. A sweep that was stopped, has failed
-    runs or has more values now continues with the same command.
+    runs.csv (a row a run), the folder results and, where curves say it, a picture
+    of the depth of each worn body. A failing run is recorded and the others
+    continue. A sweep that was stopped, has failed runs or has more values now
+    continues with the same command.
 
     \b
     Example:
@@ -72,7 +72,7 @@ def sweep(
         if (table := runs_table(swept.table)) is not None:
             Console().table(table)
         click.echo(f"{total - failed} of {total} runs are done.")
-        click.echo(f"Wrote {swept.folder / 'runs.csv'} and {swept.folder / 'saves.csv'}")
+        click.echo(f"Wrote {swept.folder / 'runs.csv'}")
         for path in draw_runs(swept.table, swept.folder):
             click.echo(f"Wrote {path}")
     if failed:

@@ -1,4 +1,4 @@
-"""Tables of a sweep, made from its results: one row per run, and one per save."""
+"""The table of a sweep, made from its results: one row per run."""
 
 from __future__ import annotations
 
@@ -36,41 +36,37 @@ class Run:
     path: Path
 
 
-def tables(
+def runs_table(
     runs: Sequence[Run], paths: Sequence[str], failures: Mapping[str, str]
-) -> tuple[pandas.DataFrame, pandas.DataFrame]:
-    """Return a row for each run, and a row for each save of those that are done.
+) -> pandas.DataFrame:
+    """Return a row for each run.
 
     A table or list at one of `paths`, which vary, has a column for each value
     in it. `failures` are the reasons by the names of the runs' files.
     """
-    rows, saves = [], []
+    rows = []
     for run in runs:
         leaves = [leaf for path in paths for leaf in leaves_at(run.case, path)]
         varied = {labelled(name, unit): value for name, value, unit in leaves}
         row = {"run": run.number, "status": "waiting", **varied}
-        message, kinds = failures.get(run.path.name, ""), ""
+        message = failures.get(run.path.name, "")
         if message:
             row["status"] = "failed"
         elif run.path.exists():
             try:
                 with Result.open(run.path) as result:
                     message = "; ".join(result.warnings)
-                    kinds = "; ".join(each.kind for each in result.findings)
                     row["status"] = "done" if result.status == "done" else "interrupted"
                     if result.status == "done":
                         row |= _measured(result)
-                        begin = {"run": run.number, **varied, "save": range(len(result.times))}
-                        saves.append(pandas.DataFrame(begin | result.table("saves")))
             except CaseError as error:
                 row["status"], message = "interrupted", str(error)
-        rows.append(row | {"file": run.path.name, "findings": kinds, "message": message})
+        rows.append(row | {"file": run.path.name, "message": message})
     table = pandas.DataFrame(rows)
     if "steps" in table:
         table["steps"] = table["steps"].astype("Int64")
-    last = ["file", "findings", "message"]
-    table = table[[*table.columns.difference(last, sort=False), *last]]
-    return table, pandas.concat(saves) if saves else pandas.DataFrame(columns=["run", "save"])
+    last = ["file", "message"]
+    return table[[*table.columns.difference(last, sort=False), *last]]
 
 
 def _measured(result: Result) -> dict[str, Any]:

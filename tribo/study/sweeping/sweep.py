@@ -21,10 +21,10 @@ from tribo.simulation.run import Simulation
 from tribo.study.runs import is_done
 from tribo.study.sweeping.carrying import carry
 from tribo.study.sweeping.executors import processes
-from tribo.study.sweeping.runs_table import Run, tables
+from tribo.study.sweeping.runs_table import Run, runs_table
 from tribo.study.variation import points_of, variants
 
-RUNS, SAVES, STOP, LOCK = "runs.csv", "saves.csv", "sweep.stop", "sweep.lock"
+RUNS, STOP, LOCK = "runs.csv", "sweep.stop", "sweep.lock"
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Sweep:
     Parameters
     ----------
     folder : Path
-        Holds ``runs.csv``, ``saves.csv`` and the folder ``results``.
+        Holds ``runs.csv`` and the folder ``results``.
     runs : tuple of Run
         In the order of their settings.
     table : pandas.DataFrame
@@ -141,7 +141,7 @@ def sweep(
     runs, paths = plan(what, vary, folder)
     with _holding(folder):
         # A table must agree with the results, so there is none while they change.
-        remove(folder / RUNS, folder / SAVES)
+        remove(folder / RUNS)
         left = [run for run in runs if not is_done(run.path, Simulation(run.case))]
         done, failures = len(runs) - len(left), dict[str, str]()
 
@@ -158,10 +158,8 @@ def sweep(
             with nullcontext(executor) if executor else processes(jobs) as workers:
                 carry(left, workers, folder / STOP, ended)
         finally:
-            table, saves = tables(runs, paths, failures)
-            for name, rows in ((RUNS, table), (SAVES, saves)):
-                full = rows.dropna(axis=1, how="all") if len(rows) else rows
-                write_file(folder / name, full.to_csv(index=False))
+            table = runs_table(runs, paths, failures)
+            write_file(folder / RUNS, table.dropna(axis=1, how="all").to_csv(index=False))
     return Sweep(folder, tuple(runs), table)
 
 
