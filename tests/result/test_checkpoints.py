@@ -111,20 +111,6 @@ def test_where_no_checkpoint_is_sound_the_run_is_not_resumed(killed, names):
         Result.open(killed)
 
 
-def test_a_run_that_ends_while_it_is_opened_is_read_whole(killed, monkeypatch, undisturbed):
-    read = RunFolder.read_checkpoint
-
-    def ends(folder, case):
-        monkeypatch.setattr(RunFolder, "read_checkpoint", read)
-        kept = read(folder, case)
-        simulation().resume(killed).close()
-        return kept
-
-    monkeypatch.setattr(RunFolder, "read_checkpoint", ends)
-    with Result.open(killed) as result:
-        assert bits(result) == undisturbed
-
-
 def test_a_checkpoint_of_another_version_of_tribo_is_refused(killed):
     folder = RunFolder(killed)
     for path in (folder.checkpoint, folder.previous):

@@ -46,9 +46,6 @@ def source_of(path: Path) -> Path | BytesIO:
         try:
             return _saved_so_far(path, folder)
         except (CaseError, OSError) as error:
-            # The run may have ended since, and taken its folder with it.
-            if not is_unfinished(path):
-                return path
             reason = "its run is in progress and cannot be read yet; try again"
             raise CaseError(f"{path}: {reason if folder.busy() else error}") from error
 
