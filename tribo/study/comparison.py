@@ -9,14 +9,11 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-import numpy as np
-
 from tribo.case import Case
 from tribo.config.load import case_tables
 from tribo.core import findings
 from tribo.core.errors import CaseError, about
 from tribo.core.findings import Finding
-from tribo.core.rounding import ROUND_OFF
 from tribo.core.shorthand import call
 from tribo.lab.report import quantity_rows
 from tribo.observers.progress import Progress
@@ -128,14 +125,9 @@ class Comparison:
     def times(self) -> list[float]:
         """Times at which all results hold a save, in s."""
         first, *others = (result.times for result in self.results.values())
-        return [
-            float(time)
-            for time in first
-            if all(
-                np.any(np.abs(times - time) <= ROUND_OFF * np.max(times, initial=0.0))
-                for times in others
-            )
-        ]
+        # Alike as they are printed, as in `Result.save_at`.
+        alike = [{f"{time:g}" for time in times} for times in others]
+        return [float(time) for time in first if all(f"{time:g}" in times for times in alike)]
 
     @property
     def bodies(self) -> list[str]:
