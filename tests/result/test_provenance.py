@@ -7,8 +7,7 @@ from edited import edited
 from paper_models import archard, flat, named, small, steel
 
 from tribo import CaseError, Simulation
-from tribo.core.errors import PluginError
-from tribo.result.provenance import changed_components, origin, provenance, stated_facts
+from tribo.result.provenance import changed_components, origin, provenance
 from tribo.surfaces.forms import Sphere
 
 
@@ -72,14 +71,3 @@ def test_a_run_does_not_go_on_with_another_file_behind_its_surface(tmp_path, mon
     monkeypatch.setattr(Stated, "serial", "8")
     with pytest.raises(CaseError, match=r"was facts serial number 7, is facts .*number 8"):
         Simulation(model().case).resume(path)
-
-
-@pytest.mark.parametrize("facts", [None, ["size"], {"size": 1.0}, {1: "m"}])
-def test_facts_that_are_not_text_are_an_error_that_names_the_component(facts):
-    class Wrong(Stated):
-        def facts(self):
-            return facts
-
-    wrong = Wrong(radius="5 mm")
-    with pytest.raises(PluginError, match=r"'sphere' states .* as its facts"):
-        stated_facts(wrong)

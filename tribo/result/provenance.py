@@ -15,7 +15,6 @@ from typing import Any
 
 from tribo.component import Component
 from tribo.core.distributions import entry_points
-from tribo.core.errors import PluginError
 
 _IDENTITY = ("class", "distribution", "version", "code", "facts")
 PACKAGES = ("tribo", "numpy", "scipy", "h5py", "pydantic", "pluggy")
@@ -61,16 +60,6 @@ def changed_components(
     return changes
 
 
-def stated_facts(component: Component) -> dict[str, str]:
-    """Return the facts of a component; `PluginError` if they are not text by text."""
-    facts = component.facts()
-    if not isinstance(facts, Mapping) or not all(
-        isinstance(text, str) for pair in facts.items() for text in pair
-    ):
-        raise PluginError(f"{component.type!r} states {facts!r} as its facts, not text by text")
-    return dict(facts)
-
-
 def _words(origin: Mapping[str, Any], differing: Sequence[str]) -> str:
     """Return what differs in the origin of a component."""
     if not origin:
@@ -90,7 +79,7 @@ def origin(component: Component) -> dict[str, object]:
         # The version says nothing of what is edited in place.
         "code": _code(cls.__module__.split(".")[0]),
         "config": component.model_dump(mode="json"),
-        "facts": stated_facts(component),
+        "facts": {name: str(text) for name, text in component.facts().items()},
     }
 
 

@@ -19,7 +19,6 @@ from tribo.evolution.measure import measure
 from tribo.guards.guard import Guard
 from tribo.lab.against_hertz import HertzContact, hertz_contact, softer_known
 from tribo.model.model import Model
-from tribo.result.provenance import stated_facts
 from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.hardness import at_surface
 from tribo.simulation.march import begin, march
@@ -121,7 +120,7 @@ def predict(model: Model) -> Prediction:
         *coarse.implausible,
         coarse.limitation,
     )
-    facts = {place: Guard(c).ask(stated_facts, c) for place, c in components(model.case)}
+    facts = {place: Guard(c).ask(c.facts) for place, c in components(model.case)}
     return Prediction(
         first=first,
         hertz=hertz,
@@ -131,7 +130,7 @@ def predict(model: Model) -> Prediction:
         window_holds=holds,
         positions=len(model.cycle),
         memory=memory_needed(model.case, model.laws.effects, model.cycle),
-        facts={place: stated for place, stated in facts.items() if stated},
+        facts={place: dict(stated) for place, stated in facts.items() if stated},
         problems=tuple(problem for problem in problems if problem is not None),
         exit_code=ends[0][0] if ends else 0,
         stops=" ".join(each.words for each in (*doubts, ends[0][1])) if ends else None,
