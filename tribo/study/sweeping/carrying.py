@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from pathlib import Path
 
@@ -18,14 +18,11 @@ TICK = 0.2
 """Interval between checks for Ctrl-C, in s, which is answered at once to the eye."""
 
 
-def carry(
-    runs: Sequence[Run], executor: Executor, stop: Path, ended: Callable[[Run, str], None]
-) -> None:
-    """Complete every run.
+def carry(runs: Sequence[Run], executor: Executor, stop: Path) -> Iterator[tuple[Run, str]]:
+    """Complete every run; yield each as it ends, with the reason if it failed.
 
-    Whatever ends this early makes the file `stop`, at which workers stop. `ended` is called with
-    each run that ends, and with the reason if it failed. Interrupted if it was stopped from
-    outside.
+    Whatever ends this early makes the file `stop`, at which workers stop. Interrupted if it was
+    stopped from outside.
     """
     futures: dict[Future[str], Run] = {}
     with interrupts_held() as requested:
@@ -38,7 +35,7 @@ def carry(
                 if requested.is_set():
                     raise Interrupted("stopped; the same command continues")
                 for future in done:
-                    ended(futures[future], _failure(future, futures[future]))
+                    yield futures[future], _failure(future, futures[future])
         except BaseException:
             # Cancelling would lose track of runs that dask has started.
             write_file(stop)

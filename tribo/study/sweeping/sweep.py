@@ -144,19 +144,14 @@ def sweep(
         remove(folder / RUNS)
         left = [run for run in runs if not is_done(run.path, Simulation(run.case))]
         done, failures = len(runs) - len(left), dict[str, str]()
-
-        def ended(run: Run, failure: str) -> None:
-            nonlocal done
-            if failure:
-                failures[run.path.name] = failure
-            else:
-                done += 1
-            tell(len(runs), done, len(failures))
-
         tell(len(runs), done, 0)
         try:
             with nullcontext(executor) if executor else processes(jobs) as workers:
-                carry(left, workers, folder / STOP, ended)
+                for run, failure in carry(left, workers, folder / STOP):
+                    if failure:
+                        failures[run.path.name] = failure
+                    done += not failure
+                    tell(len(runs), done, len(failures))
         finally:
             table = runs_table(runs, paths, failures)
             write_file(folder / RUNS, table.dropna(axis=1, how="all").to_csv(index=False))
