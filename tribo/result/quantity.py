@@ -9,7 +9,6 @@ from scipy.ndimage import map_coordinates
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.core.grid import Grid
 from tribo.result.read import Result
 
 
@@ -38,17 +37,17 @@ def quantity(
     if places and "y" not in dims:
         raise CaseError(f"{name} is one number at each time; leave out the places")
     if places:
-        values = interpolated(values, result.grid, *map(np.array, zip(*places, strict=True)))
+        values = interpolated(values, result.grid.spacing, *np.transpose(places))
         if np.isnan(values).any():
             raise CaseError("a place lies outside of the window; it is in m")
     return np.atleast_1d(values if places else np.max(values)), known.unit
 
 
-def interpolated(field: Array, grid: Grid, x: Array, y: Array) -> Array:
-    """Return a field on a grid at places, in m: linear between cells; NaN outside of the window."""
+def interpolated(field: Array, spacing: tuple[float, float], x: Array, y: Array) -> Array:
+    """Return a field of cells of this size at places, in m: linear between them; NaN outside."""
     # A cell more at each end extrapolates over the last half cell; a single cell is constant.
     padded = np.pad(field, 1, "reflect", reflect_type="odd")
-    axes = zip((x, y), grid.spacing, field.shape, strict=True)
+    axes = list(zip((x, y), spacing, field.shape, strict=True))
     at = np.broadcast_arrays(*(axis / cell + 0.5 * (count + 1) for axis, cell, count in axes))
-    inside = (np.abs(x) <= 0.5 * grid.size[0]) & (np.abs(y) <= 0.5 * grid.size[1])
-    return np.where(inside, map_coordinates(padded, at, order=1), np.nan)
+    within = [np.abs(axis) <= 0.5 * cell * count for axis, cell, count in axes]
+    return np.where(within[0] & within[1], map_coordinates(padded, at, order=1), np.nan)

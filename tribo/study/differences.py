@@ -34,7 +34,7 @@ def differences(result: Result, reference: Result, time: float) -> dict[str, Dif
     found = {}
     for name, (values, expected) in pairs.items():
         if result.grid != reference.grid:
-            values = interpolated(values, result.grid, *reference.grid.mesh)
+            values = interpolated(values, result.grid.spacing, *reference.grid.mesh)
             inside = np.isfinite(values)
             values, expected = values[inside], expected[inside]
         largest = float(np.max(np.abs(expected), initial=0.0))
