@@ -98,9 +98,9 @@ def _axis(text: str) -> tuple[str, tuple[Any, ...]]:
         )
     path_keys(path)
     with located(path):
-        try:
-            values = tuple(parse_value(given if given.startswith("[") else f"[{given}]"))
-        except CaseError:
+        if given.startswith("["):
+            values = tuple(parse_value(given))
+        else:
             values = tuple(parse_value(part.strip()) for part in given.split(","))
     if not values or "" in values:
         raise CaseError(
