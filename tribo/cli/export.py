@@ -30,10 +30,8 @@ def export(output: Path, directory: Path | None, name: str, columns: str | None)
     """Write the result OUTPUT as CSV, for Excel, or in a format that a plugin offers.
 
     lab.csv has what 'tribo show' prints of the saves, in a laboratory's units. The
-    other files are in SI: history.csv (a row a step), saves.csv (a row a save),
-    profiles_x.csv and profiles_y.csv (pressure and surfaces through the centre, along
-    and across the sliding direction, a block a save). For Excel they are sheets of
-    tables.xlsx.
+    other files are in SI: history.csv (a row a step) and saves.csv (a row a save). For
+    Excel they are sheets of tables.xlsx.
 
     \b
     Example:
@@ -43,7 +41,7 @@ def export(output: Path, directory: Path | None, name: str, columns: str | None)
     from tribo.core.writing import writing
     from tribo.lab.tables import saves_table
     from tribo.registry.all_plugins import choose
-    from tribo.result.export import si_tables, write_tables
+    from tribo.result.export import write_tables
     from tribo.result.read import Result
 
     write = None if name in OWN else choose("tribo_export_formats", name, "format", OWN).write
@@ -54,7 +52,7 @@ def export(output: Path, directory: Path | None, name: str, columns: str | None)
         lab = saves_table(result).to_dataframe()
         tables: dict[str, Any] = {"lab": lab[_chosen(columns, lab)] if columns else lab}
         if not (write or columns):
-            tables = si_tables(result) | tables
+            tables |= {name: result.table(name) for name in ("history", "saves")}
         with writing(folder):
             paths = write(result, folder) if write else write_tables(tables, folder, name)
         for path in paths:

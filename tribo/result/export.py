@@ -1,8 +1,8 @@
-"""Write a result's history and profiles as CSV or for Excel."""
+"""Write tables of a result as CSV or for Excel."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -12,17 +12,6 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.writing import make_folder, write_file
-from tribo.result.read import Result
-
-
-def si_tables(result: Result) -> dict[str, Mapping[str, Array]]:
-    """Return history, saves and profiles in SI, with units in their column names."""
-    return {
-        "history": result.table("history"),
-        "saves": result.table("saves"),
-        "profiles_x": _profiles(result, 0),
-        "profiles_y": _profiles(result, 1),
-    }
 
 
 def write_tables(tables: Mapping[str, Any], folder: Path, form: str = "csv") -> list[Path]:
@@ -56,27 +45,3 @@ def profile(field: Array, axis: int) -> Array:
     n = field.shape[across]
     middle = np.take(field, range((n - 1) // 2, n // 2 + 1), axis=across)
     return np.asarray(np.mean(middle, axis=across))
-
-
-def _profiles(result: Result, axis: int) -> dict[str, Array]:
-    """Return columns for every save, one below the other."""
-    grid = result.grid
-    position = (grid.x, grid.y)[axis]
-    times = result.times
-    saves = range(len(times))
-    fields: dict[str, Iterable[Array]] = {
-        "pressure_Pa": [result.field("pressure", i) for i in saves]
-    }
-    for name in result.body_names:
-        body, of = result.body(name), f"bodies.{name}"
-        fields[f"{of}.wear_depth_m"] = body.wear_depth
-        fields[f"{of}.plastic_depth_m"] = body.plastic_depth
-        fields[f"{of}.height_m"] = [body.surface(i) for i in saves]
-    return {
-        "time_s": np.repeat(times, len(position)),
-        f"{'xy'[axis]}_m": np.tile(position, len(times)),
-        **{
-            label: np.concatenate([profile(each, axis) for each in of_saves])
-            for label, of_saves in fields.items()
-        },
-    }
