@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from tribo.cli.options import CASE, JSON, PATH, PLUGIN, SET, echo_json
 from tribo.core.errors import NumericalError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 @click.command()
@@ -54,12 +48,22 @@ def sweep(
     """
     from tribo.config.load import read_toml
     from tribo.config.overrides import apply_settings
+    from tribo.observers.progress import progress_bar
     from tribo.study.sweeping.sweep import sweep as run
     from tribo.study.variation import read_axes
 
     tables, axes = apply_settings(read_toml(case), overrides), read_axes(vary)
     folder = output or case.with_name(f"{case.stem}-sweep")
-    with _shown() as tell:
+    with progress_bar() as bar:
+        shown = bar.add_task("", total=None)
+
+        def tell(total: int, done: int, failed: int) -> None:
+            ended, failures = done + failed, f", {failed} failed" if failed else ""
+            words = f"{ended} of {total} runs{failures}"
+            bar.update(shown, total=total, completed=ended, description=words)
+            if bar.disable:
+                click.echo(words, err=True)
+
         swept = run(tables, axes, folder, jobs=jobs, tell=tell)
     total, reasons = len(swept.runs), swept.failures()
     failed = sum(map(len, reasons.values()))
@@ -81,21 +85,3 @@ def sweep(
             more = f" and {len(others)} more" if others else ""
             lines.append(f"  run {first.number} ({first.label}){more}: {message}")
         raise NumericalError("\n".join(lines))
-
-
-@contextmanager
-def _shown() -> Iterator[Callable[[int, int, int], None]]:
-    """Show on stderr how many runs have ended, and on a terminal how long the others will take."""
-    from tribo.observers.progress import progress_bar
-
-    with progress_bar() as bar:
-        shown = bar.add_task("", total=None)
-
-        def tell(total: int, done: int, failed: int) -> None:
-            ended, failures = done + failed, f", {failed} failed" if failed else ""
-            words = f"{ended} of {total} runs{failures}"
-            bar.update(shown, total=total, completed=ended, description=words)
-            if bar.disable:
-                click.echo(words, err=True)
-
-        yield tell
