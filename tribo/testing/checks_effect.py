@@ -176,7 +176,7 @@ class EffectChecks(LocalChecks):
             """A law that requires the fields and wears as if they were not there."""
 
             type = "tribo.testing.reads"
-            requires = tuple(field.name for field in effect.provides)
+            requires = effect.provides
 
         law = Reads(k=samples.ARCHARD.k)
         samples.run(lambda: {"law": law, "effects": [self._make()]})

@@ -50,10 +50,7 @@ class LocalChecks(Checks):
     """Length of the longest runs: in m for a law, in s for an effect."""
 
     def _units(self, component: Any) -> Mapping[str, float]:
-        known = {name: samples.declared(name) for name in names_of(component.requires)}
-        given = {name: field for name, field in known.items() if field is not None}
-        unknown = ", ".join({*known} - {*given})
-        apply_if(not unknown, f"the unit of {unknown} is not known: no effect here declares it")
+        given = samples.required(component)
         given |= {field.name: field for field in component.state_fields}
         return {**super()._units(component), **units_of(given)}
 

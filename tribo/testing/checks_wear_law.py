@@ -10,7 +10,7 @@ import numpy as np
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
-from tribo.core.fields import WORN_DEPTH, LocalConditions, names_of
+from tribo.core.fields import WORN_DEPTH, LocalConditions
 from tribo.core.rounding import SAME
 from tribo.guards.parts import GuardedLaw
 from tribo.testing import samples
@@ -57,7 +57,7 @@ class WearLawChecks(LocalChecks):
 
     def _fields_at(self, law: Any, pressure: Array, number: int) -> dict[str, Array]:
         spread = samples.pattern(pressure.shape, number + 7)
-        return samples.fields(names_of(law.requires), pressure, spread)
+        return samples.fields(samples.required(law), pressure, spread)
 
     def _rates(self, component: Any, given: Any) -> Mapping[str, Array]:
         rates: Mapping[str, Array] = component.rate(given).state_rates

@@ -129,9 +129,9 @@ class Report:
 def check(cls: type[Component], configs: Sequence[Config] | None = None) -> Report:
     """Check that a class fulfils its interface, with each of some configurations.
 
-    The bodies of the cases it is tried in are called ``ball`` and ``disk``. A field that the class
-    requires has the typical value of its declaration; without it, the required ``NAME_slope``
-    times the pressure if there is one, else 1.
+    The bodies of the cases it is tried in are called ``ball`` and ``disk``. A `Field` that the
+    class requires has values about the typical one, or follows the pressure by the required
+    ``NAME_slope``; where only a name is required, it is about 1.
 
     Parameters
     ----------

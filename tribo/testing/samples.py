@@ -14,13 +14,12 @@ import numpy as np
 from tribo.case import Body, Case
 from tribo.contact.dcfft import DcFft
 from tribo.contact.winkler import Winkler
+from tribo.contract import LIMITED
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactProblem, ContactSystem
 from tribo.core.errors import CaseError
 from tribo.core.fields import (
     FRICTION_COEFFICIENT,
-    LOAD_SHARE,
-    LOCAL_SLIP,
     OF_MOTION,
     PLACE_X,
     ContactConditions,
@@ -45,7 +44,6 @@ from tribo.testing.checks import BODIES, needed_by
 from tribo.testing.compare import first_difference, locked, require
 from tribo.testing.process import process_state
 from tribo.wear.archard import Archard
-from tribo.wear.law import WearLaw
 
 # Neither square nor of square cells, so that swapped axes are noticed.
 GRID = Grid((0.72e-3, 0.8e-3), (24, 20))
@@ -78,6 +76,8 @@ BRONZE = Material(
     conductivity=60.0,
     heat_capacity=380.0,
 )
+KNOWN = LIMITED | OF_MOTION
+"""Fields that a run itself knows, so that their name says all."""
 ARCHARD = Archard(k=1e-16)
 """It wears a third of the first approach within some metres."""
 
@@ -85,59 +85,44 @@ ARCHARD = Archard(k=1e-16)
 def for_models(material: Material, *models: object, spread: float = 0.5) -> Material:
     """Return a material with the further properties that models need, at typical values."""
     values = {
-        each.name: float(np.interp(spread, (0.0, 0.5, 1.0), _range(each) or (0.5, 1.0, 2.0)))
+        each.name: float(np.interp(spread, (0.0, 0.5, 1.0), _range(each)))
         for each in needed_by(*models)
         if each.name not in Material.model_fields
     }
     return material.model_copy(update={"properties": values or None})
 
 
-def field(name: str, names: Sequence[str], p: Array, spread: Array | float = 0.5) -> Array:
-    """Return values of the field `name` at the pressures `p`.
+def required(*models: Any) -> dict[str, Field]:
+    """Return the declaration of each field that models require."""
+    each = [of for model in models for of in model.requires]
+    known = KNOWN | {of.name: of for of in each if isinstance(of, Field)}
+    bare = ", ".join({*names_of(each)} - {*known})
+    require(not bare, f"{bare}: a name tells no values to try; require a Field, with a typical one")
+    return {name: known[name] for name in names_of(each)}
 
-    `spread`, from 0 to 1, leads over the field's range: half to twice the typical value that an
-    effect declares that was imported, or from one of its limits to the other. A field of which
-    nothing is known follows its slope if that is among `names` too, and is about 1 if not; a slope
-    is 1.
+
+def _range(declared: Field) -> tuple[float, float, float]:
+    """Return a low, a middle and a high value of a field; about 1 if it says too little."""
+    least = -math.inf if declared.at_least is None else declared.at_least
+    most = math.inf if declared.at_most is None else declared.at_most
+    if (typical := declared.typical) is None:
+        known = math.isfinite(most - least)
+        return (least, 0.5 * (least + most), most) if known else (0.95, 1.0, 1.05)
+    low, high = np.clip(sorted((0.5 * typical, 2 * typical)), least, most)
+    return low, typical, high
+
+
+def fields(declared: Mapping[str, Field], p: Array, spread: Array | float) -> dict[str, Array]:
+    """Return values of fields at the pressures `p`, of which `spread` leads over their range.
+
+    That is half to twice the typical value, or from one limit to the other. A field whose slope is
+    among them follows the pressure by that.
     """
-    if (known := declared(name)) and (values := _range(known)):
-        return np.zeros_like(p) + np.interp(spread, (0.0, 0.5, 1.0), values)
-    slope = f"{name}_slope"
-    if slope in names:
-        return field(slope, (), p, spread) * p
-    about = 0.95 + 0.1 * np.asarray(spread)
-    return np.zeros_like(p) + (1.0 if name.endswith("_slope") else about)
-
-
-def declared(name: str) -> Field | None:
-    """Return the declaration of a field that the case or a loaded model provides or requires."""
-    known = [FRICTION_COEFFICIENT, LOAD_SHARE, LOCAL_SLIP, *OF_MOTION.values()]
-    models: list[type[Effect | WearLaw]] = [*Effect.__subclasses__(), *WearLaw.__subclasses__()]
-    for model in models:
-        models += model.__subclasses__()
-        if model.__module__.startswith(__package__):
-            continue
-        for fields in (getattr(model, "provides", ()), model.state_fields, model.requires):
-            known += (
-                [f for f in fields if isinstance(f, Field)] if isinstance(fields, tuple) else []
-            )
-    named = [field for field in known if field.name == name]
-    return next((field for field in named if _range(field)), next(iter(named), None))
-
-
-def _range(declared: Field) -> tuple[float, float, float] | None:
-    """Return a low, a middle and a high value of a field, if it says enough."""
-    least, most, typical = declared.at_least, declared.at_most, declared.typical
-    if typical is None:
-        return None if least is None or most is None else (least, 0.5 * (least + most), most)
-    low, high = sorted((0.5 * typical, 2 * typical))
-    low = low if least is None else max(low, least)
-    return low, typical, high if most is None else min(high, most)
-
-
-def fields(names: Sequence[str], p: Array, spread: Array) -> dict[str, Array]:
-    """Return `field` for each of some names."""
-    return {name: field(name, names, p, spread) for name in names}
+    values = {
+        name: np.zeros_like(p) + np.interp(spread, (0.0, 0.5, 1.0), _range(of))
+        for name, of in declared.items()
+    }
+    return {n: values[s] * p if (s := f"{n}_slope") in values else v for n, v in values.items()}
 
 
 def pattern(shape: tuple[int, ...], number: int = 0) -> Array:
@@ -184,7 +169,7 @@ def contact_conditions(
     """Return the input of a fresh effect, by number; the second body is swept."""
     # The faster, the less pressure: the power stays what it is.
     pressure = hertz_pressure(GRID) / (1, 2, 20)[number]
-    known = fields(names_of(effect.requires), pressure, pattern(GRID.cells, number))
+    known = fields(required(effect), pressure, pattern(GRID.cells, number))
     start = effect.initial_state()
     state = {
         f.name: np.full((1, 1) if f.uniform else GRID.cells, start[f.name])
@@ -292,13 +277,10 @@ def small_case(
     others = (*more.values(), *more.get("observers", ()))
     material = for_models(STEEL, law, kinematics, *effects, *others)
     provided = {f.name for e in effects for f in (*e.provides, *e.state_fields)}
-    friction = FRICTION_COEFFICIENT.name
-    known = {friction, *OF_MOTION} | provided
+    known = {FRICTION_COEFFICIENT.name, *OF_MOTION} | provided
     averaged = {n for n, e in kinematics.exposures(GRID, BODIES).items() if e.averaged}
     wearing = {*BODIES} - (averaged if PLACE_X.name in names_of(law.requires) else set())
-    needed = sorted(
-        {*names_of(law.requires)}.union(*(names_of(e.requires) for e in effects)) - known
-    )
+    lacking = {n: of for n, of in required(law, *effects).items() if n not in known}
     return Case(
         grid=GRID.model_copy(update={"ends_at_window": True}),
         load=LOAD,
@@ -307,8 +289,8 @@ def small_case(
             for name, surface in zip(BODIES, _shapes(kinematics), strict=True)
         },
         kinematics=kinematics,
-        friction=None if friction in provided else float(field(friction, (), np.zeros(()))),
-        effects=[*([_providing(needed)] if needed else []), *effects],
+        friction=None if FRICTION_COEFFICIENT.name in provided else FRICTION_COEFFICIENT.typical,
+        effects=[*([_providing(lacking)] if lacking else []), *effects],
         **{"contact": Winkler(), "stepping": LONG_STEPS, **more},
     )
 
@@ -327,14 +309,14 @@ class _Staying(Reciprocating):
         return {name: Stationary(grid) for name in bodies}
 
 
-def _providing(names: Sequence[str]) -> Effect:
+def _providing(lacking: Mapping[str, Field]) -> Effect:
     class Given(Effect):
         type = "tribo.testing.given"
-        provides = tuple(Field(name, "1", "A sample.") for name in names)
+        provides = tuple(lacking.values())
 
         def fields(self, contact: ContactConditions) -> Mapping[str, Mapping[str, Array]]:
-            shape = contact.pressure.shape
-            answers = fields(names, contact.pressure, 0.49 + 0.02 * pattern(shape))
+            spread = 0.49 + 0.02 * pattern(contact.pressure.shape)
+            answers = fields(lacking, contact.pressure, spread)
             return {name: dict.fromkeys(contact.materials, v) for name, v in answers.items()}
 
     return Given()

@@ -130,7 +130,7 @@ def test_examples_are_those_of_the_class_or_the_defaults_if_those_are_valid(cls,
 class Heated(Law):
     """Its derivative follows a field that follows the pressure."""
 
-    requires = ("heat",)
+    requires = (Field("heat", "Pa", "Power of friction."),)
     state_fields = ()
 
     def rate(self, local):
@@ -141,7 +141,7 @@ class Heated(Law):
 class Sloped(Heated):
     """Its derivative is by a slope that it is told."""
 
-    requires = ("heat", "heat_slope")
+    requires = (*Heated.requires, Field("heat_slope", "1", "Its derivative in pressure."))
 
     def rate(self, local):
         return replace(super().rate(local), depth_slope=1e-16 * local.fields["heat_slope"])
@@ -165,6 +165,14 @@ class Protected(Law):
     def rate(self, local):
         k = self.k * np.exp(-local.fields["zddp_film"] / self.thickness)
         return WearRate(k * local.pressure, k)
+
+
+class Bare(Heated):
+    requires = ("heat",)
+
+
+def test_a_field_that_is_required_must_say_its_values():
+    assert "heat: a name tells no values" in str(check(Bare, [{}]))
 
 
 def test_a_law_is_tried_at_the_scale_of_the_field_that_it_requires():

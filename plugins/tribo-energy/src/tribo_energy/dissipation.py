@@ -7,6 +7,8 @@ from typing import Annotated
 import numpy as np
 from tribo import Field, LocalConditions, Quantity, WearLaw, WearRate
 
+from tribo_energy.traction import SLOPE, TRACTION
+
 ENERGY = Field("dissipated_energy", "J/m^2", "Friction energy dissipated per area so far.")
 
 
@@ -57,13 +59,13 @@ class Dissipation(WearLaw):
     threshold_spread: Annotated[float, Quantity("1", above=0, at_most=2)] = 0.05
     """Width of the onset of wear around ``threshold_energy``, relative to it."""
 
-    requires = ("friction_traction", "friction_traction_slope")
+    requires = (TRACTION, SLOPE)
     state_fields = (ENERGY,)
 
     def rate(self, local: LocalConditions) -> WearRate:
         """Return the rate, α φ dτ/dp where it wears, and τ as the rate of E."""
-        traction = np.where(local.pressure > 0, local.fields["friction_traction"], 0.0)
-        slope = local.fields["friction_traction_slope"]
+        traction = np.where(local.pressure > 0, local.fields[TRACTION.name], 0.0)
+        slope = local.fields[SLOPE.name]
         alpha = np.full_like(traction, self.alpha)
         if self.threshold_energy > 0:
             spread = self.threshold_spread * self.threshold_energy

@@ -7,6 +7,8 @@ from typing import Annotated
 import numpy as np
 from tribo import LocalConditions, Quantity, WearLaw, WearRate
 
+from tribo_thermal.flash import TEMPERATURE
+
 GAS_CONSTANT = 8.314462618
 """In J/(mol K), exact since the SI of 2019."""
 
@@ -48,10 +50,10 @@ class Arrhenius(WearLaw):
     reference_temperature: Annotated[float, Quantity("K", above=0, usual=(150.0, 2000.0))]
     """Temperature at which the law equals Archard's with the same k."""
 
-    requires = ("temperature",)
+    requires = (TEMPERATURE,)
 
     def rate(self, local: LocalConditions) -> WearRate:
         """Return k(T) p and k(T)."""
-        difference = 1 / local.fields["temperature"] - 1 / self.reference_temperature
+        difference = 1 / local.fields[TEMPERATURE.name] - 1 / self.reference_temperature
         k = self.k * np.exp(-self.activation_energy / GAS_CONSTANT * difference)
         return WearRate(k * local.pressure, k)

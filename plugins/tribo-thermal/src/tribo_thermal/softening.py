@@ -7,6 +7,8 @@ from typing import Annotated
 import numpy as np
 from tribo import CaseError, LocalConditions, Material, Quantity, WearLaw, WearRate
 
+from tribo_thermal.flash import TEMPERATURE
+
 
 class Softening(WearLaw):
     """dh/ds = K p/H(T), with H(T) = H₀ max(1 − β (T − T_ref), c).
@@ -45,7 +47,7 @@ class Softening(WearLaw):
     least_hardness: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.1
     """Part of H₀ below which the hardness does not fall."""
 
-    requires = ("temperature",)
+    requires = (TEMPERATURE,)
 
     def check(self, material: Material) -> None:
         """Require a hardness, here or of the material."""
@@ -53,7 +55,7 @@ class Softening(WearLaw):
 
     def rate(self, local: LocalConditions) -> WearRate:
         """Return k(T) p and k(T), with k = K/H(T)."""
-        warmer = local.fields["temperature"] - self.reference_temperature
+        warmer = local.fields[TEMPERATURE.name] - self.reference_temperature
         part = np.maximum(1 - self.softening * warmer, self.least_hardness)
         k = self.K / (self._hardness(local.material) * part)
         return WearRate(k * local.pressure, k)
