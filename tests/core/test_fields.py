@@ -23,3 +23,9 @@ def test_a_law_that_names_it_so_is_not_made(name):
 def test_a_law_that_names_two_alike_is_not_made():
     with pytest.raises(TypeError, match="the field 'slip' is declared twice"):
         law("slip", "slip")
+
+
+@pytest.mark.parametrize("unit", ["mm", "", "µ"])
+def test_a_field_in_another_unit_than_an_si_unit_is_not_made(unit):
+    with pytest.raises(ValueError, match="unit"):
+        Field("slid", unit, "Distance slid.")

@@ -10,6 +10,7 @@ from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
 from tribo.core.grid import Grid
 from tribo.core.material import Material
+from tribo.core.units import scale
 
 
 @dataclass(frozen=True)
@@ -53,6 +54,11 @@ class Field:
     uniform: bool = False
     fills: bool = False
     breaks: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Refuse a unit that is not SI, in which values would be wrong without a word."""
+        if scale(self.unit)[0] != 1:
+            raise ValueError(f"the unit {self.unit!r} of the field {self.name!r} is not SI")
 
     def __str__(self) -> str:
         return f"{self.name} [{self.unit}] {self.description}"

@@ -97,18 +97,23 @@ class GuardedMotion(Guard[Kinematics]):
 
     def _try(self, exposure: Exposure, where: str, grid: Grid, position: int) -> None:
         """Hold an exposure to its contract, which is the same at each call."""
-        rate = readonly(np.ones(grid.cells))
+        x, y = (axis / length for axis, length in zip(grid.mesh, grid.size, strict=True))
+        rate = readonly(1.5 + x + 0.5 * y)
         own = self.ask(getattr, exposure, "rows"), grid.cells[1]
         passing = self.ask(exposure.lay, rate, position)
         mean = self.ask(exposure.average, rate)
-        if exposure.starts is not None and not np.array_equal(mean, rate):
-            rule = "of a body with rows of its own it must be the rate itself"
+        if not exposure.averaged and not np.array_equal(mean, rate):
+            rule = "of a body that is not averaged along a track it must be the rate itself"
             raise self.bad("average", "not the rate itself", where, rule)
         mean = self.ask(exposure.lay, mean, position)
         mean = self.array("average", mean, own, where)
-        self.array("envelope", self.ask(exposure.envelope, readonly(passing)), own, where)
+        envelope = self.ask(exposure.envelope, readonly(passing))
+        envelope = self.array("envelope", envelope, own, where)
+        if np.any(envelope < passing) or np.max(envelope) != np.max(passing):
+            rule = "it must be the largest value that each point meets"
+            raise self.bad("envelope", "not the largest value", where, rule)
         volume = self.number("volume", self.ask(exposure.volume, mean), where)
-        worn = rate.size * grid.cell_area
+        worn = float(np.sum(rate)) * grid.cell_area
         if abs(volume - worn) > SAME * worn:
             rule = f"it must be {worn:.6g} m³, as of the rate"
             raise self.bad("volume", f"{volume:.6g} m³ of an average", where, rule)
@@ -122,21 +127,19 @@ class GuardedMotion(Guard[Kinematics]):
         self, exposure: Exposure, given: Sequence[int], positions: int, grid: Grid
     ) -> None:
         """Hold `starts` to one row for each position, in the body's rows, the middle one midway."""
-        rows, window = exposure.rows, grid.cells[0]
+        rows, beyond = exposure.rows, exposure.rows - grid.cells[0]
         starts = [int(self.number("starts", start)) for start in given]
-        if grid.period is not None and rows != window:
-            raise PluginError(
-                f"{self} has {rows} rows where the contact repeats with the window; it needs "
-                f"the window's {window}, with starts that are counted round"
-            )
-        beyond = rows - window
-        within = grid.period is not None or (min(starts) >= 0 and max(starts) <= beyond)
+        if grid.period is not None:
+            # Rows are counted round.
+            within = beyond == 0
+        else:
+            within = 0 <= min(starts) <= max(starts) <= beyond
         midway = len(starts) == positions and starts[positions // 2] % rows == beyond // 2
         if not (within and midway):
             raise PluginError(
                 f"{self} has starts {starts!s:.60} of {len(starts)} positions on {rows} rows; "
                 f"one is needed for each of {positions} positions, from 0 to {beyond}, with "
-                f"{beyond // 2} in the middle"
+                f"{beyond // 2} in the middle, and as many rows as a window that repeats"
             )
 
     def end_time(self, distance: float | str | None) -> float:

@@ -20,10 +20,9 @@ from tribo.component import Component, components
 from tribo.contract import answers_of
 from tribo.core.fields import Field
 from tribo.core.table import descriptions
-from tribo.core.units import parts, quantities, scale
+from tribo.core.units import parts, quantities
+from tribo.result.provenance import stated_facts
 from tribo.testing.compare import (
-    CheckFailed,
-    apply_if,
     expect_close,
     first_difference,
     locked,
@@ -141,35 +140,6 @@ class Checks(ABC):
             found = again()
             require(found == config, f"written {how} and read back, {config!r} is {found!r}")
 
-    def name_has_a_prefix(self) -> None:
-        """Its name carries a prefix, as in acme.fretting; only tribo's own do without."""
-        name, module = self._cls.type, self._cls.__module__
-        apply_if("." in module, "it is defined in a file of its own")
-        require(
-            "." in name or module.startswith("tribo."),
-            f"{name!r} needs a prefix, as in 'acme.fretting'; names without one are tribo's own",
-        )
-
-    def facts_are_text_and_stay(self) -> None:
-        """What it states of itself is text by text, and the same each time it is asked."""
-        stated, later = (dict(self._make().facts()) for _ in range(2))
-        for item in stated.items():
-            require(all(isinstance(x, str) for x in item), f"facts() holds {item}; write text")
-        require(later == stated, f"facts() gave {stated}, and then {later}")
-
-    def declared_fields_have_units(self) -> None:
-        """Each field that it declares has an SI unit and a description."""
-        component = self._make()
-        for declared in ("provides", "state_fields", "material_properties"):
-            for field in getattr(component, declared, ()):
-                where = f"{declared}: {field.name!r}"
-                require(field.description.strip(), f"{where} has no description")
-                try:
-                    size, _ = scale(field.unit)
-                except ValueError as error:
-                    raise CheckFailed(f"{where}: {error}") from error
-                require(size == 1, f"{where}: the unit {field.unit!r} is not SI")
-
     def calls_leave_no_trace(self) -> None:
         """A call prints nothing, and changes neither its inputs nor the state of the process.
 
@@ -186,8 +156,10 @@ class Checks(ABC):
             require(not said, f"it printed {said[:60]!r}; leave it out, or use logging")
 
     def same_inputs_give_same_bits(self) -> None:
-        """The answer follows from the inputs alone, whatever was asked before."""
+        """The answer follows from the inputs alone, whatever was asked before; so do its facts."""
         used, answers = self._make(), []
+        stated, later = (stated_facts(used) for _ in range(2))
+        require(later == stated, f"facts() gave {stated}, and then {later}")
         for given in self._samples():
             first = deepcopy(self._call(self._make(), given))
             answers.append((first, self._call(used, given)))

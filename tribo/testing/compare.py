@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import Any, TypeVar
 
 import numpy as np
+from scipy.optimize import brentq
 
 from tribo.core.arrays import Array
 
@@ -104,23 +105,19 @@ def _same(one: object, other: object) -> bool:
 def largest_jump(answer: Callable[[float], Array], ladder: Array) -> tuple[float, float]:
     """Return where between values of a ladder an answer jumps most, and by what part of its size.
 
-    A jump is what is left of the largest step of a point as its interval is halved.
+    A jump is what is left of the largest step of a point next to where the answer is in its middle.
     """
     rungs = np.stack([answer(value) for value in ladder.tolist()])
     steps, sizes = np.abs(np.diff(rungs, axis=0)), np.abs(rungs)
     # Of what is small beside the rest, a step is no jump.
     sizes = np.maximum(np.maximum(sizes[1:], sizes[:-1]), max(0.1 * np.max(sizes), 1e-300))
-    worst = np.unravel_index(int(np.argmax(steps / sizes)), steps.shape)
-    at, point = int(worst[0]), worst[1:]
-    (low, high), below, above = ladder[at : at + 2], rungs[at][point], rungs[at + 1][point]
-    for _ in range(40):
-        middle = 0.5 * (low + high)
-        half = answer(middle)[point]
-        if abs(half - below) > abs(above - half):
-            high, above = middle, half
-        else:
-            low, below = middle, half
-    return float(high), float(abs(above - below) / sizes[worst])
+    at, *point = worst = np.unravel_index(int(np.argmax(steps / sizes)), steps.shape)
+    middle, (low, high) = np.mean(rungs[at : at + 2], axis=0)[*point], ladder[at : at + 2]
+    near = 1e-12 * (high - low)
+    where = brentq(lambda value: answer(value)[*point] - middle, low, high, xtol=near)
+    sides = np.clip([where - 2 * near, where + 2 * near], low, high).tolist()
+    below, above = (answer(value)[*point] for value in sides)
+    return float(where), float(abs(above - below) / sizes[worst])
 
 
 def expect_close(what: str, found: Any, needed: Any, tolerance: float) -> None:

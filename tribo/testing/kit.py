@@ -308,8 +308,5 @@ def outcome_of(checks: Checks, name: str) -> Outcome:
 
 def _came(checks: Checks, name: str, status: Any, message: str = "") -> Outcome:
     """Return the outcome of a check, with the configuration as short text."""
-    values = checks._config.model_dump(exclude_defaults=True)
-    del values["type"]
-    text = ", ".join(f"{name}={value!r}" for name, value in values.items()) or "its defaults"
-    config = text if len(text) <= 60 else text[:59] + "…"
+    config = f"{checks._config!r:.60}"
     return Outcome(name, str(getattr(checks, name).__doc__), config, status, message)

@@ -6,17 +6,15 @@ a cache, a counter, a buffer used again, or fresh noise: same_inputs_give_same_b
 a number of the code, or of another unit: units_may_be_rescaled
 a mean, a shift, or swapped axes: reach_is_as_declared
 a mean or scale of the window, a cell for a length, swapped axes: another_window_changes_little
-a length of the track, a mean, or swapped axes: averages_are_linear_and_keep_the_volume
-a mean in place of the largest value: envelope_covers_the_field
+a length of the track, a mean, or swapped axes: averages_are_linear
 swapped axes, a symmetry, or another zero of the gap: pressure_goes_with_the_gap
 a cell for a length or an area: finer_cells_change_little
-a factor left out in one of the two: slopes_are_derivatives
+a factor left out in one of the two, or a field that follows the pressure: slopes_are_derivatives
 a factor or a sign left out in one of the two: curvature_is_that_of_the_heights
 a number or a sign left out in one of the two: product_is_that_of_differences
-a length left out in one of the two: compliance_is_the_average_of_a_linear_law
 shares of time for shares of the path, or another amplitude: speeds_share_the_path
 a sign, growth by itself, or no term that ends it: states_can_last
-a threshold that is not declared: depth_does_not_jump rates_jump_at_breaks_alone
+a threshold that is not declared: rates_jump_at_breaks_alone
 a name in the code, or the last body: bodies_may_have_any_names bodies_change_places_as_named
 what is left out, or a number in its place: what_is_declared_matters
 problem.wear, or a part of it, left out: wear_compliance_adds_its_depth

@@ -274,8 +274,7 @@ def small_case(
 ) -> Case:
     """Return a case with both bodies under one law, if both have places for it."""
     kinematics = kinematics or sliding(3.0)
-    others = (*more.values(), *more.get("observers", ()))
-    material = for_models(STEEL, law, kinematics, *effects, *others)
+    material = for_models(STEEL, law, kinematics, *effects, *more.values())
     provided = {f.name for e in effects for f in (*e.provides, *e.state_fields)}
     known = {FRICTION_COEFFICIENT.name, *OF_MOTION} | provided
     averaged = {n for n, e in kinematics.exposures(GRID, BODIES).items() if e.averaged}
