@@ -35,7 +35,7 @@ class Pin(Surface):
     [-283.0, -143.0, -67.0, -23.0, -3.0]
     """
 
-    examples = ({"radius": "3 mm", "edge": "0.2 mm"},)
+    examples = ({"radius": "3 mm", "edge": "0.5 mm"},)
     type = "pin"
     smooth = True
     radius: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
