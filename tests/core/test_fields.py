@@ -1,7 +1,7 @@
 """A field whose name a file cannot hold is refused when its class is made."""
 
 import pytest
-from strangers.running_in import RunningIn
+from testing.conformance.honest_laws import RunningIn
 
 from tribo import Field
 

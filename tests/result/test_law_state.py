@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from paper_models import archard, case, motion, pair, small
-from strangers.running_in import RunningIn
+from testing.conformance.honest_laws import RunningIn
 
 from tribo import Field, Grid, Implicit, Result, Simulation
 
@@ -35,14 +35,14 @@ def test_it_is_read_back_with_unit_and_meaning(path):
     with Result.open(path) as result:
         ball, disk = result.body("ball"), result.body("disk")
         distances = result.distances
-        told = result.slip.attrs
+        told = result.slid.attrs
     assert told["units"] == "m"
     assert "slid under pressure" in told["long_name"]
-    assert ball.state["slip"].shape == disk.state["slip"].shape == (3, 24, 24)
+    assert ball.state["slid"].shape == disk.state["slid"].shape == (3, 24, 24)
     # What is in contact from the beginning slides all the way, what never is does not.
-    np.testing.assert_allclose(ball.state["slip"].max(axis=(1, 2)), distances, rtol=1e-12)
-    assert ball.state["slip"].min() == 0
-    assert np.all(disk.state["slip"] == disk.state["slip"][:, :1])
+    np.testing.assert_allclose(ball.state["slid"].max(axis=(1, 2)), distances, rtol=1e-12)
+    assert ball.state["slid"].min() == 0
+    assert np.all(disk.state["slid"] == disk.state["slid"][:, :1])
 
 
 @pytest.mark.slow
@@ -51,9 +51,9 @@ def test_what_one_law_does_not_keep_is_nan_there_and_a_taken_name_gets_its_kind(
         state_fields = (Field("pressure", "m", "Slid under pressure."),)
 
         def rate(self, local):
-            slid = {"slip": local.state["pressure"]}
+            slid = {"slid": local.state["pressure"]}
             found = super().rate(replace(local, state=slid))
-            return replace(found, state_rates={"pressure": found.state_rates["slip"]})
+            return replace(found, state_rates={"pressure": found.state_rates["slid"]})
 
     law = Named(k_first=9e-16, k_last=3e-16, length=20.0)
     with Simulation(case(bodies=pair(law, archard()), **PARTS)).run() as result:

@@ -3,7 +3,6 @@
 import pytest
 from strangers.debris import Covered
 from strangers.oxidation import OXIDE, OxideFilm
-from strangers.running_in import RunningIn
 from strangers.twin_disk import TwinDisk
 
 from tribo import CaseError, Simulation, load_case
@@ -13,9 +12,6 @@ DISKS = {"ball": "150 mm", "disk": "100 mm"}
 
 test_oxide_film = parametrize_checks(OxideFilm, [{"power": "1 MW/m^2"}])
 test_covered = parametrize_checks(Covered, [{"k": "1e-15 1/Pa", "cover": "2 µm"}])
-test_running_in = parametrize_checks(
-    RunningIn, [{"k_first": "4e-15 1/Pa", "k_last": "1e-15 1/Pa", "length": "2 m"}]
-)
 test_twin_disk = parametrize_checks(
     TwinDisk,
     [{"speed": "2 m/s", "slip": 0.05, "circumference": DISKS, "duration": "10 min"}],

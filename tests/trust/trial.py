@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 from paper_models import case, motion, pair
 from strangers.debris import Debris
-from strangers.running_in import RunningIn
+from testing.conformance.honest_laws import RunningIn
 
 from tribo import Grid, Simulation
 from tribo.observers.observer import Observer

@@ -231,12 +231,6 @@ class Slip(Effect):
     def fields(self, contact):
         return {"local_slip": dict.fromkeys(contact.materials, self.slip(contact))}
 
-
-class Stated(Slip):
-    """A point slips the less, and how its slip follows is stated."""
-
-    type = "honest.stated"
-
     def pull_back(self, contact, cotangents):
         body, friction = next(iter(contact.fields["friction_coefficient"].items()))
         by = -sum(cotangents["local_slip"].values()) * self.slip(contact) ** 2 / self.strength
@@ -258,4 +252,4 @@ class Spring(Effect):
         return 1 - self.relaxes * sum(b.max_wear_depth for b in snapshot.measures.bodies.values())
 
 
-EFFECTS = (Heating, Debris, Transfer, Spreading, Bath, Tribofilm, Flash, Slip, Stated, Spring)
+EFFECTS = (Heating, Debris, Transfer, Spreading, Bath, Tribofilm, Flash, Slip, Spring)

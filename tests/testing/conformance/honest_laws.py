@@ -105,27 +105,6 @@ class Oxide(WearLaw):
         return WearRate(k * p, k, {"cover": np.where(p > 0, bare / self.length, 0.0)})
 
 
-class Incubation(WearLaw):
-    """dh/ds = k p once a point has slid a length, and k_early p before."""
-
-    type = "honest.incubation"
-    k_early: SpecificRate = 1e-17
-    """Specific wear rate at first."""
-    k: SpecificRate = 3e-16
-    """Specific wear rate afterwards."""
-    length: Length = 4.0
-    """Distance slid at which cracks have come to the surface."""
-
-    @property
-    def state_fields(self):
-        return (Field("cracked", "m", "Distance slid.", at_least=0.0, breaks=(self.length,)),)
-
-    def rate(self, local):
-        p = local.pressure
-        k = np.where(local.state["cracked"] < self.length, self.k_early, self.k)
-        return WearRate(k * p, k, {"cracked": 1.0 * (p > 0)})
-
-
 class Lubricated(ModifiedLaw):
     """dh/ds = r(p - p_film), with r another law, and a film that is rubbed off."""
 
@@ -151,4 +130,4 @@ class Lubricated(ModifiedLaw):
         return replace(rate, depth_slope=rate.depth_slope * (excess > 0), state_rates=states)
 
 
-LAWS = (Law, RunningIn, Coating, Oxide, Incubation, Lubricated)
+LAWS = (Law, RunningIn, Coating, Oxide, Lubricated)
