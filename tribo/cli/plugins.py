@@ -91,7 +91,6 @@ def check(name: str) -> None:
     from tribo.registry.probe import probe_all
     from tribo.registry.registry import default_registry
     from tribo.testing import check as conform
-    from tribo.testing import example_configs
 
     registry, failed = default_registry(), []
     for component in matching(registry, name):
@@ -103,14 +102,13 @@ def check(name: str) -> None:
         fields = cls.model_fields.items()
         files = [key for key, each in fields if each.is_required() and each.annotation is Path]
         try:
-            configs = example_configs(cls)
-            if files and not configs:
+            if files and not cls.examples:
                 click.echo(
                     f"{component}: not checked, for want of a file as its {' and '.join(files)}; "
                     f"the tests of {owner.distribution} have to"
                 )
                 continue
-            report = conform(cls, configs)
+            report = conform(cls)
         except ValueError as error:
             raise NumericalError(f"the examples of {component!r}: {error}") from error
         click.echo(str(report))

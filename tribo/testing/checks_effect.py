@@ -32,7 +32,6 @@ from tribo.testing.compare import (
     values_in,
 )
 from tribo.testing.samples import GRID
-from tribo.wear.archard import Archard
 
 _LONGEST = 60.0
 """Time for which a state has been there at most, in s."""
@@ -88,7 +87,7 @@ class EffectChecks(LocalChecks):
 
     @cached_property
     def _snapshot(self) -> Snapshot:
-        return samples.last({"effects": [self._make()]})
+        return samples.run(lambda: {"effects": [self._make()]})
 
     def answers_fit_a_run(self) -> None:
         """Each declared field comes for each body, finite, within its limits, on the window.
@@ -169,17 +168,8 @@ class EffectChecks(LocalChecks):
         return fields
 
     def runs_in_a_case(self) -> None:
-        """In a small case a law gets the fields it requires in every step."""
-        effect = self._make()
-
-        class Reads(Archard):
-            """A law that requires the fields and wears as if they were not there."""
-
-            type = "tribo.testing.reads"
-            requires = effect.provides
-
-        law = Reads(k=samples.ARCHARD.k)
-        samples.run(lambda: {"law": law, "effects": [self._make()]})
+        """In a small case it gives its fields in every step."""
+        samples.run(lambda: {"effects": [self._make()]})
 
 
 def _beside(value: Any, by: float) -> Any:

@@ -252,7 +252,8 @@ def _varied(given: Any, reach: object) -> Iterator[tuple[str, Mask, Any]]:
     """
     shape = given.pressure.shape
     half = samples.pattern(shape) > 0.5
-    few = [_one(shape, part) for part in (0.0, 0.4, 0.6)]
+    numbers = np.arange(half.size).reshape(shape)
+    few = [numbers == int(part * half.size) for part in (0.0, 0.4, 0.6)]
     names = {"pressure", "state", "wear_rates", *(() if reach == "contact" else ("fields",))}
     for path, values in values_in(given).items():
         if path.partition(".")[0] not in names or np.shape(values) != shape:
@@ -268,13 +269,6 @@ def _varied(given: Any, reach: object) -> Iterator[tuple[str, Mask, Any]]:
                 return other if ".".join(map(str, at)) == path else value
 
             yield path, varied, mapped(given, change)
-
-
-def _one(shape: tuple[int, ...], part: float) -> Mask:
-    """Return an array that is true at one point, a part of its way from corner to corner."""
-    where = np.zeros(shape, dtype=bool)
-    where[tuple(int(part * n) for n in shape)] = True
-    return where
 
 
 def _even(given: Any) -> Any:

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.rounding import SAME
@@ -68,12 +67,14 @@ class SurfaceChecks(Checks):
         stated = surface.curvature
         apply_if(stated is not None, "curvature is None")
         grid = Grid(self._grid().size, (49, 49))
-        height = surface.height(grid)
-        i, j = _highest(height, grid)
-        dx, dy = grid.spacing
+        height, (dx, dy) = surface.height(grid), grid.spacing
+        # Of several points as high the one nearest the centre.
+        near = height - 1e-9 * np.ptp(height) * np.hypot(*grid.mesh) / max(grid.size)
+        inside = near[1:-1, 1:-1]
+        i, j = np.unravel_index(int(np.argmax(inside)), inside.shape)
         found = (
-            -(height[i + 1, j] - 2 * height[i, j] + height[i - 1, j]) / dx**2,
-            -(height[i, j + 1] - 2 * height[i, j] + height[i, j - 1]) / dy**2,
+            -np.diff(height, 2, axis=0)[i, j + 1] / dx**2,
+            -np.diff(height, 2, axis=1)[i + 1, j] / dy**2,
         )
         for axis, one, other in zip("xy", stated, found, strict=True):
             hint = "; heights are outward from the body" if one * other < 0 else ""
@@ -84,13 +85,3 @@ class SurfaceChecks(Checks):
                 f"the curvature along {axis} is stated as {one:.6g} 1/m, but the heights have "
                 f"{other:.6g} 1/m{hint}",
             )
-
-
-def _highest(height: Array, grid: Grid) -> tuple[int, int]:
-    """Return the highest point inside the window, of several the one nearest its centre."""
-    inside = height[1:-1, 1:-1]
-    x, y = grid.x[1:-1, None], grid.y[None, 1:-1]
-    highest = inside >= np.max(inside) - 1e-9 * np.ptp(inside)
-    distance = np.where(highest, x**2 + y**2, np.inf)
-    i, j = np.unravel_index(int(np.argmin(distance)), distance.shape)
-    return int(i) + 1, int(j) + 1

@@ -158,7 +158,7 @@ def check(cls: type[Component], configs: Sequence[Config] | None = None) -> Repo
     --------
     >>> from tribo.testing import check
     >>> str(check(tribo.Flat)).splitlines()[0]
-    'surface Flat (flat): 13 passed'
+    'surface Flat (flat): 10 passed'
     """
     check_class(cls)
     asked = [(checks, name) for checks in suites(cls, configs) for name in names_of(type(checks))]
@@ -232,7 +232,7 @@ def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
     Returns
     -------
     list of dict
-        Its `examples`; else ``{}`` alone if the defaults are valid; else nothing.
+        Its `examples`; else ``{}`` alone, for its defaults.
 
     Raises
     ------
@@ -245,41 +245,26 @@ def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
     >>> example_configs(tribo.Sphere)
     [{'radius': '5 mm'}]
     """
-    if examples := cls.examples:
-        if not (isinstance(examples, Sequence) and all(isinstance(e, Mapping) for e in examples)):
-            raise ValueError(f"they are {examples!r}; they must be a list of tables")
-        return [dict(example) for example in examples]
-    try:
-        cls.model_validate({})
-    except ValidationError:
-        return []
-    return [{}]
+    examples = cls.examples
+    if not (isinstance(examples, Sequence) and all(isinstance(e, Mapping) for e in examples)):
+        raise ValueError(f"they are {examples!r}; they must be a list of tables")
+    return [dict(example) for example in examples] or [{}]
 
 
 def suites(cls: type[Component], configs: Sequence[Config] | None) -> Iterator[Checks]:
     """Yield the checks of a class with each of its configurations."""
     configs = example_configs(cls) if configs is None else configs
     if not configs:
-        raise ValueError(
-            f"nothing would be checked of {cls.__qualname__}: it is not valid without "
-            "configuration, and no example is given; put some in: examples = ({…},)"
-        )
+        raise ValueError(f"nothing would be checked of {cls.__qualname__}: give a configuration")
     made = []
     for number, config in enumerate(configs):
         try:
-            made.append(config if isinstance(config, cls) else cls.model_validate(config))
+            made.append(cls.model_validate(config))
         except ValidationError as error:
             what = f"configs[{number}] is not valid for {cls.__qualname__}"
-            raise ValueError(f"{what}: {error}") from error
+            hint = "a class gives valid ones as examples = ({…},)"
+            raise ValueError(f"{what}: {error}; {hint}") from error
     yield from (SUITES[cls.kind()](config, made) for config in made)
-
-
-def perform(checks: Checks, name: str) -> None:
-    """Make one check; what the class itself raised under a guard is raised as it was."""
-    try:
-        getattr(checks, name)()
-    except PluginError as error:
-        raise error.__cause__ or CheckFailed(str(error)) from None
 
 
 def names_of(suite: type[Checks]) -> list[str]:
@@ -292,21 +277,23 @@ def outcome_of(checks: Checks, name: str) -> Outcome:
     """Make one check, by its name."""
     try:
         with process_restored():
-            perform(checks, name)
+            getattr(checks, name)()
     except NotApplicable as reason:
         return _came(checks, name, "not applicable", str(reason))
-    except CheckFailed as fault:
-        likely = f" (often: {LIKELY[name]})" if name in LIKELY else ""
-        return _came(checks, name, "failed", " ".join(str(fault).split()) + likely)
     except KeyboardInterrupt:
         raise
     except BaseException as error:
-        where = place(error, checks._cls.__module__)
-        return _came(checks, name, "failed", f"it raised {said(error)}{where}")
+        # What the class itself raised under a guard is reported as it was.
+        cause = error.__cause__ if isinstance(error, PluginError) and error.__cause__ else error
+        words = f"it raised {said(cause)}{place(cause, checks._cls.__module__)}"
+        if isinstance(cause, CheckFailed | PluginError):
+            likely = f" (often: {LIKELY[name]})" if name in LIKELY else ""
+            words = " ".join(str(cause).split()) + likely
+        return _came(checks, name, "failed", words)
     return _came(checks, name, "passed")
 
 
 def _came(checks: Checks, name: str, status: Any, message: str = "") -> Outcome:
     """Return the outcome of a check, with the configuration as short text."""
-    config = f"{checks._config!r:.60}"
-    return Outcome(name, str(getattr(checks, name).__doc__), config, status, message)
+    fact = str(getattr(checks, name).__doc__)
+    return Outcome(name, fact, f"{checks._config!r:.60}", status, message)

@@ -220,8 +220,8 @@ def problem(
     return locked(ContactProblem(system, ball(grid), LOAD))
 
 
-def run(parts: Callable[[], dict[str, Any]]) -> None:
-    """Run a small case, and once more from the middle with new objects.
+def run(parts: Callable[[], dict[str, Any]]) -> Snapshot:
+    """Run a small case to its last snapshot, and once more from the middle with new objects.
 
     The run itself holds in each step that a body loses just what its law says. It leaves the state
     of the process as it is.
@@ -235,7 +235,7 @@ def run(parts: Callable[[], dict[str, Any]]) -> None:
             states.append(accepted.state)
             require(len(states) <= STEPS, f"a small run is not done after {STEPS} steps")
         effect_fields(model, states[-1])
-        Watch(model).snapshot(states[-1])
+        last = Watch(model).snapshot(states[-1])
         middle = len(states) // 2
         later = zip(states[middle + 1 :], march(resumed, states[middle]), strict=True)
         for state, again in later:
@@ -244,13 +244,7 @@ def run(parts: Callable[[], dict[str, Any]]) -> None:
             require(where is None, lost)
         where = first_difference(before, process_state())
         require(where is None, f"{where} was changed in a run")
-
-
-def last(parts: Mapping[str, Any]) -> Snapshot:
-    """Return the last snapshot of a small run."""
-    model = _accepted(parts)
-    *_, end = march(model, begin(model))
-    return Watch(model).snapshot(end.state)
+    return last
 
 
 def _accepted(parts: Mapping[str, Any]) -> Model:

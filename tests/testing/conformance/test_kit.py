@@ -13,7 +13,7 @@ from testing.conformance.honest_laws import Law
 from testing.conformance.honest_others import Counts, Hill
 from testing.conformance.mistakes import MISTAKES
 
-from tribo import Field, Grid, Quantity, Surface, WearRate
+from tribo import Field, Grid, Quantity, Sphere, Surface, WearRate
 from tribo.testing import check, example_configs, parametrize_checks
 from tribo.testing.compare import CheckFailed
 from tribo.testing.kit import suites
@@ -92,27 +92,15 @@ def test_what_the_author_got_wrong_is_named(run, cls, configs, error, message):
         run(cls, configs)
 
 
-class Shown(Law):
-    examples = ({"q": 1}, {"q": 2})
-    type = "shown.law"
-    q: Annotated[float, Quantity("1")]
-    """Something."""
-
-
 class OneOfTwo(Archard):
     examples = ()
 
 
-@pytest.mark.parametrize(
-    ("cls", "examples"),
-    [
-        (Shown, [{"q": 1}, {"q": 2}]),
-        (OneOfTwo, []),
-        (Counts, [{}]),
-    ],
-)
-def test_examples_are_those_of_the_class_or_the_defaults_if_those_are_valid(cls, examples):
-    assert example_configs(cls) == examples
+def test_examples_are_those_of_the_class_or_its_defaults():
+    assert example_configs(Sphere) == [{"radius": "5 mm"}]
+    assert example_configs(Counts) == [{}]
+    with pytest.raises(ValueError, match="valid ones as examples"):
+        check(OneOfTwo)
 
 
 class Heated(Law):
