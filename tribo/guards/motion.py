@@ -129,11 +129,8 @@ class GuardedMotion(Guard[Kinematics]):
         """Hold `starts` to one row for each position, in the body's rows, the middle one midway."""
         rows, beyond = exposure.rows, exposure.rows - grid.cells[0]
         starts = [int(self.number("starts", start)) for start in given]
-        if grid.period is not None:
-            # Rows are counted round.
-            within = beyond == 0
-        else:
-            within = 0 <= min(starts) <= max(starts) <= beyond
+        # In a window that repeats rows are counted round.
+        within = beyond == 0 if grid.period else 0 <= min(starts) <= max(starts) <= beyond
         midway = len(starts) == positions and starts[positions // 2] % rows == beyond // 2
         if not (within and midway):
             raise PluginError(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 
@@ -153,17 +153,15 @@ class GuardedEffect(Guard[Effect]):
         """Return each provided field for each body, shape (nx, ny)."""
         given = self.ask(self.component.fields, contact)
         answer = self.typed(given, Mapping, "its fields")
-        found: dict[str, dict[str, Array]] = {}
+        found: dict[str, dict[str, Array]] = {field.name: {} for field in self.provides}
         when = "" if contact.speed > 0 else " at rest"
-        for name in [field.name for field in self.provides]:
-            of_bodies = answer.get(name, {})
-            found[name] = {}
-            for body in contact.materials:
-                values = of_bodies.get(body) if isinstance(of_bodies, Mapping) else None
-                where = f" for body {body!r}{when}"
-                if values is None:
-                    raise PluginError(f"{self} gave no {name!r}{where}")
-                found[name][body] = self.array(name, values, contact.pressure.shape, where)
+        for name, body in product(found, contact.materials):
+            of_bodies = answer.get(name)
+            values = of_bodies.get(body) if isinstance(of_bodies, Mapping) else None
+            where = f" for body {body!r}{when}"
+            if values is None:
+                raise PluginError(f"{self} gave no {name!r}{where}")
+            found[name][body] = self.array(name, values, contact.pressure.shape, where)
         for field in (FRICTION_COEFFICIENT, LOCAL_SLIP):
             of_bodies = found.get(field.name, {}).values()
             if any(not np.array_equal(one, other) for one, other in pairwise(of_bodies)):

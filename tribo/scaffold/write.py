@@ -43,7 +43,19 @@ def write_plugin(name: str, kind: str, folder: Path) -> list[Path]:
     OutputError
         If the files cannot be written.
     """
-    words = _words(name, kind)
+    kind = kind.replace("-", "_")
+    if kind not in KINDS:
+        known = [known.replace("_", "-") for known in KINDS]
+        meant = suggestion(did_you_mean(kind, known))
+        raise CaseError(f"unknown kind {kind!r}{meant} Known: {', '.join(known)}")
+    words = {
+        **plugin_names(name),
+        "kind": kind,
+        "words": kind.replace("_", " "),
+        "article": "An" if kind[0] in "aeiou" else "A",
+        "year": str(date.today().year),
+    }
+    words["example"] = _filled("$kind/example.toml", words).strip()
     layout = {
         "pyproject.toml": "common/pyproject.toml",
         "README.md": "common/README.md",
@@ -69,24 +81,6 @@ def write_plugin(name: str, kind: str, folder: Path) -> list[Path]:
         make_folder(file.parent)
         write_file(file, text)
     return sorted(texts)
-
-
-def _words(distribution: str, given: str) -> dict[str, str]:
-    """Return the values of the placeholders in templates."""
-    kind = given.replace("-", "_")
-    if kind not in KINDS:
-        known = [known.replace("_", "-") for known in KINDS]
-        meant = suggestion(did_you_mean(kind, known))
-        raise CaseError(f"unknown kind {kind!r}{meant} Known: {', '.join(known)}")
-    words = {
-        **plugin_names(distribution),
-        "kind": kind,
-        "words": kind.replace("_", " "),
-        "article": "An" if kind[0] in "aeiou" else "A",
-        "year": str(date.today().year),
-    }
-    words["example"] = _filled("$kind/example.toml", words).strip()
-    return words
 
 
 def _filled(template: str, words: dict[str, str]) -> str:

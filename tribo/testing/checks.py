@@ -10,7 +10,7 @@ from contextlib import redirect_stdout
 from copy import deepcopy
 from importlib.util import find_spec
 from inspect import isclass
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 from pydantic import BaseModel
@@ -100,13 +100,6 @@ class Checks(ABC):
     def _samples(self) -> list[Any]:
         return [self._sample(number) for number in self._numbers]
 
-    def _among(self, names: tuple[str, str]) -> Self:
-        """Return the checks of a component whose configuration calls the bodies otherwise."""
-        data = renamed(self._config.model_dump(), BODIES, names)
-        other = type(self)(self._cls.model_validate(data))
-        other._bodies = names
-        return other
-
     def objects_are_frozen_and_know_their_keys(self) -> None:
         """An object cannot be changed, and a key that it does not have is an error."""
         for option, needed in (("frozen", True), ("extra", "forbid")):
@@ -180,7 +173,9 @@ class Checks(ABC):
 
     def bodies_may_have_any_names(self) -> None:
         """Nothing depends on names and order of the bodies but by what its configuration names."""
-        others = self._among(OTHER_NAMES)
+        data = renamed(self._config.model_dump(), BODIES, OTHER_NAMES)
+        others = type(self)(self._cls.model_validate(data))
+        others._bodies = OTHER_NAMES
         for given, named in zip(self._samples(), others._samples(), strict=True):
             usual = renamed(self._call(self._make(), given), BODIES, OTHER_NAMES)
             for name, other in zip(BODIES, OTHER_NAMES, strict=True):

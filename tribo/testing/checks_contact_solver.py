@@ -116,41 +116,31 @@ class ContactSolverChecks(Checks):
         expect_close("approach on cells half as large", found.approach, approach, FINER)
 
     def more_load_goes_deeper(self) -> None:
-        """With the load grow pressures, and the approach from the lowest gap at a first touch."""
-        less, more = self._solve(load=0.5 * LOAD), self._plain
+        """The approach grows with the load, from the lowest gap at a first touch."""
         touch, lowest = self._solve(load=_TOUCH * LOAD).approach, float(np.min(ball(GRID)))
         require(
-            abs(touch - lowest) <= 10 * TOLERANCE * (more.approach - lowest),
+            abs(touch - lowest) <= 10 * TOLERANCE * (self._plain.approach - lowest),
             f"the approach of a first touch, by {_TOUCH:g} of the load, is {touch:.6g} m, but the "
             f"lowest gap {lowest:.6g} m",
         )
-        fall = float(np.max(less.pressure - more.pressure))
-        lowers = f"doubling the load lowered the pressure by up to {fall:.3g} Pa"
-        require(fall <= TOLERANCE * self._peak, lowers)
 
     def warm_start_changes_nothing(self) -> None:
         """From whatever solution it starts, a solve ends at the same one."""
         for what, start in (
-            ("its own solution", self._plain),
             ("the solution of a heavier load", self._solve(load=2 * LOAD)),
             ("the solution at another place", self._solve(gap=ball(GRID, (3, 2)), load=0.3 * LOAD)),
         ):
             self._expect_pressure(f"from {what}", self._plain.pressure, start=start)
 
     def wear_compliance_adds_its_depth(self) -> None:
-        """A wear compliance acts as its depth in the gap would, on either kind of body."""
+        """A wear compliance acts as its depth in the gap would, on both kinds of body."""
         apply_if(self._cls.accepts_wear_compliance, "accepts_wear_compliance is False")
         (nx, ny), dx = GRID.cells, GRID.spacing[0]
         local = self._soft * (0.5 + samples.pattern((nx, ny)))
         swept = self._soft / GRID.size[0] * (0.5 + samples.pattern((ny,)))
-        for what, wear in (
-            ("a local", WearCompliance(local, np.zeros(ny))),
-            ("a swept", WearCompliance(np.zeros((nx, ny)), swept)),
-            ("a local and a swept", WearCompliance(local, swept)),
-        ):
-            worn = self._solve(wear=wear)
-            depth = wear.depth(worn.pressure, dx)
-            self._expect_as_in_gap(f"under {what} compliance", worn, depth)
+        wear = WearCompliance(local, swept)
+        worn = self._solve(wear=wear)
+        self._expect_as_in_gap("under a wear compliance", worn, wear.depth(worn.pressure, dx))
 
     def positions_share_their_wear(self) -> None:
         """Solved as one, each position of a cycle is in contact with what all of them wear."""

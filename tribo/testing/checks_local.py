@@ -103,7 +103,12 @@ class LocalChecks(Checks):
         state that never moves alters nothing.
         """
         model = self._make()
-        idle = {("number", name) for name in self._cls.model_fields if _is_given(model, name)}
+        numbers = {n: of for n, of in self._cls.model_fields.items() if any(quantities(of))}
+        idle = {
+            ("number", name)
+            for name, of in numbers.items()
+            if isinstance(value := getattr(model, name), float) and value not in (0, of.default)
+        }
         idle |= {("state", field.name) for field in model.state_fields}
         idle |= {("required field", name) for name in names_of(model.requires)}
         idle |= {("property", field.name) for field in model.material_properties}
@@ -231,7 +236,9 @@ class LocalChecks(Checks):
         whole = declared == "contact"
         reach = declared if isinstance(declared, tuple) else (0, 0)
         for sample in self._samples():
-            given = locked(_even(sample)) if whole else sample
+            # Alike at all points: what follows Σ μ p follows Σ p.
+            even = mapped(sample.fields, lambda _, values: np.full_like(values, np.mean(values)))
+            given = locked(replace(sample, fields=even)) if whole else sample
             usual = values_in(self._call(model, given))
             for what, varied, other in _varied(given, declared):
                 positions = [1] * (varied.ndim - 2)
@@ -271,12 +278,6 @@ def _varied(given: Any, reach: object) -> Iterator[tuple[str, Mask, Any]]:
             yield path, varied, mapped(given, change)
 
 
-def _even(given: Any) -> Any:
-    """Return conditions with fields that are alike at all points: what follows Σ μ p follows Σp."""
-    even = mapped(given.fields, lambda _, values: np.full_like(values, np.mean(values)))
-    return replace(given, fields=even)
-
-
 def _at(given: Any, name: str, value: float) -> Any:
     """Return conditions in which one state field has one value."""
     state = {**given.state, name: np.full_like(given.state[name], value)}
@@ -302,10 +303,3 @@ def _with_more(value: Any, name: str) -> Any:
         return value
     more = {name: 1.01 * value.property(name)}
     return value.model_copy(update={**more, "properties": {**(value.properties or {}), **more}})
-
-
-def _is_given(config: Any, name: str) -> bool:
-    """Whether a field holds a quantity that is neither 0 nor its default."""
-    field, value = type(config).model_fields[name], getattr(config, name)
-    marked = any(quantities(field))
-    return marked and isinstance(value, float) and value not in (0, field.default)
