@@ -132,17 +132,23 @@ class _Operations:
         self._recorded, self._opened = recorded, {}
 
     def __getattr__(self, name):
-        return getattr(os, name)
+        done = getattr(os, name)
+        if name not in KINDS:
+            return done
+
+        def noted(*paths):
+            done(*paths)
+            self._note(KINDS[name], *paths)
+
+        return noted
 
     def _note(self, kind, path, other=None):
-        try:
-            names = [str(Path(p).resolve().relative_to(self._recorded.folder)) for p in (path,)]
-        except ValueError:
-            return
-        if kind == "rename":
-            other = str(Path(other).resolve().relative_to(self._recorded.folder))
-        name = "" if names[0] == "." else names[0]
-        self._recorded.operations.append((kind, name, other))
+        folder = self._recorded.folder
+        if Path(path).resolve().is_relative_to(folder):
+            name = Path(path).resolve().relative_to(folder).as_posix()
+            if kind == "rename":
+                other = Path(other).resolve().relative_to(folder).as_posix()
+            self._recorded.operations.append((kind, "" if name == "." else name, other))
 
     def open(self, path, flags, mode=0o777):
         fresh = not os.path.exists(path)
@@ -161,18 +167,6 @@ class _Operations:
             self._note("write", path, Path(path).read_bytes())
             self._note("sync", path)
 
-    def replace(self, path, target):
-        os.replace(path, target)
-        self._note("rename", path, target)
-
-    def unlink(self, path):
-        os.unlink(path)
-        self._note("remove", path)
-
-    def rmdir(self, path):
-        os.rmdir(path)
-        self._note("remove", path)
-
     def mkdir(self, path, *given, **named):
         fresh = not os.path.isdir(path)
         MKDIR(path, *given, **named)
@@ -181,6 +175,7 @@ class _Operations:
 
 
 MKDIR = Path.mkdir
+KINDS = {"replace": "rename", "unlink": "remove", "rmdir": "remove"}
 
 
 @contextmanager
