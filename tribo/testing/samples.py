@@ -271,15 +271,20 @@ def small_case(
     material = for_models(STEEL, law, kinematics, *effects, *more.values())
     provided = {f.name for e in effects for f in (*e.provides, *e.state_fields)}
     known = {FRICTION_COEFFICIENT.name, *OF_MOTION} | provided
-    averaged = {n for n, e in kinematics.exposures(GRID, BODIES).items() if e.averaged}
-    wearing = {*BODIES} - (averaged if PLACE_X.name in names_of(law.requires) else set())
+    exposures = kinematics.exposures(GRID, BODIES)
+    placed = PLACE_X.name in names_of(law.requires)
+    wearing = [name for name in BODIES if not (placed and exposures[name].averaged)]
+    # What passes as a whole does not vary along x.
+    passes = [not exposures[name].shape_stays for name in BODIES]
+    curved = Cylinder(radius=RADIUS, axis="x") if all(passes) else Sphere(radius=RADIUS)
+    surfaces = (Flat(), curved) if passes[0] else (curved, Flat())
     lacking = {n: of for n, of in required(law, *effects).items() if n not in known}
     return Case(
         grid=GRID.model_copy(update={"ends_at_window": True}),
         load=LOAD,
         bodies={
             name: Body(surface=surface, material=material, wear=law if name in wearing else None)
-            for name, surface in zip(BODIES, _shapes(kinematics), strict=True)
+            for name, surface in zip(BODIES, surfaces, strict=True)
         },
         kinematics=kinematics,
         friction=None if FRICTION_COEFFICIENT.name in provided else FRICTION_COEFFICIENT.typical,
@@ -313,13 +318,3 @@ def _providing(lacking: Mapping[str, Field]) -> Effect:
             return {name: dict.fromkeys(contact.materials, v) for name, v in answers.items()}
 
     return Given()
-
-
-def _shapes(kinematics: Any) -> list[Any]:
-    """Return a surface for each body; those that pass as a whole do not vary along x."""
-    exposures = kinematics.exposures(GRID, BODIES)
-    passes = [not exposures[name].shape_stays for name in BODIES]
-    if all(passes):
-        return [Cylinder(radius=RADIUS, axis="x"), Flat()]
-    sphere = Sphere(radius=RADIUS)
-    return [Flat(), sphere] if passes[0] else [sphere, Flat()]

@@ -44,7 +44,7 @@ class Detachment(WearLaw):
     10 µm wide, 0.5 µm thick, a spread of 0.5
     """
 
-    examples = ({"k": "3.11e-16 1/Pa", "diameter": "10 um", "thickness": "0.5 um"},)
+    examples = ({"k": "3.11e-16 1/Pa", "diameter": "0.2 mm", "thickness": "0.5 um"},)
     type = "roughening.detachment"
     k: Annotated[float, Quantity("1/Pa", at_least=0, usual=(1e-22, 1e-10))]
     """Mean specific wear rate, volume per load and sliding distance."""
