@@ -80,13 +80,13 @@ class EffectChecks(LocalChecks):
         return {**provided, **inputs.state, **self._state_answers(component, rates)}
 
     def _asked(self, component: Any, given: Any) -> Mapping[str, Any]:
-        if type(component).load_factor is Effect.load_factor:
-            return self._call(component, given)
-        factor = float(component.load_factor(self._snapshot))
-        return {**self._call(component, given), "load_factor": factor}
+        answers = self._call(component, given)
+        if type(component).load_factor is not Effect.load_factor:
+            answers = {**answers, "load_factor": float(component.load_factor(self._last))}
+        return answers
 
     @cached_property
-    def _snapshot(self) -> Snapshot:
+    def _last(self) -> Snapshot:
         return samples.run(lambda: {"effects": [self._make()]})
 
     def answers_fit_a_run(self) -> None:
@@ -196,9 +196,9 @@ def _on(grid: Grid, given: ContactConditions, halved: str) -> ContactConditions:
 
 def _gone_far(effect: GuardedEffect, given: ContactConditions) -> ContactConditions:
     """Return conditions with a state a hundred times as far from its start, within its limits."""
-    state = {}
-    for field in effect.state_fields:
-        start = effect.initial_state[field.name]
-        far = start + _FAR * (given.state[field.name] - start)
-        state[field.name] = np.clip(far, *effect.answers[initial(field.name)].range)
+    start, answers = effect.initial_state, effect.answers
+    state = {
+        name: np.clip(start[name] + _FAR * (now - start[name]), *answers[initial(name)].range)
+        for name, now in given.state.items()
+    }
     return locked(replace(given, state=state))

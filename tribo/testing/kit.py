@@ -114,15 +114,12 @@ class Report:
         for config, outcomes in groupby(self.outcomes, lambda outcome: outcome.config):
             lines.append(f"  with {config}")
             for outcome in outcomes:
-                message = outcome.message
-                if outcome.status == "failed":
-                    # A failure of many checks is reported with the first of them.
-                    count = spoiled.pop(message, 0)
-                    if count == 0:
-                        continue
-                    message += f" (this spoils {count} checks)" if count > 1 else ""
-                line = f"    {outcome.check:<{width}}  {outcome.status}"
-                lines.append(f"{line}: {message}" if message else line)
+                # A failure of many checks is reported with the first of them.
+                count = spoiled.pop(outcome.message, 0) if outcome.status == "failed" else 1
+                more = f" (this spoils {count} checks)" if count > 1 else ""
+                message = f": {outcome.message}{more}" if outcome.message else ""
+                if count:
+                    lines.append(f"    {outcome.check:<{width}}  {outcome.status}{message}")
         return "\n".join(lines)
 
 

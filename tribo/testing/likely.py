@@ -9,9 +9,8 @@ a mean or scale of the window, a cell for a length, swapped axes: another_window
 a length of the track, a mean, or swapped axes: averages_are_linear
 swapped axes, a symmetry, or another zero of the gap: pressure_goes_with_the_gap
 a cell for a length or an area: finer_cells_change_little
-a factor left out in one of the two, or a field that follows the pressure: slopes_are_derivatives
-a factor or a sign left out in one of the two: curvature_is_that_of_the_heights
-a number or a sign left out in one of the two: product_is_that_of_differences
+a field that follows the pressure, or a factor left out in one of the two: slopes_are_derivatives
+a factor or a sign in one alone: curvature_is_that_of_the_heights product_is_that_of_differences
 shares of time for shares of the path, or another amplitude: speeds_share_the_path
 a sign, growth by itself, or no term that ends it: states_can_last
 a threshold that is not declared: rates_jump_at_breaks_alone
