@@ -5,12 +5,13 @@ from functools import partial
 import pytest
 import sweeps
 from command_line import tribo
-from paper_models import motion, pair
+from paper_models import case, motion, pair
 from trust.crashes import contents_of, of_each_kind, recorded
 from trust.trial import LAW, Acknowledge, contents, same, simulation
 
 import tribo.simulation.run as tribo_run
 from tribo import CaseError, Grid, Implicit, Result, sweep
+from tribo.core.toml import to_toml
 from tribo.observers.recorder import Recorder
 from tribo.stepping.explicit import Explicit
 
@@ -118,24 +119,6 @@ def test_steps_that_remember_go_on_to_the_same_bits_from_each_checkpoint(tmp_pat
     assert resumed == 2
 
 
-CASE = """
-load = "100 N"
-grid = { size = "0.7 mm", cells = 8 }
-contact.type = "dcfft"
-kinematics = { type = "reciprocating", stroke = "2 mm", frequency = 25, duration = 1 }
-stepping = { type = "explicit", time_step = 0.5 }
-
-[bodies.ball]
-surface = { type = "sphere", radius = "5 mm" }
-material = { young = "207 GPa", poisson = 0.3 }
-wear = { type = "archard", k = 3e-16 }
-
-[bodies.disk]
-surface = { type = "flat" }
-material = { young = "207 GPa", poisson = 0.3 }
-"""
-
-
 def compared(folder):
     done = tribo("compare", "run.toml", "--vary", "load=50 N,60 N", "--no-plots", cwd=folder)
     assert done.returncode == 0, done.stderr
@@ -149,7 +132,9 @@ def swept(folder):
 def test_runs_side_by_side_end_alike_from_a_crash_before_each_file_operation(tmp_path, runs):
     folder = tmp_path / "work"
     folder.mkdir()
-    (folder / "run.toml").write_text(CASE)
+    explicit = {"grid": WINDOW, "stepping": Explicit(time_step=0.5)}
+    tables = case(kinematics=motion(duration=1), **explicit).model_dump(mode="json")
+    (folder / "run.toml").write_text(to_toml(tables))
     with recorded(folder) as work:
         runs(folder)
     after = contents_of(folder)
