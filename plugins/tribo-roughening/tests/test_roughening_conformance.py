@@ -8,7 +8,7 @@ from tribo_roughening.detachment import Detachment
 test_detachment = parametrize_checks(
     Detachment,
     configs=[
-        {"k": 1e-16, "diameter": "0.2 mm", "thickness": "0.5 um"},
+        *Detachment.examples,
         {"k": 1e-16, "diameter": 2e-4, "thickness": 5e-7, "spread": 1, "period": 2e-4, "seed": 3},
     ],
 )
