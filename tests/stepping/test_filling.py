@@ -41,6 +41,24 @@ def test_an_even_layer_keeps_the_bodies_apart_and_changes_nothing_else():
     np.testing.assert_allclose(layered.contact.pressure, bare.contact.pressure, rtol=1e-9)
 
 
+class Gathers(Grows):
+    """A layer that grows the faster, the harder it is pressed, a little more on one half."""
+
+    type = "test.gathers"
+
+    def state_rates(self, contact):
+        uneven = 1 + 0.1 * (contact.grid.mesh[0] > 0)
+        return {"layer": self.rate / EVEN * contact.speed * contact.pressure * uneven}
+
+
+def test_a_run_reports_at_its_end_that_the_load_has_gathered_on_few_cells():
+    first, *_, last = states(pin(effects=[Gathers(rate=1e-7)]))
+    assert first.findings == ()
+    (found,) = last.findings
+    assert (found.kind, found.limit, found.time) == ("resolution", 8, last.time)
+    assert found.value == pytest.approx(4)
+
+
 def ball(positions):
     """A ball that wears, on a disk that does not, with all its debris."""
     kinematics = motion(stroke="0.4 mm", duration=20, positions=positions)

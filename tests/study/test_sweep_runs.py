@@ -57,7 +57,7 @@ def test_tables_and_lists_that_vary_have_a_column_each_and_warnings_are_in_the_t
     assert [row["contact.type"] for row in rows] == ["winkler", "dcfft"]
     assert [row["grid.size.2_m"] for row in rows] == [6e-4, 9e-4]
     assert [row["status"] for row in rows] == ["done", "done"]
-    assert rows[0]["message"].startswith("resolution: the first contact is only")
+    assert rows[0]["message"].startswith("resolution: the contact is only")
 
 
 @pytest.mark.slow

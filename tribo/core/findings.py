@@ -11,7 +11,7 @@ from tribo.core.words import readable
 NOTHING_WRONG = ("begin", "layer", "stop")
 """Kinds that report what the case itself asks for."""
 FEW_CELLS = 8
-"""Cells across a first contact, below which its pressure is inaccurate: Hertz's largest is within
+"""Cells across a contact, below which its pressure is inaccurate: Hertz's largest is within
 1.5 % with 8 cells, 4 % with 4."""
 STEEP = 0.3
 """Half-width of a contact over the radius of a body, above which a half-space is inaccurate: a
@@ -77,11 +77,11 @@ class Finding:
 
 
 def few_cells(cells: float) -> Finding:
-    """Word a first contact of only a few cells."""
+    """Word a contact of only a few cells."""
     return Finding(
         "resolution",
-        f"the first contact is only {cells:.1f} cells wide, so its pressure is inaccurate "
-        f"until it has grown: raise grid.cells until it is {FEW_CELLS} cells wide",
+        f"the contact is only {cells:.1f} cells wide, so its pressure is inaccurate: raise "
+        f"grid.cells until it is {FEW_CELLS} cells wide",
         value=cells,
         limit=FEW_CELLS,
         place="grid.cells",

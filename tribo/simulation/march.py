@@ -13,12 +13,12 @@ from tribo.core.measures import half_widths
 from tribo.core.state import State
 from tribo.model.model import Model
 from tribo.simulation.beginning import first_state
-from tribo.simulation.gap_filling import check_filling
 from tribo.simulation.validity import (
     check_stroke,
     coarse_cycle,
     doubting,
     few_cells,
+    first_widths,
     hold_wear,
     limitation,
     tribo_findings,
@@ -50,7 +50,6 @@ def begin(model: Model) -> State:
     with doubting(model.case):
         state = hold(None, first_state(model))
         check_stroke(model, state)
-        check_filling(model, state)
         model.case.stepping.check(model, state)
     if model.chosen is not None:
         state = state.with_findings(model.chosen)
@@ -179,14 +178,17 @@ def _with_findings(model: Model, state: State) -> State:
     if not state.has_finding("averaging") and (finding := limitation(model, state)):
         state = state.from_here(finding)
     if state.steps == 0:
-        few = few_cells(model, state.contact)
+        few = few_cells(model, first_widths(model, state.contact))
         state = state.with_findings(*tribo_findings(model), *([few] if few else []))
     return state
 
 
 def _concluded(model: Model, state: State) -> State:
-    """Replace the finding on averaging at the beginning by the finding at the end."""
+    """Add findings on the end; the one on averaging replaces that at the beginning."""
     if finding := coarse_cycle(model, state):
         state = state.with_findings(finding)
+    few = few_cells(model, half_widths(state.contact, model.grid))
+    if few and not state.has_finding(few.kind):
+        state = state.from_here(few)
     finding = limitation(model, state)
     return state.without_findings("averaging").from_here(finding) if finding else state

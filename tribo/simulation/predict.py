@@ -26,6 +26,7 @@ from tribo.simulation.memory import memory_needed
 from tribo.simulation.validity import (
     doubting,
     few_cells,
+    first_widths,
     implausible,
     limitation,
     too_wide,
@@ -115,7 +116,7 @@ def predict(model: Model) -> Prediction:
     doubts, ends = unusual(model.case), [(code, found) for code, found in stopping if code]
     problems = (
         *(found for _, found in stopping),
-        few_cells(model, state.contact),
+        few_cells(model, first_widths(model, state.contact)),
         *(too_wide(model, first) or too_wide(model, last or first)),
         *coarse.implausible,
         coarse.limitation,

@@ -62,15 +62,18 @@ def doubting(case: Case) -> Iterator[None]:
         raise
 
 
-def few_cells(model: Model, first: ContactSolution) -> Finding | None:
-    """Return a finding if the first contact is only a few cells wide, by Hertz where it holds."""
-    system, (dx, dy) = model.contact.system, model.grid.spacing
+def first_widths(model: Model, first: ContactSolution) -> tuple[float, float]:
+    """Return the half-widths of the first contact along x and y, by Hertz where it holds, in m."""
+    system = model.contact.system
     hertz = None if model.case.begin else hertz_contact(system)
     if hertz is None or (system.cap is not None and hertz.peak_pressure > system.cap):
-        width, breadth = half_widths(first, model.grid)
-    else:
-        width, breadth = hertz.half_width_x, hertz.half_width_y
-    cells = min(2 * width / dx, 2 * breadth / dy)
+        return half_widths(first, model.grid)
+    return hertz.half_width_x, hertz.half_width_y
+
+
+def few_cells(model: Model, widths: tuple[float, float]) -> Finding | None:
+    """Return a finding if a contact of these half-widths (m) is only a few cells wide."""
+    cells = min(2 * width / d for width, d in zip(widths, model.grid.spacing, strict=True))
     return findings.few_cells(cells) if round(cells) < findings.FEW_CELLS else None
 
 
