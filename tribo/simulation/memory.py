@@ -1,8 +1,7 @@
-"""The memory that a case needs, and the memory available."""
+"""The memory that a case needs, and the memory of the machine."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 from tribo.case import Case
@@ -37,26 +36,20 @@ def memory_needed(case: Case, effects: Sequence[Effect | GuardedEffect], cycle: 
     return BESIDES + 8.0 * case.grid.cells[0] * case.grid.cells[1] * arrays
 
 
-def memory_left() -> float:
-    """Return the bytes of this machine that this process does not have; infinity without psutil."""
+def check_memory(grid: Grid, needed: float) -> None:
+    """Raise `CaseError` where a run on `grid` needs more bytes than this machine has.
+
+    Without psutil nothing is checked.
+    """
     try:
         import psutil
     except ImportError:
-        return math.inf
-    return float(psutil.virtual_memory().total - psutil.Process().memory_info().rss)
-
-
-def check_memory(grid: Grid, needed: float) -> None:
-    """Raise `CaseError` where a run on `grid` would need more bytes than there are."""
-    left = memory_left()
-    if needed > left:
+        return
+    total = psutil.virtual_memory().total
+    if needed > total:
         nx, ny = grid.cells
         raise CaseError(
-            f"{nx} × {ny} cells take up to {_size(needed)} of memory, and this machine leaves "
-            f"{_size(max(left, 0.0))}: use fewer cells",
+            f"{nx} × {ny} cells take up to {needed / 2**30:.3g} GiB of memory, and this machine "
+            f"has {total / 2**30:.3g} GiB: use fewer cells",
             "grid.cells",
         )
-
-
-def _size(memory: float) -> str:
-    return f"{memory / 2**30:.3g} GiB" if memory >= 2**30 else f"{memory / 2**20:.0f} MiB"
