@@ -9,7 +9,7 @@ import numpy as np
 import paper_models
 import pytest
 from edited import bits
-from paper_models import archard, flat, motion, named, pair, small, states, steel
+from paper_models import archard, motion, pair, small
 
 from tribo import CaseError, Grid, Interrupted, NumericalError, Result, Simulation
 from tribo.case import Stop
@@ -17,10 +17,8 @@ from tribo.core.errors import OutputError, TriboWarning
 from tribo.observers.observer import Observer
 from tribo.result import checkpoint
 from tribo.simulation.march import begin, march
-from tribo.simulation.predict import predict
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
-from tribo.surfaces.forms import Cylinder
 
 
 def case(**changes):
@@ -172,23 +170,6 @@ def test_few_cells_are_warned_of_once_and_a_short_stroke_again_at_the_end():
     assert ends.startswith("averaging: at 200 s")
     # The end says what the beginning said, and more.
     assert result.warnings == (coarse, ends)
-
-
-def test_the_cells_of_a_line_contact_are_counted_by_hertz_as_check_counts_them():
-    # The solved contact is 10 cells wide, for it is longer at the ends; Hertz's 150 µm are 7.5.
-    model = small(
-        grid=Grid((0.4e-3, 2e-3), (20, 20)),
-        ends_at_window=True,
-        load=200,
-        bodies=[
-            named("roller", Cylinder(radius="5 mm"), steel(), archard(k=1e-17)),
-            named("disk", flat(), steel()),
-        ],
-        kinematics=motion(stroke="4 mm", duration=1),
-    )
-    (found,) = states(model)[0].findings
-    assert (found.kind, found.value) == ("resolution", pytest.approx(7.5, abs=0.05))
-    assert found in predict(model).problems
 
 
 def test_a_run_stopped_before_its_first_checkpoint_says_so_and_can_start_again(

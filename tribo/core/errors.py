@@ -138,7 +138,7 @@ class TriboWarning(UserWarning):
     ...     warnings.simplefilter("always")
     ...     result = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse).run()
     >>> str(caught[0].message).partition(",")[0]
-    'resolution: the contact is only 2.4 cells wide'
+    'resolution: the contact is only 2 cells wide'
     """
 
 

@@ -76,11 +76,11 @@ class Finding:
         return replace(self, time=time, distance=distance)
 
 
-def few_cells(cells: float) -> Finding:
+def few_cells(cells: int) -> Finding:
     """Word a contact of only a few cells."""
     return Finding(
         "resolution",
-        f"the contact is only {cells:.1f} cells wide, so its pressure is inaccurate: raise "
+        f"the contact is only {cells} cells wide, so its pressure is inaccurate: raise "
         f"grid.cells until it is {FEW_CELLS} cells wide",
         value=cells,
         limit=FEW_CELLS,

@@ -18,7 +18,6 @@ from tribo.simulation.validity import (
     coarse_cycle,
     doubting,
     few_cells,
-    first_widths,
     hold_wear,
     limitation,
     tribo_findings,
@@ -178,7 +177,7 @@ def _with_findings(model: Model, state: State) -> State:
     if not state.has_finding("averaging") and (finding := limitation(model, state)):
         state = state.from_here(finding)
     if state.steps == 0:
-        few = few_cells(model, first_widths(model, state.contact))
+        few = few_cells(state.contact)
         state = state.with_findings(*tribo_findings(model), *([few] if few else []))
     return state
 
@@ -187,7 +186,7 @@ def _concluded(model: Model, state: State) -> State:
     """Add findings on the end; the one on averaging replaces that at the beginning."""
     if finding := coarse_cycle(model, state):
         state = state.with_findings(finding)
-    few = few_cells(model, half_widths(state.contact, model.grid))
+    few = few_cells(state.contact)
     if few and not state.has_finding(few.kind):
         state = state.from_here(few)
     finding = limitation(model, state)

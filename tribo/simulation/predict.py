@@ -26,7 +26,6 @@ from tribo.simulation.memory import memory_needed
 from tribo.simulation.validity import (
     doubting,
     few_cells,
-    first_widths,
     implausible,
     limitation,
     too_wide,
@@ -116,7 +115,7 @@ def predict(model: Model) -> Prediction:
     doubts, ends = unusual(model.case), [(code, found) for code, found in stopping if code]
     problems = (
         *(found for _, found in stopping),
-        few_cells(model, first_widths(model, state.contact)),
+        few_cells(state.contact),
         *(too_wide(model, first) or too_wide(model, last or first)),
         *coarse.implausible,
         coarse.limitation,

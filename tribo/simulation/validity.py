@@ -23,7 +23,6 @@ from tribo.core.measures import Measures, half_widths
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.evolution.measure import cycle_error
-from tribo.lab.against_hertz import hertz_contact
 from tribo.model.model import Model
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.registry import from_packages
@@ -62,19 +61,10 @@ def doubting(case: Case) -> Iterator[None]:
         raise
 
 
-def first_widths(model: Model, first: ContactSolution) -> tuple[float, float]:
-    """Return the half-widths of the first contact along x and y, by Hertz where it holds, in m."""
-    system = model.contact.system
-    hertz = None if model.case.begin else hertz_contact(system)
-    if hertz is None or (system.cap is not None and hertz.peak_pressure > system.cap):
-        return half_widths(first, model.grid)
-    return hertz.half_width_x, hertz.half_width_y
-
-
-def few_cells(model: Model, widths: tuple[float, float]) -> Finding | None:
-    """Return a finding if a contact of these half-widths (m) is only a few cells wide."""
-    cells = min(2 * width / d for width, d in zip(widths, model.grid.spacing, strict=True))
-    return findings.few_cells(cells) if round(cells) < findings.FEW_CELLS else None
+def few_cells(contact: ContactSolution) -> Finding | None:
+    """Return a finding if a contact is only a few cells wide."""
+    cells = min(rows.stop - rows.start for rows in contact.extent)
+    return findings.few_cells(cells) if cells < findings.FEW_CELLS else None
 
 
 @hookimpl(trylast=True)
