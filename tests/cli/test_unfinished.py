@@ -142,8 +142,7 @@ def test_no_run_begins_with_a_result_or_upon_it_before_it_is_done(state, name):
     state(name)
     if not name.startswith("interrupted"):
         assert refusal(WRITING["check"]).startswith("begin.result: ")
-    said = refusal(WRITING["run"])
-    assert ("tribo resume r.h5" in said) == (name in ("one save", "killed", "interrupted"))
+    assert "'tribo resume r.h5'" in refusal(WRITING["run"])
 
 
 @pytest.mark.slow

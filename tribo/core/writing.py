@@ -7,7 +7,7 @@ folder in its place is refused.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from secrets import token_hex
@@ -41,16 +41,13 @@ def check_output(path: Path) -> None:
 
 
 def check_new(
-    path: Path,
-    replace: bool,
-    remedy: str = "choose another name, or replace it with --force",
-    description: Callable[[Path], str] = lambda path: "exists",
+    path: Path, replace: bool, remedy: str = "choose another name, or replace it with --force"
 ) -> None:
     """Raise `CaseError` for what `check_output` refuses, or a file that must not be replaced."""
     check_output(path)
     # Unlike Path.exists this does not raise where a name is too long.
     if os.path.exists(path) and not replace:
-        raise CaseError(f"{path} {description(path)}; {remedy}")
+        raise CaseError(f"{path} exists; {remedy}")
 
 
 def write_file(path: Path, *parts: str | bytes | memoryview, through: Path | None = None) -> None:

@@ -197,7 +197,6 @@ class Simulation:
             observers,
             resumed=True,
             wall_time=wall_time,
-            changed=bool(changes),
         )
 
     def changed_since(self, result: Result) -> list[tuple[str, str, str]]:
@@ -223,7 +222,6 @@ class Simulation:
         *,
         resumed: bool,
         wall_time: float,
-        changed: bool = False,
     ) -> Result:
         audience = Audience((recorder, *self.model.case.observers, *extra))
         watch = Watch(self.model, extra)
@@ -260,7 +258,6 @@ class Simulation:
             where = recorder.path
             files = (each.distribution for each in self._plugins if each.origin == "file")
             option = "".join(f" --plugin {name}" for name in files)
-            option += " --allow-changed" if changed else ""
             raise Interrupted(
                 f"stopped at {snapshot.measures.time:.6g} s of {self.model.end_time:g} s"
                 + (f"; go on with: tribo resume {where}{option}" if where else "")
@@ -317,18 +314,6 @@ def _announce(before: Sequence[Finding], after: Sequence[Finding]) -> None:
             warn(str(finding))
 
 
-def _held(path: Path) -> str:
-    """Return a description of an existing file, as the end of a sentence."""
-    with suppress(CaseError), Result.open(path) as result:
-        if result.status == "running":
-            return "is written by a run in progress"
-        if result.status != "done":
-            rest = RunFolder(path.resolve()).path
-            how = f"tribo resume {path} continues it" if rest.is_dir() else f"without {rest}"
-            return f"holds a run that is {result.status} ({how})"
-    return "exists"
-
-
 def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
     if output is None:
         return None
@@ -339,6 +324,9 @@ def _checked_output(output: str | Path | None, overwrite: bool) -> Path | None:
             f"{path.with_suffix('.h5')}, which 'tribo export' turns into CSV and 'tribo plot' into "
             "pictures"
         )
-    remedy = "choose another with -o, or replace it with --force (in Python overwrite=True)"
-    check_new(path, overwrite, remedy, _held)
+    remedy = (
+        f"if its run was stopped, 'tribo resume {path}' continues it; choose another with -o, or "
+        "replace it with --force (in Python overwrite=True)"
+    )
+    check_new(path, overwrite, remedy)
     return path
