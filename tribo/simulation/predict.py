@@ -10,7 +10,7 @@ import numpy as np
 
 from tribo.case import Case, Output
 from tribo.component import components
-from tribo.core.errors import CaseError, NumericalError, PluginError, TooWorn, TriboError
+from tribo.core.errors import CaseError, NumericalError, PluginError, TooWorn
 from tribo.core.findings import Finding, outgrown, trial_failed, worn_through
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
@@ -72,20 +72,19 @@ class Prediction:
 
 
 @dataclass(frozen=True)
-class CoarseRun:
-    """The end of a coarse run, why its average fails then, and why it has no end.
+class Trial:
+    """The end of a run on a coarse grid, or why it has none.
 
-    Its contact outgrew the case's window at `outgrown`, in s; None if it did not. An error
-    `on_any_cells` is due to the case or a component.
+    Its contact outgrew the case's window at `outgrown`, in s; None if it did not. `exit_code` is
+    the code of the run itself where it must `fail` too, 0 where it may succeed on finer cells.
     """
 
-    last: Measures | None
+    last: Measures | None = None
     outgrown: float | None = None
-    limitation: Finding | None = None
     worn_through: tuple[Mapping[str, Any], ...] = ()
-    implausible: tuple[Finding, ...] = ()
-    error: TriboError | None = None
-    on_any_cells: bool = False
+    findings: tuple[Finding, ...] = ()
+    failure: Finding | None = None
+    exit_code: int = 0
 
 
 def predict(model: Model) -> Prediction:
@@ -101,39 +100,35 @@ def predict(model: Model) -> Prediction:
     system = softer_known(model.contact.system, at_surface(model.case.bodies))
     hertz = None if model.case.begin else hertz_contact(system)
     dx, dy = model.grid.spacing
-    coarse = _coarse_run(model, first)
-    last = coarse.last
+    trial = _trial(model, first)
+    last, failure, code = trial.last, trial.failure, trial.exit_code
     holds = None if last is None else _inside(model, last) or model.contact.may_reach_edge
-    across = None if hertz is None else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy)
-    stopping = list[tuple[int, Finding]]()
     if holds is False:
-        found = outgrown(model.grid.size, coarse.outgrown, model.end_time)
-        stopping.append((NumericalError.exit_code, found))
-    if coarse.error is not None:
-        code = coarse.error.exit_code if coarse.on_any_cells else 0
-        stopping.append((code, trial_failed(coarse.error, on_any_cells=coarse.on_any_cells)))
-    doubts, ends = unusual(model.case), [(code, found) for code, found in stopping if code]
+        failure = outgrown(model.grid.size, trial.outgrown, model.end_time)
+        code = NumericalError.exit_code
     problems = (
-        *(found for _, found in stopping),
+        failure,
         few_cells(state.contact),
         *(too_wide(model, first) or too_wide(model, last or first)),
-        *coarse.implausible,
-        coarse.limitation,
+        *trial.findings,
     )
     facts = {place: Guard(c).ask(c.facts) for place, c in components(model.case)}
+    stops = (*unusual(model.case), failure) if failure and code else ()
     return Prediction(
         first=first,
         hertz=hertz,
-        cells_across=across,
+        cells_across=None
+        if hertz is None
+        else (2 * hertz.half_width_x / dx, 2 * hertz.half_width_y / dy),
         last=last,
-        worn_through=coarse.worn_through,
+        worn_through=trial.worn_through,
         window_holds=holds,
         positions=len(model.cycle),
         memory=memory_needed(model.case, model.laws.effects, model.cycle),
         facts={place: dict(stated) for place, stated in facts.items() if stated},
         problems=tuple(problem for problem in problems if problem is not None),
-        exit_code=ends[0][0] if ends else 0,
-        stops=" ".join(each.words for each in (*doubts, ends[0][1])) if ends else None,
+        exit_code=code,
+        stops=" ".join(each.words for each in stops) or None,
     )
 
 
@@ -142,10 +137,10 @@ def _inside(model: Model, measures: Measures) -> bool:
     return measures.half_width_x < lx / 2 - dx and measures.half_width_y < ly / 2 - dy
 
 
-def _coarse_run(model: Model, first: Measures) -> CoarseRun:
+def _trial(model: Model, first: Measures) -> Trial:
     # The wear on one grid is unknown on another.
     if not model.case.contact.accepts_wear_compliance or model.case.begin is not None:
-        return CoarseRun(None)
+        return Trial()
     # Contacts that repeat keep their positions however long the path: for the average they end.
     half_width = np.inf if model.case.contact.periodic else first.half_width_x
     # A body or a period that ends at the window has no more to give in a wider one.
@@ -163,17 +158,16 @@ def _coarse_run(model: Model, first: Measures) -> CoarseRun:
     except (CaseError, NumericalError) as error:
         # What is refused on its way does not hang on the cells.
         refused = state is not None and isinstance(error, CaseError | TooWorn)
-        return CoarseRun(None, error=error, on_any_cells=refused or isinstance(error, PluginError))
-    return CoarseRun(
-        measure(coarse, state),
-        when,
-        limitation(replace(coarse, motion=model.motion), state),
-        tuple(worn_through(state.findings)),
-        (
-            *(finding for finding, _ in implausible(coarse, state)),
-            *(replace(each, words=f"at {each.time:.3g} s {each.words}") for each in watch.said),
-        ),
+        certain = refused or isinstance(error, PluginError)
+        code = error.exit_code if certain else 0
+        return Trial(failure=trial_failed(error, on_any_cells=certain), exit_code=code)
+    limit = limitation(replace(coarse, motion=model.motion), state)
+    findings = (
+        *(finding for finding, _ in implausible(coarse, state)),
+        *(replace(each, words=f"at {each.time:.3g} s {each.words}") for each in watch.said),
+        *([limit] if limit else []),
     )
+    return Trial(measure(coarse, state), when, tuple(worn_through(state.findings)), findings)
 
 
 def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) -> Model:
