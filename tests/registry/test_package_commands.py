@@ -59,5 +59,5 @@ def test_a_command_that_cannot_be_imported_is_a_fault_of_its_package(install):
 
 def test_no_package_replaces_a_command_of_the_kernel(install):
     install(name="run")
-    assert "acme-words 1.0" in tribo("--help").stderr
+    assert "acme_say:say is left out" in tribo("--help").stderr
     assert offered()["run"].place == "tribo.cli.run:run"

@@ -7,13 +7,10 @@ from functools import cache
 from importlib import import_module
 
 import click
-import pluggy
 
-from tribo.cli.streams import say
-from tribo.core.errors import PluginError
+from tribo.core.errors import PluginError, warn
 from tribo.core.words import said
-from tribo.registry import hookspecs
-from tribo.registry.hookspecs import PROJECT, Command, hookimpl
+from tribo.registry.hookspecs import Command, hookimpl
 
 OWN = {
     "demo": "Run the paper's one-hour test.",
@@ -33,7 +30,7 @@ OWN = {
 }
 
 
-@hookimpl
+@hookimpl(trylast=True)
 def tribo_commands() -> list[Command]:
     """Offer the commands of the kernel."""
     return [own_command(name) for name in OWN]
@@ -50,37 +47,25 @@ def offered() -> dict[str, Command]:
 
     Of the plugins those are imported that have an entry point named after their distribution.
     """
-    from tribo.registry.plugins import installed
+    from tribo.registry.registry import default_registry, from_packages
 
-    manager = pluggy.PluginManager(PROJECT)
-    manager.add_hookspecs(hookspecs)
     found: dict[str, Command] = {}
-    packages = [plugin for plugin in installed() if plugin.usable and not plugin.names]
-    loads = {"tribo": lambda: sys.modules[__name__]} | {str(p): p.load for p in packages}
-    for whose, load in loads.items():
-        try:
-            module = load()
-            manager.register(module)
-            others = manager.get_plugins() - {module}
-            (answer,) = manager.subset_hook_caller("tribo_commands", others)() or [()]
-            own = {command.name: command for command in answer}
-            if taken := found.keys() & own.keys():
-                raise ValueError(f"there is a command {sorted(taken)[0]!r} already")
-            found |= own
-        except KeyboardInterrupt:
-            raise
-        except BaseException as error:
-            say("warning", "yellow", f"the commands of {whose} are left out: {said(error)}")
+    for command in from_packages("tribo_commands", sys.modules[__name__]):
+        if found.setdefault(command.name, command) is not command:
+            warn(f"{command.place} is left out: there is a command {command.name!r} already")
+    for plugin in default_registry().plugins:
+        if plugin.status == "broken" and not plugin.names:
+            warn(f"the commands of {plugin} are left out: {plugin.reason}")
     return found
 
 
 def refused(package: str = "") -> list[str]:
     """Return why packages with hooks alone cannot be used: all, or the one of this name."""
-    from tribo.registry.plugins import installed
+    from tribo.registry.registry import default_registry
 
     return [
         f"{plugin} is {plugin.status}: {plugin.reason}"
-        for plugin in installed()
+        for plugin in default_registry().plugins
         if not (plugin.usable or plugin.names) and package in ("", plugin.distribution)
     ]
 
