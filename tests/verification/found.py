@@ -1,10 +1,9 @@
-"""Write what finds each mutant: python tests/verification/found.py [names], an hour for all.
+"""Write what finds each mutant: python tests/verification/found.py [names], some hours for all.
 
-Each mutant is made in a copy of the sources. The cases that call its function are tried, quick ones
-first, up to a row that fails.
+Each mutant is made in a copy of the sources. The cases are tried, quick ones first, up to a row
+that fails.
 """
 
-import ast
 import json
 import os
 import shutil
@@ -14,7 +13,6 @@ import tempfile
 import tomllib
 import warnings
 from pathlib import Path
-from time import process_time
 from typing import Any
 
 REPOSITORY = Path(__file__).parents[2]
@@ -52,50 +50,18 @@ def asked(folder: Path, environment: dict[str, str], *arguments: str) -> Any:
     return json.loads(done.stdout.splitlines()[-1])
 
 
-def function_of(mutant: dict[str, str]) -> list[Any]:
-    """Return the file and the first line of the innermost function around a mutant, or line 0."""
-    source = (REPOSITORY / mutant["file"]).read_text(encoding="utf-8")
-    line = source[: source.index(mutant["old"])].count("\n") + 1
-    lines = [
-        min([node.lineno, *(each.lineno for each in node.decorator_list)])
-        for node in ast.walk(ast.parse(source))
-        if isinstance(node, ast.FunctionDef) and node.lineno <= line <= (node.end_lineno or 0)
-    ]
-    return [mutant["file"], max(lines, default=0)]
-
-
-def called() -> dict[str, Any]:
-    """Run every case; return by its name how long it took, and which functions it called."""
-    from tribo.verification.suite import installed_cases
-
-    calls: set[tuple[str, int]] = set()
-
-    def note(frame: Any, event: str, _: Any) -> None:
-        if event == "call":
-            calls.add((frame.f_code.co_filename, frame.f_code.co_firstlineno))
-
-    found = {}
-    for case in installed_cases():
-        calls.clear()
-        begun = process_time()
-        sys.setprofile(note)
-        verdicts = {row.verdict for row in case.run()}
-        sys.setprofile(None)
-        assert "fails" not in verdicts, case.name
-        seconds = process_time() - begun
-        found[case.name] = [not case.expected.quick, seconds, sorted(calls)]
-    return found
-
-
 def finding(names: list[str]) -> dict[str, str]:
-    """Return the first of some cases with a row that fails, and its quantity; nothing without."""
+    """Return the first case with a row that fails, and its quantity; nothing without.
+
+    All cases are tried, quick ones first, or those of these names.
+    """
     from tribo.verification.suite import installed_cases
 
-    cases = {case.name: case for case in installed_cases()}
-    for name in names:
-        for row in cases[name].run():
+    cases = (case for case in installed_cases() if case.name in (names or [case.name]))
+    for case in sorted(cases, key=lambda case: not case.expected.quick):
+        for row in case.run():
             if row.verdict == "fails":
-                return {"case": name, "quantity": row.quantity}
+                return {"case": case.name, "quantity": row.quantity}
     return {}
 
 
@@ -107,18 +73,15 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place).resolve()
         environment = copied(folder)
-        reach = asked(folder, environment, "called")
         for mutant in every:
             name, file = mutant["name"], mutant["file"]
             if sys.argv[1:] and name not in sys.argv[1:]:
                 continue
-            own = [str(folder / file), function_of(mutant)[1]]
-            callers = [case for case in reach if own in reach[case][2] or own[1] == 0]
             (folder / file).write_text(mutated(mutant), encoding="utf-8")
-            found = asked(folder, environment, *sorted(callers, key=lambda case: reach[case][:2]))
+            found = asked(folder, environment)
             shutil.copy2(REPOSITORY / file, folder / file)
             rows[name] = {"mutant": name, "file": file, **found}
-            print(f"{name}: {found or len(callers)}", flush=True)
+            print(f"{name}: {found}", flush=True)
             lines = [
                 json.dumps(rows[m["name"]], ensure_ascii=False) for m in every if m["name"] in rows
             ]
@@ -131,6 +94,6 @@ if __name__ == "__main__":
         import tribo
 
         assert tribo.__file__.startswith(sys.argv[2])
-        print(json.dumps(called() if sys.argv[3] == "called" else finding(sys.argv[3:])))
+        print(json.dumps(finding(sys.argv[3:])))
     else:
         main()
