@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import replace
 
-from tribo.case import Begin, Case
-from tribo.core.errors import CaseError
+from tribo.case import Case
+from tribo.core.errors import CaseError, located
 from tribo.core.findings import positions_chosen
 from tribo.core.measures import half_widths
 from tribo.core.words import readable
@@ -44,7 +43,9 @@ def composed(case: Case) -> Model:
     if not isinstance(motion, Reciprocating) or motion.positions != "auto":
         return assemble(case)
     if case.begin is not None:
-        return assemble(_as_begun(case, case.begin))
+        with located("begin.result"), Result.open(case.begin.result) as result:
+            given = result.case_tables["kinematics"].get("positions", "average")
+        return assemble(_fixed(case, given))
     try:
         averaged = assemble(_fixed(case, "average"))
     except CaseError:
@@ -69,16 +70,6 @@ def _resolved(case: Case, positions: int | str) -> Model:
 def _fixed(case: Case, positions: int | str) -> Case:
     motion = case.kinematics.model_copy(update={"positions": positions})
     return case.model_copy(update={"kinematics": motion})
-
-
-def _as_begun(case: Case, begin: Begin) -> Case:
-    """Return a case with the positions of the run whose worn bodies it begins with."""
-    positions: int | str = "average"
-    # What is wrong with the file is said when the run begins.
-    with suppress(CaseError), Result.open(begin.result) as result:
-        given = result.case_tables["kinematics"].get("positions")
-        positions = given if isinstance(given, int | str) else "average"
-    return _fixed(case, positions)
 
 
 def lengths_of(stroke: float, half_width: float) -> str:
