@@ -42,8 +42,6 @@ from tribo.simulation.beginning import first_state
 from tribo.simulation.predict import predict
 from tribo.study.check import _facts
 from tribo.study.runs import is_done
-from tribo.surfaces.height_map import HeightMap
-from tribo.surfaces.relief import Laid
 
 GRID = Grid((0.7e-3, 0.7e-3), (32, 32))
 SPEED = 0.1
@@ -85,17 +83,6 @@ def test_the_save_is_named_by_its_time(run_in):
     with Simulation(worn_case(begin=Begin(result=str(run_in), time=4))).run() as result:
         worn = result.saves()[0]["bodies"]["ball"]["wear_volume_m3"]
     assert worn == pytest.approx(K * 20 * 4 * SPEED, rel=1e-10, abs=0)
-
-
-class FromFile(Laid):
-    """A relief of which the case has the name of a file only."""
-
-    type = "test.from_file"
-    file: str
-
-    def relief(self, grid):
-        edge = (np.max(grid.size),) * 2
-        return HeightMap(size=edge, heights=self.file).relief(grid)
 
 
 class Slips(WearLaw):
@@ -261,24 +248,6 @@ ROUND = [named("ball", paraboloid(), steel(), archard()), named("disk", flat(), 
 def test_a_result_that_does_not_fit_the_case_is_refused(run_in, changes, words):
     with pytest.raises(CaseError, match=rf"begin\.result: .*{words}"):
         Simulation(worn_case(begin=run_in, **changes)).run()
-
-
-@pytest.mark.slow
-def test_a_height_map_that_has_changed_since_is_refused(tmp_path):
-    file = tmp_path / "map.npy"
-
-    def of_a_map(heights, **changes):
-        np.save(file, heights)
-        on_file = FromFile(file=str(file), on=sphere())
-        bodies = [named("ball", on_file, steel(), archard()), *ROUND[1:]]
-        return worn_case(bodies=bodies, duration=0.1, **changes)
-
-    heights = np.linspace(0, 1e-8, 9).reshape(3, 3)
-    begin = tmp_path / "first.h5"
-    Simulation(of_a_map(heights)).run(begin).close()
-    Simulation(of_a_map(heights, begin=begin)).run().close()
-    with pytest.raises(CaseError, match="begins with another surface of ball"):
-        Simulation(of_a_map(2 * heights, begin=begin)).run()
 
 
 def test_a_file_that_is_not_there_and_a_time_without_a_save_are_refused(run_in):

@@ -13,9 +13,7 @@ from tribo import (
     Pin,
     Simulation,
     TriboWarning,
-    Unidirectional,
 )
-from tribo.simulation import positions
 from tribo.simulation.positions import composed
 from tribo.stepping.explicit import Explicit
 from tribo.surfaces.relief import Waves
@@ -122,19 +120,6 @@ def test_the_choice_is_told_once_and_kept():
         again = Simulation(result.case_tables).model
     assert len(again.cycle) == 9
     assert again.chosen is None
-
-
-@pytest.mark.parametrize(
-    "kinematics",
-    [
-        Unidirectional(speed=0.1, track_length=2e-3, distance=360),
-        motion(),
-        motion(positions=33),
-    ],
-)
-def test_what_leaves_nothing_open_costs_nothing(monkeypatch, kinematics):
-    monkeypatch.setattr(positions, "first_contact", None)
-    assert composed(case(kinematics=kinematics)).case.kinematics == kinematics
 
 
 def test_a_stroke_too_short_for_either_is_refused_for_its_cells():
