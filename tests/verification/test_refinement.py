@@ -93,8 +93,3 @@ def test_five_runs_are_announced_and_the_one_that_fails_is_named(monkeypatch):
     monkeypatch.setattr(refinement, "_run", failing)
     with pytest.raises(CaseError, match=r"^21 × 21 cells.*: the first contact"):
         refine(worn(kinematics=motion(duration=2)))
-
-
-def test_a_grid_too_coarse_to_be_coarsened_is_refused():
-    with pytest.raises(CaseError, match=r"grid\.cells"):
-        refine(worn(grid=Grid((0.7e-3, 0.7e-3), (16, 49))))

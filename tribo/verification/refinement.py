@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from tribo.case import Output
-from tribo.core.errors import CaseError, TriboWarning, about
+from tribo.core.errors import TriboWarning, about
 from tribo.core.grid import Grid
 from tribo.lab.scar import scar
 from tribo.model.model import Model
@@ -20,8 +20,6 @@ from tribo.verification.convergence import Convergence, convergence
 
 # Above the 1.3 that Celik et al. (2008) ask for, and mild on cases that are coarse already.
 RATIO = 1.5
-FEWEST_CELLS = 20
-"""Cells that two coarsenings by 1.5 leave nearly nine of."""
 UNITS = {"pressure": "Pa", "volume": "m^3"}
 """SI units of quantities, by a word in their names; of the others m."""
 
@@ -73,16 +71,10 @@ def refine(model: Model, started: Callable[[str], None] = lambda _: None) -> Ref
     shortened instead, which stays within their stability limit. Nothing is
     saved on the way, since a save cuts a step short on all levels alike.
 
-    `started` gets the name of each run before it starts; five runs in all. CaseError if the grid is
-    too coarse to be made coarser; an error of a run names the run.
+    `started` gets the name of each run before it starts; five runs in all. An error of a run names
+    the run.
     """
     cells, stepping = model.grid.cells, model.case.stepping
-    if min(cells) < FEWEST_CELLS:
-        raise CaseError(
-            f"{cells[0]} × {cells[1]} leave no coarser grid to compare with; "
-            f"{FEWEST_CELLS} or more are needed along x and y",
-            "grid.cells",
-        )
     explicit = isinstance(stepping, Explicit)
 
     def run(cells: tuple[int, int], factor: float = 1.0) -> Level:

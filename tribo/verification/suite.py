@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tribo.core.errors import CaseError, warn
-from tribo.core.words import did_you_mean, suggestion
 from tribo.registry.all_plugins import from_all_plugins
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.registry import default_registry
@@ -49,10 +48,10 @@ def called(name: str, cases: list[ValidationCase]) -> list[ValidationCase]:
     """Return the cases whose name begins so; CaseError if there is none."""
     chosen = [case for case in cases if case.name.startswith(name)]
     if not chosen:
-        begin = dict.fromkeys(case.name.partition("_")[0] for case in cases)
-        meant = suggestion(did_you_mean(name, begin))
-        listed = f"Names of cases begin with {', '.join(begin)}"
-        raise CaseError(f"{name}: there is no such file, folder or case{meant} {listed}")
+        listed = ", ".join(dict.fromkeys(case.name.partition("_")[0] for case in cases))
+        raise CaseError(
+            f"{name}: there is no such file, folder or case; names of cases begin with {listed}"
+        )
     return chosen
 
 

@@ -131,14 +131,15 @@ class ValidationCase:
                 yield from self._rows({"contact.type": solver}, solver)
 
     def _rows(self, settings: Mapping[str, Any], solver: str) -> list[Row]:
-        wanted = self.expected.expect
+        wanted, lists = self.expected.expect, self.expected.levels
         try:
+            each = [dict(zip(lists, row, strict=True)) for row in zip(*lists.values(), strict=True)]
             with warnings.catch_warnings(), chdir(self.folder):
                 warnings.simplefilter("ignore")
-                levels = [self._found({**settings, **at}) for at in _each(self.expected.levels)]
+                levels = [self._found({**settings, **at}) for at in each or [{}]]
             return [
-                self._judged(row, solver, [level[i] for level in levels])
-                for i, row in enumerate(wanted)
+                self._judged(row, solver, values)
+                for row, *values in zip(wanted, *levels, strict=True)
             ]
         except Exception as error:
             words = str(error) if isinstance(error, TriboError) else said(error)
@@ -189,18 +190,17 @@ class ValidationCase:
 
     def _row(self, row: Expectation, solver: str, **judged: Any) -> Row:
         wanted = self.expected
-        known = {
-            "case": self.name,
-            "title": wanted.title,
-            "quantity": row.label,
-            "source": row.source or wanted.source,
-            "kind": row.kind or wanted.kind,
-            "published": wanted.published if row.published is None else row.published,
-            "tolerance": row.tolerance,
-            "reason": row.reason,
-            "solver": solver,
-        }
-        return Row(**{**known, **judged})
+        return Row(
+            case=self.name,
+            title=wanted.title,
+            quantity=row.label,
+            source=row.source or wanted.source,
+            kind=row.kind or wanted.kind,
+            published=wanted.published if row.published is None else row.published,
+            tolerance=row.tolerance,
+            solver=solver,
+            **{"reason": row.reason, **judged},
+        )
 
 
 def _read(result: Result, row: Expectation, number: int) -> Found:
@@ -208,8 +208,3 @@ def _read(result: Result, row: Expectation, number: int) -> Found:
         values, unit = quantity(result, row.quantity, row.body, row.time, row.place)
         row.numbers(unit)
     return values, unit
-
-
-def _each(lists: Mapping[str, tuple[Any, ...]]) -> list[dict[str, Any]]:
-    rows = zip(*lists.values(), strict=True)
-    return [dict(zip(lists, row, strict=True)) for row in rows] or [{}]
