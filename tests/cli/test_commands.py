@@ -109,16 +109,9 @@ def test_templates_are_listed_where_none_is_named(tmp_path):
     assert {*TEMPLATES, "weighed", "thermal.ball_on_disk"} < names
 
 
-def test_check_foretells_the_depth_of_rough_bodies_but_for_their_roughness(tmp_path):
-    assert tribo("new", "rough_flats", "case.toml", cwd=tmp_path).returncode == 0
-    done = tribo("check", "case.toml", *setting("grid.cells=32"), cwd=tmp_path)
-    assert done.stdout.count("µm, but for roughness, ") == 2
-
-
 @pytest.mark.parametrize(
     ("changes", "foretold"),
     [
-        ([], r"bodies.ball.wear.k \+1 %: depth of ball \+0\.\d\d ± 0\.\d\d"),
         (["stop.depth=0.5 um"], r"0.5 µm, about reached after [\d.]+ s"),
         (["stop={depth='1 mm', body='disk'}"], r"1000 µm, about not reached, [\d.]+ µm at"),
     ],
@@ -127,26 +120,17 @@ def test_check_begins_with_its_verdict_and_foretells_the_end(case, changes, fore
     done = tribo("check", "my.toml", *LARGE_STROKE, *setting(*changes))
     assert done.stdout.startswith("my.toml is valid.\n")
     assert max(map(len, done.stdout.splitlines())) <= 80
-    words = " ".join(done.stdout.split())
-    assert re.search(foretold, words)
-    # As the report of the run words it.
-    assert "94 % of the 2285.7 MPa at which the softer body first" in words
+    assert re.search(foretold, " ".join(done.stdout.split()))
 
 
 def test_check_names_what_would_stop_a_run(case):
-    hard = (
-        'bodies.disk.layers=[{thickness="1 um", wear={type="archard", k=1e-16}, hardness="9 GPa"}]'
-    )
-    small = [*LARGE_STROKE, *setting("grid.size=0.9 mm", "grid.cells=64", hard)]
-    done = tribo("check", "my.toml", *small)
+    done = tribo("check", "my.toml", *LARGE_STROKE, *setting("grid.size=0.9 mm"), "--json")
     assert done.returncode == 3
-    assert "error: a run of my.toml would stop on its way: the contact outg" in done.stderr
-    data, told = json.loads(tribo("check", "my.toml", *small, "--json").stdout), done.stdout.split()
-    window, sensitivity = data["findings"]
-    assert data["problems"] == [window["words"]]
-    assert (window["kind"], sensitivity["kind"]) == ("window", "sensitivity")
-    for finding in data["findings"]:
-        assert finding["words"] in " ".join(told)
+    data = json.loads(done.stdout)
+    window, *facts = data["findings"]
+    assert (window["kind"], data["problems"]) == ("window", [window["words"]])
+    assert {each["kind"] for each in facts} == {"sensitivity"}
+    assert window["words"] in done.stderr
 
 
 @pytest.mark.slow
@@ -226,19 +210,12 @@ def test_a_contact_that_outgrows_the_window_exits_with_3_and_keeps_what_was_save
     assert "tribo resume my.h5" in again.stderr
 
 
-def test_a_line_contact_is_checked_in_its_own_window_and_told_in_plain_json(case):
+def test_a_line_contact_is_checked_in_its_own_window_and_is_plain_json(case):
     roller = CASE.replace('"sphere", radius', '"cylinder", radius').replace(
         'size = ["2 mm", "2 mm"]', 'size = "1 mm"\nends_at_window = true'
     )
-    assert "ends_at_window" in roller
-    assert "cylinder" in roller
     case.write_text(roller)
     short = setting("grid.cells=48", "kinematics.duration=20", "output.save_times=[]")
-    told = tribo("check", "my.toml", *short).stdout
-    assert "74.82 µm of a line contact" in told
-    # 1.79 H/2.8 with H = 4 GPa.
-    assert "2557.1 MPa" in " ".join(told.split())
-    assert "inf" not in told
     done = tribo("check", "my.toml", *short, "--json")
     data = json.loads(done.stdout, parse_constant=lambda name: pytest.fail(name))
     assert data["hertz"]["half_width_y"] is None

@@ -4,7 +4,6 @@ import io
 import re
 import sys
 
-import pytest
 from paper_models import case, motion
 
 from tribo import Grid, Simulation
@@ -38,18 +37,6 @@ def test_a_narrow_terminal_shows_the_time_left_and_the_depths(monkeypatch):
     lines = re.findall(r"━+╸? +\d+:\d\d left · [^\x1b\r\n]*", text)
     assert lines
     assert all(len(line) <= 80 and re.search(r"ball \S+, disk \S+ µm", line) for line in lines)
-
-
-def test_the_bar_is_evenly_filled_by_steps_that_grow_as_a_scar(monkeypatch):
-    watcher, parts = progress.Progress(), []
-    monkeypatch.setattr(sys, "stderr", Terminal())
-    monkeypatch.setattr(
-        progress.Progress, "on_step", lambda self, snapshot: parts.append(self._part(snapshot))
-    )
-    Simulation(case(**SAVES | {"save_times": ()})).run(observers=[watcher])
-    assert parts == sorted(parts)
-    assert parts[len(parts) // 2] == pytest.approx(0.5, abs=0.15)
-    assert parts[-1] == 1.0
 
 
 def test_no_bar_is_drawn_into_what_is_no_terminal(monkeypatch):

@@ -20,10 +20,8 @@ from tribo import (
     Simulation,
     WearLaw,
     WearRate,
-    compare,
     hookimpl,
 )
-from tribo.study.side_by_side import comparison_table
 
 
 def mean_pressure(snapshot, body):
@@ -113,15 +111,6 @@ def test_columns_of_a_law_and_an_observer_stand_in_every_table(tmp_path):
     for name in ("history", "saves"):
         rows = np.genfromtxt(tmp_path / f"{name}.csv", delimiter=",", names=True)
         assert rows["strokes"][-1] == pytest.approx(last["strokes"])
-
-
-def test_a_comparison_shows_columns_of_models_in_the_units_that_fit():
-    with simulation().run() as one, simulation().run() as other:
-        mean = one.saves()[-1]["bodies"]["ball"]["mean_pressure_Pa"]
-        rows = comparison_table(compare([one, other]), [3.0]).rows
-    shown = {row.values[0]: row.values[1] for row in rows if row.values[1:]}
-    assert float(shown["ball mean pressure, MPa"]) == pytest.approx(1e-6 * mean, rel=1e-3)
-    assert float(shown["strokes"]) == pytest.approx(2 * 25 * 3)
 
 
 def test_a_finding_may_follow_from_a_column():

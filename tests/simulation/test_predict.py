@@ -110,32 +110,6 @@ def test_a_case_refused_on_its_way_ends_check_as_it_ends_the_run():
     assert found.stops == problem.words
 
 
-ERRORS = {"case": CaseError, "numerical": NumericalError}
-
-
-class Refuses(Effect):
-    """Refuses a first contact in cells of the size of the case's, not in a trial's."""
-
-    type = "test.refuses"
-    provides = (Field("refused", "1", "Nothing but 0."),)
-    cell: float
-    error: str
-
-    def fields(self, contact):
-        if contact.grid.spacing[0] == self.cell:
-            raise ERRORS[self.error]("too few cells")
-        return {"refused": dict.fromkeys(contact.materials, 0.0)}
-
-
-@pytest.mark.parametrize("error", ERRORS)
-def test_an_effect_that_refuses_the_first_contact_ends_check_as_it_ends_the_run(error):
-    model = small(effects=[Refuses(cell=small().grid.spacing[0], error=error)])
-    with pytest.raises(ERRORS[error]) as stopped:
-        Simulation(model.case).run()
-    with pytest.raises(ERRORS[error], match=str(stopped.value)):
-        predict(model)
-
-
 def test_a_softer_body_that_is_not_known_has_no_onset_of_yield():
     known = [
         predict(small(bodies=pair(archard(K), archard(K), hardness))).hertz.load_ratio

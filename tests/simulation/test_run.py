@@ -125,9 +125,8 @@ def test_a_run_may_end_at_a_depth(stepping, body):
 
 def test_a_run_says_that_it_has_not_worn_to_the_depth_at_which_it_is_to_end():
     result = Simulation(case(stop=Stop(depth="300 um"), kinematics=motion(duration=20))).run()
-    depth = 1e6 * result.saves()[-1]["bodies"]["ball"]["max_wear_depth_m"]
-    said = f"with a wear depth of {depth:.4g} µm; stop.depth, 300 µm, is not reached"
-    assert result.warnings[-1] == f"stop: ended at 20 s {said}"
+    found, body = result.findings[-1], result.saves()[-1]["bodies"]["ball"]
+    assert (found.kind, found.value, found.limit) == ("stop", body["max_wear_depth_m"], 300e-6)
 
 
 def test_a_contact_that_reaches_the_edge_stops_the_run_with_what_was_saved(tmp_path):
