@@ -13,7 +13,6 @@ from paper_models import archard, flat, named, small, steel
 
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.simulation.memory import memory_needed
 from tribo.surfaces.forms import Sphere
 
 TESTS = Path(__file__).parents[1]

@@ -138,7 +138,9 @@ class State:
         return replace(self, findings=(*self.findings, *more))
 
     def from_here(self, finding: Finding) -> State:
-        """Return the state with a finding that holds from its time and distance on."""
+        """Return the state with a finding from its time and distance on, once for its place."""
+        if (finding.kind, finding.place) in {(each.kind, each.place) for each in self.findings}:
+            return self
         return self.with_findings(finding.at(self.time, self.distance))
 
     def remembered(self, body: str, field: str) -> Array:

@@ -186,8 +186,7 @@ def _concluded(model: Model, state: State) -> State:
     """Add findings on the end; the one on averaging replaces that at the beginning."""
     if finding := coarse_cycle(model, state):
         state = state.with_findings(finding)
-    few = few_cells(state.contact)
-    if few and not state.has_finding(few.kind):
-        state = state.from_here(few)
+    if finding := few_cells(state.contact):
+        state = state.from_here(finding)
     finding = limitation(model, state)
     return state.without_findings("averaging").from_here(finding) if finding else state

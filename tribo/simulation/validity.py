@@ -203,10 +203,7 @@ def hold_wear(model: Model, state: State) -> State:
             error = TooWorn(f"{when} {finding.words}")
             error.finding = replace(finding, time=state.time)
             raise error
-        if (finding.kind, finding.place) not in {
-            (each.kind, each.place) for each in state.findings
-        }:
-            state = state.from_here(finding)
+        state = state.from_here(finding)
     return state
 
 

@@ -83,9 +83,8 @@ class Watch:
     def told(self, state: State) -> State:
         """Return the state with its findings, each kind once at a place."""
         for finding in self._findings(state):
-            if (finding.kind, finding.place) not in {(f.kind, f.place) for f in state.findings}:
-                state = state.from_here(finding)
-                self.said.append(state.findings[-1])
+            known, state = len(state.findings), state.from_here(finding)
+            self.said += state.findings[known:]
         return state
 
     def _findings(self, state: State) -> Iterator[Finding]:
