@@ -8,7 +8,6 @@ from tribo import Grid, Simulation
 HERTZ = 4.43049e-6
 
 
-@pytest.mark.filterwarnings("ignore:lap:tribo.TriboWarning")
 @pytest.mark.parametrize("cells", [(48, 48), (49, 49), (64, 64), (65, 65), (64, 49)])
 def test_the_approach_is_hertzs_wherever_the_apex_lies_between_cells(cells):
     """On even grids the lowest cells are half a cell off the apex, Δ²/4R below it."""

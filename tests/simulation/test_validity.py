@@ -9,7 +9,6 @@ from tribo.contact.winkler import FoundationLayer, Winkler
 from tribo.core.errors import OutOfWindow, TooWorn
 from tribo.motion.closed_track import Unidirectional
 from tribo.simulation.predict import predict
-from tribo.simulation.validity import tribo_findings
 from tribo.surfaces.forms import Sphere
 
 
@@ -21,11 +20,6 @@ def ball(radius, load, size):
     return small(bodies=bodies, load=load, grid=Grid((size, size), (48, 48)))
 
 
-def circle(revolutions):
-    motion = Unidirectional(speed="0.1 m/s", track_length="0.1 m", revolutions=revolutions)
-    return small(kinematics=motion)
-
-
 def wide(model):
     return [problem for problem in predict(model).problems if problem.kind == "half-space"]
 
@@ -35,20 +29,6 @@ def test_a_contact_too_wide_for_a_half_space_is_told_with_the_number():
     (problem,) = wide(ball(1e-3, 9.7e3, 1.1e-3))
     assert (problem.value, problem.place) == (pytest.approx(0.4, rel=0.05), "bodies.ball")
     assert wide(ball(1e-3, 100, 0.4e-3)) == []
-
-
-def test_a_part_of_a_lap_is_told_by_check_and_by_the_run():
-    (found,) = tribo_findings(circle(0.1))
-    assert (found.kind, found.place) == ("lap", "bodies.disk")
-    assert (found.value, found.limit) == pytest.approx((0.01, 0.1))
-    with pytest.warns(TriboWarning, match="lap: the run slides 0.01 m, 0.1 of the track"):
-        result = Simulation(circle(0.1)).run()
-    assert found in result.findings
-
-
-@pytest.mark.parametrize("revolutions", [1, 10])
-def test_a_whole_lap_is_not(revolutions):
-    assert tribo_findings(circle(revolutions)) == []
 
 
 def sliding(metres, k, **changes):

@@ -139,20 +139,6 @@ def unusual(place: str, question: str, value: float, limit: float) -> Finding:
     return Finding("unusual", f"{place} is {question}", value=value, limit=limit, place=place)
 
 
-def short_of_a_lap(body: str, distance: float, length: float) -> Finding:
-    """Word a run that slides over a part of a body's track only, both in m."""
-    return Finding(
-        "lap",
-        f"the run slides {distance:.3g} m, {distance / length:.2g} of the track of {body}, "
-        f"which is {length:.3g} m long: its wear is averaged over the whole track, also "
-        "where the contact never passes; slide over it at least once, and many times for "
-        "the average to hold",
-        value=distance,
-        limit=length,
-        place=f"bodies.{body}",
-    )
-
-
 def averaged(words: str) -> Finding:
     """Word why averaging over a track does not hold, by the motion's own words."""
     return Finding("averaging", words, place="kinematics")

@@ -69,8 +69,15 @@ def few_cells(contact: ContactSolution) -> Finding | None:
 
 @hookimpl(trylast=True)
 def tribo_findings(model: Model) -> list[Finding]:
-    """Report surfaces that do not repeat with the window, and a path that is no whole track."""
-    return [each for each in (broken_period(model), short_of_a_lap(model)) if each]
+    """Report the surface of a body that does not repeat with the window as the contact does."""
+    if not model.case.contact.periodic:
+        return []
+    for name, surface in model.surfaces.items():
+        for axis, along in enumerate("xy"):
+            jump = _jump(np.moveaxis(surface.height, axis, 0))
+            if jump > 0:
+                return [findings.broken_period(name, along, jump)]
+    return []
 
 
 def findings_of(model: Model, half_width_x: float) -> list[Finding]:
@@ -81,18 +88,6 @@ def findings_of(model: Model, half_width_x: float) -> list[Finding]:
     own, types = sys.modules[__name__], {each.type for _, each in components(model.case)}
     given = {"model": model, "half_width_x": half_width_x}
     return from_packages("tribo_findings", own, types=types, **given)
-
-
-def broken_period(model: Model) -> Finding | None:
-    """Return a finding if the contact repeats with the window, but the surface of a body not."""
-    if not model.case.contact.periodic:
-        return None
-    for name, surface in model.surfaces.items():
-        for axis, along in enumerate("xy"):
-            jump = _jump(np.moveaxis(surface.height, axis, 0))
-            if jump > 0:
-                return findings.broken_period(name, along, jump)
-    return None
 
 
 def _jump(height: Array) -> float:
@@ -119,16 +114,6 @@ def too_wide(model: Model, measures: Measures) -> list[Finding]:
         if ratio > findings.STEEP:
             found.append(findings.too_wide(name, ratio, 1 / curvature, measures.time))
     return found
-
-
-def short_of_a_lap(model: Model) -> Finding | None:
-    """Return a finding if the whole run slides over a part of a body's track only."""
-    distance = model.end_distance
-    for name in [name for name in model.laws.wear if name in model.cycle.swept]:
-        length = model.cycle.maps[name].track(model.grid)
-        if distance < (1 - ROUND_OFF) * length:
-            return findings.short_of_a_lap(name, distance, length)
-    return None
 
 
 def check_stroke(model: Model, state: State) -> None:
