@@ -148,21 +148,6 @@ def test_check_ends_with_the_exit_code_of_the_run(case, settings, code):
     assert done.stdout.startswith("my.toml is valid") == (code == 0)
 
 
-@pytest.mark.slow
-def test_check_predicts_what_the_stroke_average_costs_and_the_run_ends_with(case):
-    coarse = setting("grid.size=1.3 mm", "grid.cells=48")
-    (problem,) = json.loads(tribo("check", "my.toml", *coarse, "--json").stdout)["problems"]
-    ran = tribo("run", "my.toml", *coarse)
-    end = [line for line in ran.stderr.splitlines() if "averaging: at 3600 s" in line]
-    # What was printed as it ran is not printed again.
-    assert "averaging: at" not in ran.stdout
-    # The number that it is about says so in its own line.
-    assert re.search(r"largest depth, µm \(off: see averaging\) +\d", ran.stdout)
-    foreseen, found = (re.search(r"about (\d+) % too deep", text)[1] for text in (problem, *end))
-    assert int(foreseen) == pytest.approx(17.7, abs=1.5)
-    assert int(found) == pytest.approx(17.7, abs=1.5)
-
-
 @pytest.mark.parametrize("command", ["", *OWN])
 def test_every_command_has_help_with_an_example(command):
     done = tribo(*command.split(), "--help")

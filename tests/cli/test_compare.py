@@ -5,11 +5,10 @@ import json
 import pytest
 from click.testing import CliRunner
 from edited import edited
-from made_results import GRID, empty_pictures, written
+from made_results import empty_pictures, written
 
 from tribo.cli.main import tribo
 from tribo.core.errors import CaseError
-from tribo.core.grid import Grid
 from tribo.templates import template
 
 QUICK = ["--set", "grid.cells=24", "--set", "grid.size=0.7 mm", "--set", "kinematics.duration=60"]
@@ -85,21 +84,10 @@ def test_bad_input_is_told_before_anything_runs(folder, tmp_path, files, options
     assert not (tmp_path / "none").exists()
 
 
-@pytest.fixture(scope="module")
-def made(tmp_path_factory):
-    """Files of made results, by name."""
-    folder = tmp_path_factory.mktemp("made")
-    names = ["[m]", "steel_on_steel_in_oil", "steel_on_bronze_in_oil"]
-    fine = Grid(GRID.size, (60, 48))
-    files = {n: written(folder / f"{n}.h5", grid=fine if n == names[1] else GRID) for n in names}
-    files["killed"] = written(folder / "killed.h5", status="killed")
-    with edited(files["killed"]) as file:
+def test_the_time_of_a_run_that_was_killed_is_not_known(tmp_path):
+    files = written(tmp_path / "whole.h5"), written(tmp_path / "killed.h5", status="killed")
+    with edited(files[1]) as file:
         del file.attrs["wall_time_s"]
-    return files
-
-
-def test_the_time_of_a_run_that_was_killed_is_not_known(made):
-    files = made["[m]"], made["killed"]
     whole, killed = row(invoke(*files, "--no-plots").stdout, "time to solution, s")
     assert (whole.replace(".", "").isdigit(), killed) == (True, "–")
     results = json.loads(invoke(*files, "--no-plots", "--json").stdout)["results"]

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from tribo.cli.main import tribo
 from tribo.core.errors import NumericalError
 from tribo.templates import template
-from tribo.verification import refinement, suite
+from tribo.verification import suite
 from tribo.verification.suite import cases_in
 
 CASES = Path(suite.__file__).with_name("cases")
@@ -27,19 +27,6 @@ def case(tmp_path):
     path = tmp_path / "my.toml"
     path.write_text(template("ball_on_disk"))
     return path
-
-
-@pytest.fixture
-def studied_once(monkeypatch):
-    """What makes the study of a case makes it for the first command only."""
-    found, refine = [], refinement.refine
-
-    def first(model, tell):
-        if not found:
-            found.append(refine(model, tell))
-        return found[0]
-
-    monkeypatch.setattr(refinement, "refine", first)
 
 
 def test_json_has_the_environment_and_a_row_for_each_quantity():
@@ -82,7 +69,7 @@ def test_coverage_fails_where_a_component_is_in_no_case():
     assert not {"archard", "periodic", "flat", "unidirectional"} & set(missing)
 
 
-def test_a_case_gets_an_uncertainty_for_each_result(case, studied_once):
+def test_a_case_gets_an_uncertainty_for_each_result(case):
     done = invoke(case, *SMALL, "--json")
     assert done.exit_code == 0, done.output
     data = json.loads(done.stdout)
@@ -93,6 +80,3 @@ def test_a_case_gets_an_uncertainty_for_each_result(case, studied_once):
     }
     for estimate in data["estimates"]:
         assert 0 <= estimate["uncertainty"] < estimate["value"]
-    shown = " ".join(invoke(case, *SMALL).stdout.split())
-    for word in ("quantity", "±", "GCI %", "10, 16, 24 cells along x", *names[:1]):
-        assert word in shown
