@@ -101,12 +101,9 @@ def _changed(config: Implicit | Explicit, factor: float) -> Implicit | Explicit:
     if isinstance(config, Explicit):
         return config.model_copy(update={"time_step": config.time_step / factor})
     # The depth error of a step grows as its square, the pressure's in proportion.
-    update = {
-        "depth_tolerance": config.depth_tolerance * factor**2,
-        "pressure_tolerance": config.pressure_tolerance * factor,
-        "settle": config.settle * factor,
-    }
-    return config.model_copy(update=update)
+    longer = {key: factor * getattr(config, key) for key in ("pressure_tolerance", "settle")}
+    longer["depth_tolerance"] = factor**2 * config.depth_tolerance
+    return config.model_copy(update=longer)
 
 
 def _run(model: Model, cells: tuple[int, int], config: Implicit | Explicit) -> Level:

@@ -36,12 +36,10 @@ def installed_cases() -> list[ValidationCase]:
 def cases_in(folder: Path) -> list[ValidationCase]:
     """Return the case that a folder is, or those in it; CaseError if there is none."""
     place = folder.resolve()
-    if (place / "expected.toml").exists():
-        return [ValidationCase(place)]
-    found = [ValidationCase(path.parent) for path in sorted(place.glob("*/expected.toml"))]
-    if not found:
+    files = [*place.glob("expected.toml"), *sorted(place.glob("*/expected.toml"))]
+    if not files:
         raise CaseError(f"{folder} holds no expected.toml; write one as on the page 'Verification'")
-    return found
+    return [ValidationCase(path.parent) for path in files]
 
 
 def called(name: str, cases: list[ValidationCase]) -> list[ValidationCase]:
