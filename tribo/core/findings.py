@@ -13,9 +13,6 @@ NOTHING_WRONG = ("begin", "layer", "stop")
 FEW_CELLS = 8
 """Cells across a contact, below which its pressure is inaccurate: Hertz's largest is within
 1.5 % with 8 cells, 4 % with 4."""
-STEEP = 0.3
-"""Half-width of a contact over the radius of a body, above which a half-space is inaccurate: a
-sphere is 2 % higher at 0.3 than its parabola."""
 DEEP = 0.1
 """Part of the window's edge or of a radius that wear may reach, as slopes are small: a tenth is
 6°."""
@@ -98,20 +95,6 @@ def broken_period(body: str, along: str, jump: float) -> Finding:
         value=jump,
         limit=0.0,
         place=f"bodies.{body}.surface",
-    )
-
-
-def too_wide(body: str, ratio: float, radius: float, time: float) -> Finding:
-    """Word a contact whose half-width over a radius (m) is too large at a time (s)."""
-    return Finding(
-        "half-space",
-        f"at {readable(time, '.3g')} s the contact's half-width a is {ratio:.2f} of the radius R "
-        f"of {body}, {1e3 * radius:.3g} mm: a half-space with small slopes needs a/R well "
-        "below 1 (0.1, say); pressures and depths may be inaccurate",
-        value=ratio,
-        limit=STEEP,
-        place=f"bodies.{body}",
-        time=time,
     )
 
 

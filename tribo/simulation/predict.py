@@ -28,7 +28,6 @@ from tribo.simulation.validity import (
     few_cells,
     implausible,
     limitation,
-    too_wide,
     unusual,
 )
 from tribo.simulation.watch import Watch
@@ -109,7 +108,6 @@ def predict(model: Model) -> Prediction:
     problems = (
         failure,
         few_cells(state.contact),
-        *(too_wide(model, first) or too_wide(model, last or first)),
         *trial.findings,
     )
     facts = {place: Guard(c).ask(c.facts) for place, c in components(model.case)}

@@ -19,7 +19,7 @@ from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError, NumericalError, PluginError, TooWorn, located
 from tribo.core.explain import path
 from tribo.core.findings import Finding
-from tribo.core.measures import Measures, half_widths
+from tribo.core.measures import half_widths
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.evolution.measure import cycle_error
@@ -100,20 +100,6 @@ def _jump(height: Array) -> float:
         return 0.0
     jump = float(np.sqrt(np.mean(steps[-1] ** 2)))
     return jump if jump > ROUND_OFF * float(np.ptp(height)) else 0.0
-
-
-def too_wide(model: Model, measures: Measures) -> list[Finding]:
-    """Return a finding for each body whose contact is too wide for a half-space."""
-    widths = (measures.half_width_x, measures.half_width_y)
-    found = []
-    for name, surface in model.surfaces.items():
-        curvatures = surface.curvature or (0.0, 0.0)
-        ratio, curvature = max(
-            (abs(c) * a, abs(c)) for c, a in zip(curvatures, widths, strict=True)
-        )
-        if ratio > findings.STEEP:
-            found.append(findings.too_wide(name, ratio, 1 / curvature, measures.time))
-    return found
 
 
 def check_stroke(model: Model, state: State) -> None:
