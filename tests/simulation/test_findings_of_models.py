@@ -68,26 +68,20 @@ def test_an_observer_of_the_run_alone_and_the_trial_of_a_check_end_it_too():
 
 
 class Fails(Archard):
-    """Cannot say what it has to say."""
+    """Raises, or says what is no finding."""
 
     type = "test.fails"
+    says: tuple[str, ...] = ()
 
     def findings(self, snapshot):
-        """Divide by zero."""
-        yield 1 / 0
+        """Divide by the number of what it has to say."""
+        return self.says[: 1 // len(self.says)]
 
 
-def test_a_model_that_fails_to_speak_is_named():
-    with pytest.raises(PluginError, match=r"test\.fails.*ZeroDivisionError"):
-        Simulation(case(Fails(k=K))).run()
-
-
-def test_what_is_no_finding_is_refused():
-    class Wrong(Archard):
-        type = "test.wrong"
-
-        def findings(self, snapshot):
-            return ["too hot"]
-
-    with pytest.raises(PluginError, match=r"gave a str as a finding.*; it must be a Finding"):
-        Simulation(case(Wrong(k=K))).run()
+@pytest.mark.parametrize(
+    ("says", "words"),
+    [((), r"test\.fails.*ZeroDivisionError"), (("hot",), "gave a str as a finding.*a Finding")],
+)
+def test_a_model_that_fails_to_speak_or_says_no_finding_is_named(says, words):
+    with pytest.raises(PluginError, match=words):
+        Simulation(case(Fails(k=K, says=says))).run()
