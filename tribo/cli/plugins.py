@@ -7,6 +7,9 @@ from pathlib import Path
 import click
 
 from tribo.cli.options import PATH, echo_json
+from tribo.core.errors import CaseError, NumericalError
+from tribo.registry.catalogue import catalogue, describe, matching
+from tribo.registry.registry import default_registry
 
 
 @click.group()
@@ -30,9 +33,6 @@ def list_(as_json: bool) -> None:
     Example:
       tribo plugins list --json
     """
-    from tribo.registry.catalogue import catalogue
-    from tribo.registry.registry import default_registry
-
     rows = catalogue(default_registry())
     if as_json:
         echo_json(rows)
@@ -60,9 +60,6 @@ def show(name: str) -> None:
     Example:
       tribo plugins show archard
     """
-    from tribo.registry.catalogue import describe, matching
-    from tribo.registry.registry import default_registry
-
     registry = default_registry()
     for number, component in enumerate(matching(registry, name)):
         cls = registry.find(component)
@@ -86,10 +83,7 @@ def check(name: str) -> None:
       tribo plugins check acme.fretting
       tribo plugins check acme-fretting
     """
-    from tribo.core.errors import CaseError, NumericalError
-    from tribo.registry.catalogue import matching
     from tribo.registry.probe import probe_all
-    from tribo.registry.registry import default_registry
     from tribo.testing import check as conform
 
     registry, failed = default_registry(), []

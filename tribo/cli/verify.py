@@ -10,11 +10,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+import numpy as np
 
 from tribo.cli.options import JSON, SET, echo_json
+from tribo.core.data_table import DataTable, Heading, TableRow
+from tribo.core.errors import NumericalError
+from tribo.core.words import plus_minus
 
 if TYPE_CHECKING:
-    from tribo.core.data_table import DataTable
     from tribo.verification.refinement import Refinement
     from tribo.verification.validation import Row, ValidationCase
 
@@ -63,7 +66,6 @@ def verify(
 
 
 def _coverage(cases: Sequence[ValidationCase], as_json: bool) -> None:
-    from tribo.core.errors import NumericalError
     from tribo.verification.suite import uncovered
 
     missing = uncovered(cases)
@@ -77,7 +79,6 @@ def _coverage(cases: Sequence[ValidationCase], as_json: bool) -> None:
 
 def _validate(cases: Sequence[ValidationCase], as_json: bool) -> None:
     from tribo.cli.console import Console
-    from tribo.core.errors import NumericalError
     from tribo.result.provenance import environment
 
     rows: list[Row] = []
@@ -125,9 +126,6 @@ def _progress(total: int) -> Iterator[Callable[[str], None]]:
 
 
 def _tables(rows: Sequence[Row]) -> Iterator[DataTable]:
-    import numpy as np
-
-    from tribo.core.data_table import DataTable, Heading, TableRow
     from tribo.lab.units import shown_in
 
     forms = {"quantity": "", "expected": ".5g", "got": ".5g", "error": ".1e"}
@@ -146,10 +144,6 @@ def _tables(rows: Sequence[Row]) -> Iterator[DataTable]:
 
 def _study_table(study: Refinement) -> DataTable:
     """Return a row for each estimate, with the uncertainty to quote and where it is from."""
-    import numpy as np
-
-    from tribo.core.data_table import DataTable, Heading, TableRow
-    from tribo.core.words import plus_minus
     from tribo.lab.units import shown_in
 
     forms = {"quantity": "", "value": ".5g", "±": "", "%": ".2f"}
