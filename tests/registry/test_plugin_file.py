@@ -1,5 +1,7 @@
 """A Python file beside a case takes part where the command line names it, and nowhere else."""
 
+from pathlib import Path
+
 import pytest
 from fake_distributions import SHORT
 
@@ -24,6 +26,7 @@ class Plain(WearLaw):
 def tribo_lab_rows(result):
     return [LabRow("answer", 42.0, "m")]
 """
+OWN_LAW = Path(__file__).parents[2] / "examples" / "own_law.py"
 STOP = "CALLS.append(1)\n        if len(CALLS) > 5: raise KeyboardInterrupt\n"
 
 
@@ -50,6 +53,16 @@ def test_a_law_of_a_file_runs_where_the_command_names_it_and_the_result_names_th
     code = made["components"]["bodies.ball.wear"]["code"]
     assert (plugin["distribution"], plugin["version"]) == ("law.py", code[:12])
     assert not (folder / "__pycache__").exists()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("factor", "code"), [("", 0), ("-", 3)])
+def test_a_file_is_checked_by_its_path(asked, folder, factor, code):
+    law = OWN_LAW.read_text().replace("WearRate(self", f"WearRate({factor}self")
+    (folder / "law.py").write_text(law)
+    done = asked("plugins", "check", "law.py")
+    assert done.returncode == code, done.stdout
+    assert done.stdout.startswith("wear law Threshold (threshold): ")
 
 
 @pytest.mark.slow

@@ -71,7 +71,7 @@ def show(name: str) -> None:
 @plugins.command()
 @click.argument("name")
 def check(name: str) -> None:
-    """Run the conformance checks on a component, or on all of a distribution.
+    """Run the conformance checks on a component, or on all of a distribution or of a Python file.
 
     They are generated from the examples that its class gives,
     or from its defaults if it has any for every key. A component that cannot
@@ -82,10 +82,15 @@ def check(name: str) -> None:
     Example:
       tribo plugins check acme.fretting
       tribo plugins check acme-fretting
+      tribo plugins check law.py
     """
+    from tribo.registry.plugin_file import add_files
     from tribo.registry.probe import probe_all
     from tribo.testing import check as conform
 
+    if name.endswith(".py"):
+        add_files([name])
+        name = Path(name).name
     registry, failed = default_registry(), []
     for component in matching(registry, name):
         (owner, *others) = registry.claimants(component)

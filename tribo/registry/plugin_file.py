@@ -7,6 +7,7 @@ import re
 import sys
 from collections.abc import Iterable
 from hashlib import sha256
+from importlib.machinery import ModuleSpec
 from pathlib import Path
 from types import ModuleType
 
@@ -25,7 +26,7 @@ def add_files(paths: Iterable[Path | str]) -> None:
     """
     for path in map(Path, paths):
         module = ModuleType("plugin_" + re.sub(r"\W", "_", path.stem))
-        module.__file__ = str(path.resolve())
+        module.__file__, module.__spec__ = str(path.resolve()), ModuleSpec(module.__name__, None)
         if not path.is_file():
             raise CaseError(f"{path}: there is no such file", "--plugin")
         try:
