@@ -38,18 +38,6 @@ class SpeedStage(Table):
     """Sliding speed; 0 for a rest."""
 
 
-def check_axis(radius: float, grid: Grid) -> None:
-    """Refuse a circular track of this radius (m) with its axis in the window."""
-    half = 0.5 * grid.size[1]
-    if radius <= half:
-        raise CaseError(
-            f"with {1e3 * radius:.4g} mm the axis of the track lies in the window; give more than "
-            f"{1e3 * half:.4g} mm or, if the contact stays within it, a window (grid.size) less "
-            f"than {2e3 * radius:.4g} mm broad",
-            "kinematics.track_radius",
-        )
-
-
 class Steady(Kinematics):
     """Sliding round a closed path, at one speed or in stages, with one moving body."""
 
@@ -115,27 +103,6 @@ class Steady(Kinematics):
         """Return the first time at which `distance` is reached, in s."""
         return self._held.reached(distance)
 
-
-class ClosedTrack(Steady):
-    """Steady sliding that is averaged over a closed track."""
-
-    @property
-    def _given(self) -> str:
-        """Key that the length of the track was given by."""
-        return "track_radius"
-
-    def limitation(
-        self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
-    ) -> str | None:
-        """Return a warning once the contact is longer than the track."""
-        if 2 * half_width_x <= self.track_extent:
-            return None
-        return (
-            f"the contact is {2e3 * half_width_x:.3g} mm long, longer than the track of "
-            f"{1e3 * self.track_extent:.3g} mm: it would meet itself, and the track average no "
-            "longer holds"
-        )
-
     def check_contact(self, half_width_x: float) -> None:
         """Refuse a track that is shorter than the half-width."""
         if self.track_extent >= half_width_x:
@@ -143,12 +110,11 @@ class ClosedTrack(Steady):
         raise CaseError(
             f"the track is {1e3 * self.track_extent:.3g} mm long, less than the half-width of the "
             f"first contact, {1e3 * half_width_x:.3g} mm: give one of at least the contact's "
-            f"length, {2e3 * half_width_x:.3g} mm",
-            f"kinematics.{self._given}",
+            f"length, {2e3 * half_width_x:.3g} mm"
         )
 
 
-class Unidirectional(ClosedTrack):
+class Unidirectional(Steady):
     """Speed v round a track of length ℓ; one body swept over the track.
 
     The curvature of the track inside the contact is neglected: valid for contacts of less than a
@@ -190,17 +156,11 @@ class Unidirectional(ClosedTrack):
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return the closed track for the swept body."""
-        if self.track_radius is not None and not self.turns:
-            check_axis(self.track_radius, grid)
         track = Track(grid, self.track_extent, shape_stays=self.turns)
         return one_swept_body(grid, bodies, self.swept, track)
 
-    @property
-    def _given(self) -> str:
-        return "track_radius" if self.track_length is None else "track_length"
 
-
-class Rotating(ClosedTrack):
+class Rotating(Steady):
     """Speed v round a circle of radius R; one body swept over the track.
 
     Speed and sliding distance refer to the middle of the window. A point at (x, y) is at the radius
@@ -240,5 +200,12 @@ class Rotating(ClosedTrack):
 
     def _rows(self, grid: Grid) -> Array:
         """Return the distance from the axis of each row, shape (ny,), in m."""
-        check_axis(self.track_radius, grid)
-        return np.asarray(self.track_radius + grid.mesh[1][0])
+        radius, half = self.track_radius, 0.5 * grid.size[1]
+        if radius <= half:
+            raise CaseError(
+                f"with {1e3 * radius:.4g} mm the axis of the track lies in the window; give more "
+                f"than {1e3 * half:.4g} mm or, if the contact stays within it, a window "
+                f"(grid.size) less than {2e3 * radius:.4g} mm broad",
+                "kinematics.track_radius",
+            )
+        return np.asarray(radius + grid.mesh[1][0])
