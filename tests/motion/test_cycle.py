@@ -46,17 +46,10 @@ def test_a_passing_body_has_the_rows_of_all_its_positions():
     assert exposures["ball"].starts is None
 
 
-@pytest.mark.parametrize(
-    ("stroke", "positions", "place", "words"),
-    [
-        ("0.18 mm", 3, r"kinematics\.stroke", "0.18 mm is under two cells of 0.1 mm"),
-        # A half-width of 0.2 mm.
-        ("2 mm", 19, r"kinematics\.positions", "every 0.111 mm.*first contact.*at least 21"),
-    ],
-)
-def test_positions_that_cannot_serve_the_contact_are_refused(stroke, positions, place, words):
-    kinematics = motion(stroke=stroke, positions=positions)
-    with pytest.raises(CaseError, match=rf"{place}: .*{words}"):
+def test_positions_that_cannot_serve_the_contact_are_refused():
+    kinematics = motion(stroke="2 mm", positions=19)
+    # A half-width of 0.2 mm.
+    with pytest.raises(CaseError, match=r"kinematics\.positions: .*every 0.111 mm.*at least 21"):
         begin(small(grid=Grid((2e-3, 2e-3), (20, 20)), kinematics=kinematics))
 
 

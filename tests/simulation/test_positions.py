@@ -6,7 +6,6 @@ from paper_models import K, archard, case, flat, last, motion, named, pair, stee
 
 from tribo import (
     Begin,
-    CaseError,
     Grid,
     Load,
     Periodic,
@@ -120,11 +119,6 @@ def test_the_choice_is_told_once_and_kept():
         again = Simulation(result.case_tables).model
     assert len(again.cycle) == 9
     assert again.chosen is None
-
-
-def test_a_stroke_too_short_for_either_is_refused_for_its_cells():
-    with pytest.raises(CaseError, match=r"kinematics\.stroke: 0\.05 mm is under two cells"):
-        composed(left_open("0.05 mm"))
 
 
 @pytest.mark.parametrize("positions", ["average", 21])

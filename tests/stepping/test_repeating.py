@@ -112,7 +112,7 @@ PATH = [(0, 0), (1, 50 * DX), (2, 50 * DX), (5, -3.3 * DX), (6, 0)]
 
 
 MOTIONS = [strokes(6), strokes(40, positions=5), strokes(40.3)]
-IN_FEW_CELLS = [strokes(16, allow_short_stroke=True), strokes(37, positions=5, **SINE)]
+IN_FEW_CELLS = [strokes(16), strokes(37, positions=5, **SINE)]
 IN_FEW_CELLS += [Measured(path=PATH, cycles=50, positions="cells")]
 
 

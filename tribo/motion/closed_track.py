@@ -165,8 +165,8 @@ class Rotating(Steady):
 
     Speed and sliding distance refer to the middle of the window. A point at (x, y) is at the radius
     ρ = √(x² + (R + y)²); its distance and speed are ρ/R times as large. The swept body moves along
-    rows, each a track of length 2π(R + y): its volume is exact, but its groove lies on straight
-    lines in place of arcs, which are x²/2R apart. Valid for contacts short beside R.
+    rows, each a track of length 2π(R + y): its volume is exact. Its groove lies on straight lines
+    in place of arcs: for a contact of half-width a, depths are off by 0.27 a/R of the deepest.
 
     Examples
     --------

@@ -61,8 +61,8 @@ class Reciprocating(Kinematics):
     as the elastic approach is 4 % too deep where S is 10 half-widths of the contact and 12 % where
     it is 4; one several times deeper, twice as much, where both bodies wear alike (see
     `tribo.motion.averaging_error`). Resolved into `positions`, as a run does by itself where the
-    stroke is shorter than 20 lengths of the first contact, it holds for any stroke of two cells and
-    more, gross slip in fretting among them.
+    stroke is shorter than 20 lengths of the first contact, it holds for any stroke, gross slip in
+    fretting among them.
 
     Examples
     --------
@@ -98,9 +98,6 @@ class Reciprocating(Kinematics):
     apart; the motion itself takes the average until a case is composed with it."""
     swept: str | None = None
     """Name of the body whose points pass through the contact; the last body if left out."""
-    allow_short_stroke: bool = False
-    """Whether a stroke is accepted that is shorter than the first contact's half-width or, where
-    the cycle is resolved, than two cells."""
 
     _in_a_list = field_validator("frequency", mode="before")(listed)
 
@@ -200,7 +197,7 @@ class Reciprocating(Kinematics):
     def coarsened(self, half_width_x: float) -> Reciprocating:
         """Return the motion at its mean speed, averaged, or a short stroke at few positions."""
         few = "average" if self._averages or self.stroke > LONG * half_width_x else FEW
-        changes = {"positions": few, "waveform": "constant_speed", "allow_short_stroke": True}
+        changes = {"positions": few, "waveform": "constant_speed"}
         return self.model_copy(update=changes)
 
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
@@ -215,10 +212,7 @@ class Reciprocating(Kinematics):
         return self.positions in ("average", "auto")
 
     def _stroke(self, grid: Grid) -> Stroke:
-        stroke = Stroke(self.stroke, grid.spacing[0], self.positions, grid.period)
-        if not self.allow_short_stroke:
-            stroke.check_cells("kinematics.stroke")
-        return stroke
+        return Stroke(self.stroke, grid.spacing[0], self.positions, grid.period)
 
     def limitation(
         self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
@@ -236,19 +230,15 @@ class Reciprocating(Kinematics):
         )
 
     def check_contact(self, half_width_x: float) -> None:
-        """Refuse too few positions, and for the average a stroke shorter than the half-width.
-
-        The average of a short stroke is taken where the case allows it.
-        """
+        """Refuse too few positions, and for the average a stroke shorter than the half-width."""
         if not self._averages:
             check_spacing(self.stroke, self.positions, half_width_x)
             return
-        if self.stroke >= half_width_x or self.allow_short_stroke:
+        if self.stroke >= half_width_x:
             return
         raise CaseError(
             f"{1e3 * self.stroke:.3g} mm is shorter than the half-width of the first contact, "
             f"{1e3 * half_width_x:.3g} mm, too short for an average over the stroke; give at least "
-            f'{1e3 * half_width_x:.3g} mm, resolve it by kinematics.positions = "auto", or set '
-            "kinematics.allow_short_stroke = true",
+            f'{1e3 * half_width_x:.3g} mm, or resolve it by kinematics.positions = "auto"',
             "kinematics.stroke",
         )

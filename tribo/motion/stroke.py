@@ -138,15 +138,6 @@ class Stroke:
         of_node = [np.interp(places, nodes, one, period=around) for one in np.eye(len(nodes))]
         return np.array(of_node) @ times
 
-    def check_cells(self, place: str) -> None:
-        """Refuse a stroke that is under two cells; `place` names it."""
-        if self.length < 2 * self.dx * (1 - SAME):
-            raise CaseError(
-                f"{1e3 * self.length:.4g} mm is under two cells of {1e3 * self.dx:.4g} mm, too few "
-                "to resolve the cycle; make grid.cells larger along x, or the window smaller",
-                place,
-            )
-
 
 def odd(count: int | str) -> int | str:
     """Return a number of positions, or the word for it; raise ValueError for an even number."""
