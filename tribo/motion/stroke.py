@@ -123,13 +123,11 @@ class Stroke:
         nodes = self.cells * self.dx
         if self.goes_round is None:
             return near(nodes, path, weights)
-        # The last position but for a period comes before the first, and the other way round.
+        # The positions repeat with each period, up to one beyond the path.
         around = self.goes_round * self.dx
-        closed = np.concatenate([[nodes[-1] - around], nodes, [nodes[0] + around]])
-        lengths = near(closed, *_folded(path, weights, closed[0], around))
-        lengths[1] += lengths[-1]
-        lengths[-2] += lengths[0]
-        return lengths[1:-1]
+        periods = np.arange(np.floor(path.min() / around) - 1, np.ceil(path.max() / around) + 2)
+        all_nodes = (around * periods[:, None] + nodes).ravel()
+        return near(all_nodes, path, weights).reshape(len(periods), -1).sum(axis=0)
 
     def _resting(self, places: Array, times: Array) -> Array:
         """Return the part of times (s) at places (m) that falls to each position, (positions,)."""
@@ -187,22 +185,3 @@ def near(nodes: Array, path: Array, weights: Array | float = 1.0) -> Array:
         lengths[node] += np.sum(passed * (nodes[node + 1] - middle)) / gap
         lengths[node + 1] += np.sum(passed * (middle - nodes[node])) / gap
     return lengths
-
-
-def _folded(
-    path: Array, weights: Array | float, first: float, period: float
-) -> tuple[Array, Array]:
-    """Return a path that goes round in one period from `first`, in m, and the weights of its parts.
-
-    Between two parts it jumps, with the weight 0.
-    """
-    low, high = np.minimum(path[:-1], path[1:]), np.maximum(path[:-1], path[1:])
-    begun, ended = np.floor((low - first) / period), np.floor((high - first) / period)
-    turns = (ended - begun).astype(int) + 1
-    part = np.repeat(np.arange(len(turns)), turns)
-    turn = np.arange(len(part)) - np.repeat(np.cumsum(turns) - turns, turns) + begun[part]
-    origin = first + turn * period
-    within = np.clip([low[part], high[part]], origin, origin + period) - origin + first
-    parted = np.zeros((len(part), 2))
-    parted[:, 0] = np.broadcast_to(weights, low.shape)[part]
-    return within.T.ravel(), parted.ravel()[:-1]
