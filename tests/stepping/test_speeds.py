@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from paper_models import Faster, K, foundation, lost, motion, pair, small
 
-from tribo import Effect, Field, Grid
+from tribo import Effect, Field, Grid, Position
 from tribo.core.errors import PluginError
 from tribo.evolution.local_fields import effect_fields
 from tribo.motion.closed_track import Rotating, Unidirectional
@@ -27,8 +27,8 @@ def worn(kinematics, law=None, **changes):
 class Silent(Reciprocating):
     """A motion that states no speeds."""
 
-    def speeds(self):
-        return None
+    def cycle(self, grid):
+        return [Position()]
 
 
 def test_a_motion_that_states_no_speeds_has_the_mean_over_the_step():
@@ -49,8 +49,8 @@ def test_a_motion_that_states_no_speeds_has_the_mean_over_the_step():
 )
 def test_speeds_that_cannot_be_are_refused(speeds, words):
     class Wrong(Reciprocating):
-        def speeds(self):
-            return speeds
+        def cycle(self, grid):
+            return [Position(speeds=speeds)]
 
     with pytest.raises(PluginError, match=f"kinematics 'reciprocating'.*{words}"):
         worn(Wrong(**dict(motion(duration=2))))

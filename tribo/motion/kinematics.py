@@ -100,23 +100,13 @@ class Kinematics(Component):
         """
         return ()
 
-    def speeds(self) -> Sequence[tuple[float, float]] | None:
-        """Return the sliding speeds of a cycle, each with its share of the distance.
-
-        Speeds are in m/s, and the shares add up to 1. Effects and wear laws are evaluated at each
-        of these speeds, and their rates averaged over the distance, whatever the length of a step.
-        None, unless overridden: then they are evaluated at the mean speed over each step.
-        """
-        return None
-
     def cycle(self, grid: Grid) -> Sequence[Position]:
         """Return the positions of a cycle in which the contact is solved.
 
-        One, unless overridden, with the `speeds` of the motion: the average over the cycle is left
-        to the exposures. A result shows the middle one. The window `grid` has a `period` where the
-        contact repeats with it.
+        One, unless overridden: the average over the cycle is left to the exposures. A result shows
+        the middle one. The window `grid` has a `period` where the contact repeats with it.
         """
-        return [Position(speeds=self.speeds())]
+        return [Position()]
 
     def coarsened(self, half_width_x: float) -> Kinematics:
         """Return the motion for an estimate: few positions, or an average in place of them.

@@ -16,7 +16,7 @@ from tribo.core.loads import NUMBER, ONE_OR_STAGES, STAGES, listed
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.motion.averaging_error import groove_excess
-from tribo.motion.cycle import Position
+from tribo.motion.cycle import Position, Speeds
 from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
 from tribo.motion.held import Held, held
 from tribo.motion.kinematics import Kinematics
@@ -28,8 +28,7 @@ width."""
 PHASES = 6
 """Speeds of a sinusoidal cycle: means of its powers up to the third are exact to 1e-6."""
 SAMPLES = 16
-"""Of a sinusoidal half cycle, between two positions: chords are off by (π/32)²/8 = 0.1 % at
-most."""
+"""Of a sinusoidal half cycle, for each cell of the stroke: speeds are exact to 1e-4."""
 
 
 class FrequencyStage(Table):
@@ -167,10 +166,8 @@ class Reciprocating(Kinematics):
         whole = math.floor(strokes)
         return whole + math.asin(math.sqrt(strokes - whole)) / (0.5 * math.pi)
 
-    def speeds(self) -> Sequence[tuple[float, float]] | None:
-        """Return speeds of a sinusoidal cycle, at Gauss points of the phase; else None."""
-        if self.waveform == "constant_speed":
-            return None
+    def _sine(self) -> Speeds:
+        """Return speeds of a sinusoidal cycle, at Gauss points of the phase."""
         nodes, weights = np.polynomial.legendre.leggauss(PHASES)
         # From a reversal to mid-stroke; distance goes as the integral of the speed over the phase.
         sines = np.sin(0.25 * math.pi * (nodes + 1))
@@ -180,17 +177,14 @@ class Reciprocating(Kinematics):
 
     def cycle(self, grid: Grid) -> Sequence[Position]:
         """Return the positions along the stroke, with the mean speed about each."""
+        even = self.waveform == "constant_speed"
         if self._averages:
-            return super().cycle(grid)
+            return [Position(speeds=None if even else self._sine())]
         stroke = self._stroke(grid)
-        if self.waveform == "constant_speed":
+        if even:
             return [Position(float(share)) for share in stroke.shares]
-        # From mid-stroke to a reversal, in as many samples between any two positions.
-        places = stroke.cells[len(stroke.cells) // 2 + 1 : -1] * grid.spacing[0]
-        at = [0.0, *np.arcsin(places / (0.5 * self.stroke)), 0.5 * math.pi]
-        last = len(at) - 1
-        right = np.interp(np.linspace(0, last, SAMPLES * last + 1), np.arange(last + 1), at)
-        phases = np.concatenate([-right[:0:-1], right])
+        samples = SAMPLES * math.ceil(self.stroke / grid.spacing[0])
+        phases = np.linspace(-0.5 * math.pi, 0.5 * math.pi, samples + 1)
         times = phases / (2 * math.pi * self._held.rates[0])
         return stroke.passed(times, 0.5 * self.stroke * np.sin(phases))
 

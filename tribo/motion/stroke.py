@@ -127,7 +127,8 @@ class Stroke:
         around = self.goes_round * self.dx
         periods = np.arange(np.floor(path.min() / around) - 1, np.ceil(path.max() / around) + 2)
         all_nodes = (around * periods[:, None] + nodes).ravel()
-        return near(all_nodes, path, weights).reshape(len(periods), -1).sum(axis=0)
+        lengths = near(all_nodes, path, weights).reshape(len(periods), -1)
+        return np.asarray(lengths.sum(axis=0))
 
     def _resting(self, places: Array, times: Array) -> Array:
         """Return the part of times (s) at places (m) that falls to each position, (positions,)."""

@@ -84,7 +84,7 @@ class KinematicsChecks(Checks):
         motion = self._make()
         cycle = GuardedMotion(motion).cycle(GRID)
         speeds = [(v, p.share * share) for p in cycle for v, share in p.speeds or ()]
-        apply_if(bool(speeds), "speeds() is None: the mean speed is taken")
+        apply_if(bool(speeds), "its positions have no speeds: the mean speed is taken")
         require(min(speeds)[0] > 0, "a speed is 0; it must be positive")
         end = motion.end_time
         rest = sum(p.share * p.rest for p in cycle)

@@ -176,10 +176,7 @@ class Shuttle(Kinematics):
         return strokes * self.rest + distance / self.speed
 
     def cycle(self, grid):
-        return [Position(speeds=self.speeds(), rest=self.rest / self.stroke)]
-
-    def speeds(self):
-        return [(self.speed, 1.0)]
+        return [Position(speeds=[(self.speed, 1.0)], rest=self.rest / self.stroke)]
 
     def exposures(self, grid, bodies):
         swept = self.swept or bodies[-1]

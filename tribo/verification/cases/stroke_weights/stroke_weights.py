@@ -12,7 +12,8 @@ def found() -> dict[str, float]:
     # At 1.5 m/s to within the second cell, at 0.5 m/s to the end, a rest of 1 s, and back at 1 m/s.
     times, places = np.array([0.0, 1.0, 2.0, 3.0, 5.0]), np.array([-1.0, 0.5, 1.0, 1.0, -1.0])
     end = Stroke(length=2.0, dx=1.0).passed(times, places)[-1]
-    sine = tribo.Reciprocating(stroke=2e-3, frequency=25, cycles=1, waveform="sinusoidal").speeds()
+    motion = tribo.Reciprocating(stroke=2e-3, frequency=25, cycles=1, waveform="sinusoidal")
+    sine = motion.cycle(tribo.Grid("1 mm", 4))[0].speeds
     assert end.speeds is not None
     assert sine is not None
     return {
