@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from tribo import CaseError, Grid, Rough, Sphere, Texture, Waves
-from tribo.surfaces.rough import skewed
 
 GRID = Grid((2e-3, 2e-3), (96, 96))
 ROUGH = Rough(sq=50e-9, cut_off=1e-4, roll_off=5e-4, hurst=0.8, period=2e-3, seed=3)
@@ -27,18 +26,6 @@ def test_a_rough_surface_has_its_height_and_its_spectrum():
     assert np.ptp(modes[rolled]) < 1e-6 * modes.max()
     slope = np.polyfit(np.log(q[steep]), np.log(modes[steep]), 1)[0]
     assert slope == pytest.approx(-2 * (1 + 0.8), rel=1e-3)
-
-
-@pytest.mark.parametrize("skewness", [-2.0, -0.5, 1.0])
-def test_heights_have_the_skewness_that_is_asked_for(skewness):
-    z, weights = np.polynomial.hermite_e.hermegauss(60)
-    moments = [np.sum(weights * skewed(z, skewness) ** n) / np.sum(weights) for n in (1, 2, 3)]
-    assert moments == pytest.approx([0, 1, skewness], rel=1e-9, abs=1e-9)
-    relief = Rough(sq=5e-8, cut_off=1e-4, roll_off=1.5e-4, period=6e-3, skewness=skewness).height(
-        Grid((6e-3, 6e-3), (240, 240))
-    )
-    assert relief.std() == pytest.approx(5e-8, rel=0.05, abs=0)
-    assert np.mean(relief**3) / relief.std() ** 3 == pytest.approx(skewness, rel=0.15, abs=0)
 
 
 def test_another_seed_gives_another_surface():

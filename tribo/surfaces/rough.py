@@ -25,10 +25,6 @@ class Rough(Laid):
     Up to the roll-off the spectrum is even, beyond the cut-off 0; the phases are random, so that
     heights are nearly Gaussian. The same seed gives the same surface on any grid.
 
-    With a skewness the heights are log-normal: each becomes the one as rare of that distribution,
-    z to ±(exp(±σ z) − √w)/√(w (w − 1)) in multiples of Sq, with w = exp σ². That adds other waves,
-    shorter ones than the cut-off too: 5 % of the variance at a skewness of 1, 23 % at 3.
-
     References
     ----------
     B. N. J. Persson, O. Albohr, U. Tartaglino, A. I. Volokitin, E. Tosatti, J. Phys.: Condens.
@@ -55,8 +51,6 @@ class Rough(Laid):
     """Hurst exponent H: the smaller, the rougher at short wavelengths."""
     stretch: Annotated[float, Quantity("1", above=0)] = 1.0
     """How many times longer its waves are along x than along y: its lay."""
-    skewness: Annotated[float, Quantity("1", at_least=-3, at_most=3)] = 0.0
-    """Skewness Ssk of the heights: below 0 with plateaus and valleys, above 0 with peaks."""
     period: Wavelength | None = None
     """Length after which it repeats, along x and y: eight times `roll_off` if left out."""
     seed: Annotated[int, Field(ge=0)] = 0
@@ -94,16 +88,4 @@ class Rough(Laid):
         # By sums, whose bits, unlike a product's, do not depend on the number of threads.
         lines = np.einsum("xi,ij->xj", np.exp(2j * math.pi * x * along.T), waves)
         relief = np.einsum("xj,jy->xy", lines, np.exp(2j * math.pi * across[:, None] * y))
-        heights = np.array(relief.real)
-        return heights if self.skewness == 0 else self.sq * skewed(heights / self.sq, self.skewness)
-
-
-def skewed(heights: Array, skewness: float) -> Array:
-    """Return log-normal heights of mean 0 and variance 1 from Gaussian ones."""
-    # The real root of (w + 2)² (w - 1) = skewness².
-    half = 1 + 0.5 * skewness**2
-    root = abs(skewness) * math.sqrt(1 + 0.25 * skewness**2)
-    w = math.cbrt(half + root) + math.cbrt(half - root) - 1
-    side = math.copysign(1.0, skewness)
-    exponential = np.exp(side * math.sqrt(math.log(w)) * heights)
-    return np.asarray(side * (exponential - math.sqrt(w)) / math.sqrt(w * (w - 1)))
+        return np.array(relief.real)
