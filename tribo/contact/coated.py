@@ -17,9 +17,9 @@ _FAR = 256.0
 """Distance from a load, in thicknesses, from which the layer does not count: (1/256)² is left."""
 _POINTS = 500
 """Of the table: with 500 the kernel is exact to 4e-10 of its largest value, with 250 to 7e-9."""
-_NEAR, _THICK = 8, 3
+_NEAR = 8
 """Cells around the load over which the pressure of a cell is integrated exactly: 8 leave 5e-10 of
-the largest value, 4 leave 2e-8. And cells of which a layer may be as thick without that."""
+the largest value, 4 leave 2e-8."""
 
 
 def base_kernel(
@@ -44,8 +44,7 @@ def base_kernel(
         reach = 2.0 ** np.ceil(np.log2(furthest / coating.thickness))
         load = _point_load(coating, max(float(reach), 1.0))
         part = _by_gauss(load, halves, spacing)
-        if coating.thickness < _THICK * max(spacing):
-            part[: near[0], : near[1]] = _exact(load, near, spacing)
+        part[: near[0], : near[1]] = _exact(load, near, spacing)
         quarter += part
     i, j = (np.minimum(np.arange(n), n - np.arange(n)) for n in shape)
     return np.asarray(quarter[np.ix_(i, j)])
