@@ -70,7 +70,5 @@ def test_the_middle_position_may_lie_at_an_end_of_the_path(path):
 def test_what_cannot_be_is_refused():
     with pytest.raises(ValueError, match="give extent with a path from a formula"):
         case(extent=None)
-    with pytest.raises(CaseError, match="the path stays within a cell"):
-        Simulation(case(extent=(1e-6, 1e-6)))
     with pytest.raises(CaseError, match="the path and the contact have to fit into it along y"):
         Simulation(case(extent=(1e-4, 1.5e-3), positions="cells")).run()

@@ -161,12 +161,12 @@ def matched_modulus(system: ContactSystem, match: Match) -> float:
         return _matched_line(system, curvature, match)
     root = sqrt(curvature[0] * curvature[1])
     contact = hertz.point(system.modulus, system.load, *curvature)
-    if match == "peak_pressure":
-        return pi * contact.peak_pressure**2 / (system.load * root)
-    depth = contact.approach
-    if match == "contact_radius":
-        depth = 0.5 * contact.semi_axes[0] * contact.semi_axes[1] * root
-    return system.load * root / (pi * depth**2)
+    depths = {
+        "contact_radius": 0.5 * contact.semi_axes[0] * contact.semi_axes[1] * root,
+        "peak_pressure": system.load * root / (pi * contact.peak_pressure),
+        "approach": contact.approach,
+    }
+    return system.load * root / (pi * depths[match] ** 2)
 
 
 def _matched_line(system: ContactSystem, curvature: tuple[float, float], match: Match) -> float:
@@ -179,7 +179,6 @@ def _matched_line(system: ContactSystem, curvature: tuple[float, float], match: 
             "the approach of a line contact between half-spaces has no finite value to match. "
             "Use match = 'contact_radius' or 'peak_pressure', or give modulus or layer"
         )
-    if match == "contact_radius":
-        return 1.5 * line_load / (curved * contact.half_width**3)
-    depth = 0.5 * curved * (0.75 * line_load / contact.peak_pressure) ** 2
-    return contact.peak_pressure / depth
+    peaked = 0.75 * line_load / contact.peak_pressure
+    half_width = contact.half_width if match == "contact_radius" else peaked
+    return 1.5 * line_load / (curved * half_width**3)

@@ -13,7 +13,6 @@ import numpy as np
 from pydantic import Field, field_validator, model_validator
 
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.core.number_tables import read_pairs
 from tribo.core.rounding import ROUND_OFF
@@ -121,11 +120,6 @@ class Planar(Steady):
     def exposures(self, grid: Grid, bodies: Sequence[str]) -> Mapping[str, Exposure]:
         """Return the rows and columns of the swept body at each position."""
         cells = np.round(self._middles(self._ends(grid)) / grid.spacing).astype(int)
-        if not np.any(np.ptp(cells, axis=0)):
-            raise CaseError(
-                "the path stays within a cell; make grid.cells larger, or the window smaller",
-                "kinematics.path",
-            )
         # Moved so that the body is in its own middle in the middle position.
         along, across = (cells[len(cells) // 2] - cells).T
         beyond = 0 if grid.period is not None else int(np.max(np.abs(along)))
