@@ -7,18 +7,17 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Self
 
 import numpy as np
-from pydantic import Tag, field_validator, model_validator
+from pydantic import Tag, model_validator
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
-from tribo.core.loads import NUMBER, ONE_OR_STAGES, STAGES, listed
+from tribo.core.loads import NUMBER, ONE_OR_STAGES, STAGES
 from tribo.core.table import Table
-from tribo.core.units import Quantity, parse
+from tribo.core.units import Quantity
 from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Track, one_swept_body
-from tribo.motion.held import Held, held
-from tribo.motion.kinematics import Kinematics
+from tribo.motion.held import HeldMotion
 
 
 class SpeedStage(Table):
@@ -38,9 +37,10 @@ class SpeedStage(Table):
     """Sliding speed; 0 for a rest."""
 
 
-class Steady(Kinematics):
+class Steady(HeldMotion):
     """Sliding round a closed path, at one speed or in stages, with one moving body."""
 
+    _rate_key, _laps_key = "speed", "revolutions"
     speed: Annotated[
         Annotated[
             float | str,
@@ -52,41 +52,8 @@ class Steady(Kinematics):
     ]
     """Sliding speed, or how often it goes round, as ``"60 rpm"``: a number, or a list of stages,
     each a table with `until` and `speed`, 0 for a rest."""
-    duration: Annotated[float, Quantity("s", above=0)] | None = None
-    """Duration of the motion."""
     revolutions: Annotated[float, Quantity("1", above=0, also=("lap",))] | None = None
     """Number of revolutions."""
-    distance: Annotated[float | str, Quantity("m", above=0, also=("lap",))] | None = None
-    """Sliding distance."""
-    swept: str | None = None
-    """Name of the body whose points pass through the contact; the last body if left out."""
-
-    _in_a_list = field_validator("speed", mode="before")(listed)
-
-    @field_validator("speed")
-    @classmethod
-    def _slides_on(
-        cls, speed: float | str | tuple[SpeedStage, ...]
-    ) -> float | str | tuple[SpeedStage, ...]:
-        if not isinstance(speed, str):
-            held("speed", speed)
-        return speed
-
-    @model_validator(mode="after")
-    def _one_end(self) -> Self:
-        if sum(end is not None for end in (self.duration, self.revolutions, self.distance)) != 1:
-            raise ValueError("give exactly one of duration, revolutions and distance")
-        return self
-
-    @property
-    def _held(self) -> Held:
-        given = self.speed
-        return held("speed", parse(given, "Hz") * self.lap if isinstance(given, str) else given)
-
-    @property
-    def edges(self) -> Sequence[float]:
-        """Times at which one stage of the speed ends and another begins, in s."""
-        return self._held.ends[:-1]
 
     @property
     def end_time(self) -> float:

@@ -1,17 +1,22 @@
-"""A speed or a frequency that is held: at one value, or in stages, each until a time."""
+"""A speed or a frequency that is held, at one value or in stages, and motions by it."""
 
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import accumulate, pairwise
 from math import inf
-from typing import Any
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import field_validator, model_validator
 
 from tribo.core.errors import CaseError
-from tribo.core.loads import check_times
+from tribo.core.loads import check_times, listed
 from tribo.core.rounding import ROUND_OFF
+from tribo.core.units import Quantity, parse
+from tribo.motion.kinematics import Kinematics
 
 
 @dataclass(frozen=True)
@@ -86,3 +91,47 @@ def held(what: str, given: float | tuple[Any, ...]) -> Held:
     if not any(rates):
         raise ValueError("every stage is a rest; give a stage with sliding")
     return Held(tuple(rates), tuple(ends))
+
+
+class HeldMotion(Kinematics):
+    """A motion at a held speed or frequency, up to a time, a distance or a number of laps."""
+
+    _rate_key: ClassVar[str]
+    """Key of its speed or frequency."""
+    _laps_key: ClassVar[str]
+    """Key of its number of laps."""
+
+    duration: Annotated[float, Quantity("s", above=0)] | None = None
+    """Duration of the motion."""
+    distance: Annotated[float | str, Quantity("m", above=0, also=("lap",))] | None = None
+    """Sliding distance."""
+    swept: str | None = None
+    """Name of the body whose points pass through the contact; the last body if left out."""
+
+    _in_a_list = field_validator("speed", "frequency", mode="before", check_fields=False)(listed)
+
+    @field_validator("speed", "frequency", check_fields=False)
+    @classmethod
+    def _slides_on(cls, given: Any) -> Any:
+        if not isinstance(given, str):
+            held(cls._rate_key, given)
+        return given
+
+    @model_validator(mode="after")
+    def _one_end(self) -> Self:
+        ends = self.duration, getattr(self, self._laps_key), self.distance
+        if sum(end is not None for end in ends) != 1:
+            raise ValueError(f"give exactly one of duration, {self._laps_key} and distance")
+        return self
+
+    @property
+    def _held(self) -> Held:
+        given = getattr(self, self._rate_key)
+        if isinstance(given, str):
+            given = parse(given, "Hz") * self.lap
+        return held(self._rate_key, given)
+
+    @property
+    def edges(self) -> Sequence[float]:
+        """Times at which one stage of the speed or frequency ends and another begins, in s."""
+        return self._held.ends[:-1]

@@ -12,14 +12,13 @@ from pydantic import Field, Tag, field_validator, model_validator
 from tribo.core.errors import CaseError
 from tribo.core.findings import COARSE
 from tribo.core.grid import Grid
-from tribo.core.loads import NUMBER, ONE_OR_STAGES, STAGES, listed
+from tribo.core.loads import NUMBER, ONE_OR_STAGES, STAGES
 from tribo.core.table import Table
 from tribo.core.units import Quantity
 from tribo.motion.averaging_error import groove_excess
 from tribo.motion.cycle import Position, Speeds
 from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
-from tribo.motion.held import Held, held
-from tribo.motion.kinematics import Kinematics
+from tribo.motion.held import HeldMotion
 from tribo.motion.stroke import Stroke, check_spacing, odd
 
 LONG, FEW = 4.0, 17
@@ -49,7 +48,7 @@ class FrequencyStage(Table):
     """Full cycles, back and forth, per second; 0 for a rest."""
 
 
-class Reciprocating(Kinematics):
+class Reciprocating(HeldMotion):
     """Stroke S at frequency f: mean speed 2 S f, one body swept over the stroke.
 
     With ``waveform = "sinusoidal"`` the position is −(S/2) cos(2πft) and the speed
@@ -72,6 +71,7 @@ class Reciprocating(Kinematics):
 
     examples = ({"stroke": "2 mm", "frequency": "25 Hz", "cycles": 100},)
     type = "reciprocating"
+    _rate_key, _laps_key = "frequency", "cycles"
     turns_back = True
     stroke: Annotated[float, Quantity("m", above=0, usual=(1e-9, 1.0))]
     """Distance between the two points of reversal."""
@@ -82,12 +82,8 @@ class Reciprocating(Kinematics):
     ]
     """Full cycles, back and forth, per second: a number or, at a constant speed along the stroke, a
     list of stages, each a table with `until` and `frequency`, 0 for a rest."""
-    duration: Annotated[float, Quantity("s", above=0)] | None = None
-    """Duration of the motion."""
     cycles: Annotated[float, Quantity("1", above=0, also=("lap",))] | None = None
     """How many full cycles it runs."""
-    distance: Annotated[float | str, Quantity("m", above=0, also=("lap",))] | None = None
-    """Sliding distance."""
     waveform: Literal["constant_speed", "sinusoidal"] = "constant_speed"
     """How the speed varies along the stroke."""
     positions: Annotated[int, Field(ge=3)] | Literal["cells", "average", "auto"] = "auto"
@@ -95,38 +91,15 @@ class Reciprocating(Kinematics):
     every cell of the stroke; ``"average"`` takes the track average for all of them. ``"auto"`` is
     the average from 20 lengths of the first contact on, else positions 0.425 of its half-width
     apart; the motion itself takes the average until a case is composed with it."""
-    swept: str | None = None
-    """Name of the body whose points pass through the contact; the last body if left out."""
-
-    _in_a_list = field_validator("frequency", mode="before")(listed)
-
-    @field_validator("frequency")
-    @classmethod
-    def _slides_on(
-        cls, frequency: float | tuple[FrequencyStage, ...]
-    ) -> float | tuple[FrequencyStage, ...]:
-        held("frequency", frequency)
-        return frequency
 
     @model_validator(mode="after")
-    def _one_end(self) -> Self:
-        if sum(end is not None for end in (self.duration, self.cycles, self.distance)) != 1:
-            raise ValueError("give exactly one of duration, cycles and distance")
+    def _one_frequency(self) -> Self:
         if self.waveform == "sinusoidal" and not isinstance(self.frequency, float):
             raise ValueError(
                 'a frequency in stages is for waveform = "constant_speed": leave waveform out, or '
                 'give the path as type = "measured"'
             )
         return self
-
-    @property
-    def _held(self) -> Held:
-        return held("frequency", self.frequency)
-
-    @property
-    def edges(self) -> Sequence[float]:
-        """Times at which one stage of the frequency ends and another begins, in s."""
-        return self._held.ends[:-1]
 
     _middle = field_validator("positions")(odd)
 
