@@ -122,13 +122,6 @@ def test_hertz_on_a_layer_is_the_published_one(depth):
     assert published(found) == pytest.approx(published(depth), rel=5e-3)
 
 
-def test_a_layer_thinner_than_any_cell_is_the_base():
-    problem = ball(Coating(1e-10, SOFT, STIFF), 0.5, 0.1e-3)
-    bare = DcFft().solve(replace(problem, system=replace(problem.system, coatings={})))
-    coated = DcFft().solve(problem)
-    assert coated.pressure.max() == pytest.approx(bare.pressure.max(), rel=1e-3)
-
-
 @pytest.mark.parametrize("poisson", [0.3, 0.499])
 def test_the_box_of_the_contact_sees_what_the_whole_window_does(poisson):
     # A nearly incompressible layer rises beside the contact.

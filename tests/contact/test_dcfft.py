@@ -8,7 +8,6 @@ from contact_problems import HARDNESS, MODULUS, ONSET, RADIUS, ball, problem, so
 
 from tribo.contact.bounded_cg import solve_bounded
 from tribo.contact.padded_half_space import HalfSpace
-from tribo.core.box import around
 from tribo.core.contact import WearCompliance
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
@@ -70,23 +69,6 @@ def test_same_problem_and_start_give_the_same_bits_whatever_came_between():
         one.solve(ball(cells))
     assert np.array_equal(solver().solve(case).pressure, first.pressure)
     assert np.array_equal(one.solve(case, first).pressure, again.pressure)
-
-
-def test_box_encloses_its_cells_with_the_margin_and_few_sizes():
-    rng = np.random.default_rng(0)
-    sizes = set()
-    for _ in range(300):
-        cells = np.zeros((200, 150), dtype=bool)
-        i, j = rng.integers(0, 200, 2), rng.integers(0, 150, 2)
-        cells[i.min() : i.max() + 1, j.min() : j.max() + 1] = True
-        box = around(cells, 4)
-        sizes.update(box.shape)
-        inner = np.zeros_like(cells)
-        inner[box.slices] = True
-        padded = np.zeros_like(cells)
-        padded[max(i.min() - 4, 0) : i.max() + 5, max(j.min() - 4, 0) : j.max() + 5] = True
-        assert inner[padded].all()
-    assert len(sizes) < 25
 
 
 def test_window_too_small_for_the_load_is_an_error_that_says_so():
