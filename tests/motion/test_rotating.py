@@ -12,25 +12,18 @@ ROWS = RADIUS + GRID.mesh[1][0]
 RADII = np.hypot(GRID.mesh[0], ROWS)
 
 
-def run(
-    pin, worn=("pin", "disk"), motion=Rotating, ends_at_window=False, law=None, effects=(), **end
-):
-    surfaces, law = {"pin": pin, "disk": flat()}, law or archard(K)
+def run(pin, law, distance, **changes):
     return small(
         grid=GRID,
-        ends_at_window=ends_at_window,
-        bodies=[
-            named(name, surface, steel(), law if name in worn else None)
-            for name, surface in surfaces.items()
-        ],
+        bodies=[named("pin", pin, steel(), law), named("disk", flat(), steel())],
         contact=foundation(),
-        effects=effects,
-        kinematics=motion(speed=0.1, **{"track_radius": RADIUS, **end}),
+        kinematics=Rotating(speed=0.1, track_radius=RADIUS, distance=distance),
+        **changes,
     )
 
 
 def test_a_law_is_asked_at_the_speed_of_each_row():
-    model = run(flat(), worn=("pin",), distance=2000, ends_at_window=True, law=Faster())
+    model = run(flat(), Faster(), distance=2000, ends_at_window=True)
     # Worn evenly, p r v is the same everywhere.
     even = LOAD / (GRID.size[0] * GRID.size[1]) / np.mean(RADII**-2.0) / RADII**2
     np.testing.assert_allclose(last(model).contact.pressure, even, rtol=3e-3)
@@ -47,7 +40,7 @@ class Clock(Effect):
 
 
 def test_time_is_the_same_for_all_points():
-    model = run(sphere(), distance=0.2, effects=(Clock(),))
+    model = run(sphere(), archard(K), distance=0.2, effects=(Clock(),))
     np.testing.assert_allclose(last(model).between["seconds"], 2, rtol=1e-9)
 
 
