@@ -1,15 +1,12 @@
 """What the stroke average costs, as a motion states it, against runs of a moving contact."""
 
 import pytest
-from paper_models import motion
+from paper_models import motion, small
 
 from tribo.core.errors import CaseError
 from tribo.motion.averaging_error import groove_excess
 from tribo.motion.closed_track import Unidirectional
-
-
-def stroke(value="2 mm", **more):
-    return motion(stroke=value, duration="1 h", **more)
+from tribo.simulation.march import begin
 
 
 @pytest.mark.parametrize(
@@ -38,13 +35,14 @@ def test_a_shallow_groove_is_average_down_to_strokes_of_two_half_widths_only():
     assert groove_excess(0.3, 1.0, 1e-9, 1.0) > 3
 
 
-def test_a_stroke_under_one_half_width_is_refused_with_a_remedy():
-    with pytest.raises(CaseError, match=r"^kinematics\.stroke: 0\.1 mm is shorter") as refused:
-        stroke("0.1 mm").check_contact(0.15e-3)
-    assert 'at least 0.15 mm, or resolve it by kinematics.positions = "auto"' in str(refused.value)
-    stroke("0.16 mm").check_contact(0.15e-3)
-
-
-def test_a_closed_track_under_one_half_width_is_refused():
-    with pytest.raises(CaseError, match=r"0\.1 mm long, .*0\.15 mm.* 0\.3 mm"):
-        Unidirectional(speed=0.1, distance=1, track_length=1e-4).check_contact(0.15e-3)
+@pytest.mark.parametrize(
+    "kinematics",
+    [
+        motion(stroke="0.1 mm", positions="average"),
+        Unidirectional(speed=0.1, distance=1, track_length="0.1 mm"),
+    ],
+)
+def test_a_track_under_one_half_width_is_not_averaged(kinematics):
+    with pytest.raises(CaseError, match=r"0\.1 mm, less than the half-width") as refused:
+        begin(small(kinematics=kinematics))
+    assert refused.value.path == "kinematics"

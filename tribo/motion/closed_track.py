@@ -70,16 +70,6 @@ class Steady(HeldMotion):
         """Return the first time at which `distance` is reached, in s."""
         return self._held.reached(distance)
 
-    def check_contact(self, half_width_x: float) -> None:
-        """Refuse a track that is shorter than the half-width."""
-        if self.track_extent >= half_width_x:
-            return
-        raise CaseError(
-            f"the track is {1e3 * self.track_extent:.3g} mm long, less than the half-width of the "
-            f"first contact, {1e3 * half_width_x:.3g} mm: give one of at least the contact's "
-            f"length, {2e3 * half_width_x:.3g} mm"
-        )
-
 
 class Unidirectional(Steady):
     """Speed v round a track of length ℓ; one body swept over the track.

@@ -146,4 +146,4 @@ class Kinematics(Component):
         return None
 
     def check_contact(self, half_width_x: float) -> None:
-        """Raise `CaseError` if a first contact of this half-width makes the averaging absurd."""
+        """Raise `CaseError` if its positions cannot serve a first contact of this half-width."""

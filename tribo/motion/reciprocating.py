@@ -9,7 +9,6 @@ from typing import Annotated, Literal, Self
 import numpy as np
 from pydantic import Field, Tag, field_validator, model_validator
 
-from tribo.core.errors import CaseError
 from tribo.core.findings import COARSE
 from tribo.core.grid import Grid
 from tribo.core.loads import NUMBER, ONE_OR_STAGES, STAGES
@@ -197,15 +196,5 @@ class Reciprocating(HeldMotion):
         )
 
     def check_contact(self, half_width_x: float) -> None:
-        """Refuse too few positions, and for the average a stroke shorter than the half-width."""
-        if not self._averages:
-            check_spacing(self.stroke, self.positions, half_width_x)
-            return
-        if self.stroke >= half_width_x:
-            return
-        raise CaseError(
-            f"{1e3 * self.stroke:.3g} mm is shorter than the half-width of the first contact, "
-            f"{1e3 * half_width_x:.3g} mm, too short for an average over the stroke; give at least "
-            f'{1e3 * half_width_x:.3g} mm, or resolve it by kinematics.positions = "auto"',
-            "kinematics.stroke",
-        )
+        """Refuse positions further apart than half the half-width."""
+        check_spacing(self.stroke, self.positions, half_width_x)

@@ -108,6 +108,15 @@ def check_stroke(model: Model, state: State) -> None:
         return
     half_width = half_widths(state.contact, model.grid)[0]
     with located("kinematics"):
+        for name in model.changing:
+            exposure = model.cycle.maps[name]
+            length = exposure.track(model.grid)
+            if exposure.averaged and length < half_width:
+                raise CaseError(
+                    f"a track of {1e3 * length:.3g} mm, less than the half-width of the first "
+                    f"contact, {1e3 * half_width:.3g} mm, has no average; lengthen it, or resolve "
+                    'a stroke by kinematics.positions = "auto"'
+                )
         resolved = any(each.swept and not each.averaged for each in model.cycle.maps.values())
         # Positions of a contact that repeats lie over the window, not over the stroke.
         if not (model.case.contact.periodic and resolved):
