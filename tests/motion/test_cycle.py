@@ -47,9 +47,9 @@ def test_a_passing_body_has_the_rows_of_all_its_positions():
 
 
 def test_positions_that_cannot_serve_the_contact_are_refused():
-    kinematics = motion(stroke="2 mm", positions=19)
+    kinematics = motion(stroke="2 mm", positions=9)
     # A half-width of 0.2 mm.
-    with pytest.raises(CaseError, match=r"kinematics\.positions: .*every 0.111 mm.*at least 21"):
+    with pytest.raises(CaseError, match=r"kinematics\.positions: 9 .* 0.3 mm apart.*at least 21"):
         begin(small(grid=Grid((2e-3, 2e-3), (20, 20)), kinematics=kinematics))
 
 

@@ -196,10 +196,6 @@ class GuardedMotion(Guard[Kinematics]):
                 )
             before = distance
 
-    def check_contact(self, half_width_x: float) -> None:
-        """Raise `CaseError` if its averaging makes no sense for the first contact."""
-        self.ask(self.component.check_contact, half_width_x)
-
     def limitation(self, *seen: Any) -> str | None:
         """Return why its averaging no longer holds, if so; see `Kinematics.limitation`."""
         answer = self.ask(self.component.limitation, *seen)

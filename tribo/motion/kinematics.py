@@ -144,6 +144,3 @@ class Kinematics(Component):
             Whether the contact spans the window, as for a cylinder on a flat.
         """
         return None
-
-    def check_contact(self, half_width_x: float) -> None:
-        """Raise `CaseError` if its positions cannot serve a first contact of this half-width."""

@@ -19,7 +19,7 @@ from tribo.core.units import Quantity
 from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Passing, one_swept_body
 from tribo.motion.kinematics import Kinematics
-from tribo.motion.stroke import Stroke, check_spacing, odd
+from tribo.motion.stroke import Stroke, odd
 
 CLOSED = 0.01
 """Largest distance between the ends of a path that repeats, of its range."""
@@ -142,10 +142,6 @@ class Measured(Kinematics):
         """Return its rows along the path for the swept body."""
         passing = Passing(grid, self._stroke(grid).starts, self.track_extent)
         return one_swept_body(grid, bodies, self.swept, passing)
-
-    def check_contact(self, half_width_x: float) -> None:
-        """Refuse positions further apart than half the half-width."""
-        check_spacing(self.track_extent, self.positions, half_width_x)
 
     def _stroke(self, grid: Grid) -> Stroke:
         return Stroke(self.track_extent, grid.spacing[0], self.positions, grid.period)

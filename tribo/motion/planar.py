@@ -20,7 +20,6 @@ from tribo.core.units import Quantity
 from tribo.motion.closed_track import Steady
 from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure, Passing, one_swept_body
-from tribo.motion.stroke import check_spacing
 
 SAMPLES = 2**13
 """Points of a path from a formula: the length of a circle is exact to 1e-7."""
@@ -126,10 +125,6 @@ class Planar(Steady):
         starts = (along + beyond).tolist()
         passing = Passing(grid, starts, self.track_extent, across.tolist())
         return one_swept_body(grid, bodies, self.swept, passing)
-
-    def check_contact(self, half_width_x: float) -> None:
-        """Refuse positions further apart than half the half-width."""
-        check_spacing(self.track_extent, self.positions, half_width_x)
 
     def _at(self, slid: Array) -> Array:
         """Return the point of the path at a sliding distance (m), shape (…, 2), in m."""

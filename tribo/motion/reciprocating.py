@@ -18,7 +18,7 @@ from tribo.motion.averaging_error import groove_excess
 from tribo.motion.cycle import Position, Speeds
 from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
 from tribo.motion.held import HeldMotion
-from tribo.motion.stroke import Stroke, check_spacing, odd
+from tribo.motion.stroke import Stroke, odd
 
 LONG, FEW = 4.0, 17
 """Stroke in half-widths up to which an estimate takes positions, and how many: eight a contact's
@@ -194,7 +194,3 @@ class Reciprocating(HeldMotion):
             f"mm, {widths:.2g} half-widths of the {2e3 * half_width_x:.3g} mm contact); resolve "
             "the stroke by kinematics.positions = 33 or more"
         )
-
-    def check_contact(self, half_width_x: float) -> None:
-        """Refuse positions further apart than half the half-width."""
-        check_spacing(self.stroke, self.positions, half_width_x)

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from tribo.core.arrays import Array
-from tribo.core.errors import CaseError
 from tribo.core.rounding import ROUND_OFF, SAME
 from tribo.motion.cycle import Position
 
@@ -146,21 +145,6 @@ def odd(count: int | str) -> int | str:
             'or "cells" for every cell, however many there are'
         )
     return count
-
-
-def check_spacing(length: float, count: int | str, half_width: float) -> None:
-    """Refuse too few positions along a stroke (m) for a contact of this half-width (m)."""
-    if isinstance(count, str):
-        return
-    apart = length / (count - 1)
-    # Further apart they leave ripples of up to 10 % of its depth in the groove.
-    if apart > 0.5 * half_width * (1 + ROUND_OFF):
-        raise CaseError(
-            f"{count} positions lie every {1e3 * apart:.3g} mm, further apart than "
-            f"{0.5e3 * half_width:.3g} mm, half the half-width of the first contact; give at least "
-            f"{least_positions(length, half_width)}",
-            "kinematics.positions",
-        )
 
 
 def least_positions(length: float, half_width: float) -> int:

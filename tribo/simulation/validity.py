@@ -24,6 +24,7 @@ from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.evolution.measure import cycle_error
 from tribo.model.model import Model
+from tribo.motion.stroke import least_positions
 from tribo.registry.hookspecs import hookimpl
 from tribo.registry.registry import from_packages
 
@@ -103,7 +104,7 @@ def _jump(height: Array) -> float:
 
 
 def check_stroke(model: Model, state: State) -> None:
-    """Raise `CaseError` if averaging makes no sense for the first contact, in `state`."""
+    """Raise `CaseError` if track or positions cannot serve the first contact, in `state`."""
     if not model.changing:
         return
     half_width = half_widths(state.contact, model.grid)[0]
@@ -117,10 +118,16 @@ def check_stroke(model: Model, state: State) -> None:
                     f"contact, {1e3 * half_width:.3g} mm, has no average; lengthen it, or resolve "
                     'a stroke by kinematics.positions = "auto"'
                 )
-        resolved = any(each.swept and not each.averaged for each in model.cycle.maps.values())
-        # Positions of a contact that repeats lie over the window, not over the stroke.
-        if not (model.case.contact.periodic and resolved):
-            model.motion.check_contact(half_width)
+        # Further apart they leave ripples of up to 10 % of its depth in the groove; each lies up to
+        # half a cell beside its place.
+        cell, apart = max(model.grid.spacing), model.cycle.apart
+        if apart > (0.5 * half_width + cell) * (1 + ROUND_OFF):
+            raise CaseError(
+                f"{len(model.cycle)} positions lie up to {1e3 * apart:.3g} mm apart, more than "
+                f"{0.5e3 * half_width:.3g} mm, half the half-width of the first contact; give at "
+                f"least {least_positions(model.case.kinematics.track_extent, half_width)}",
+                "kinematics.positions",
+            )
 
 
 def limitation(model: Model, state: State) -> Finding | None:

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import Any
 
 import numpy as np
 
 from tribo.case import Stop
-from tribo.core.errors import CaseError
 from tribo.core.grid import Grid, RepeatingGrid
 from tribo.guards.motion import GuardedMotion
 from tribo.motion.exposure import Exposure
@@ -74,8 +72,6 @@ class KinematicsChecks(Checks):
         motion.check_distance(end, sorted([*few, *0.01 * few]))
         for half_width in (1e-6, 1e-4, 1e-2):
             motion.limitation(half_width, 1e-5, 1e-6, 1.0, False)
-            with suppress(CaseError):
-                motion.check_contact(half_width)
         for grid in (GRID, RepeatingGrid(size=GRID.size, cells=GRID.cells)):
             self._exposures(grid)
 
