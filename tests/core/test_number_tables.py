@@ -48,11 +48,11 @@ def test_a_csv_file_may_have_a_header_and_missing_values(tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("1,2\n3,hello\n", r"line 2, column 2 has 'hello', which is no number; separate"),
-        ("scan 5\nx,y\n" + TWO, r"line 2, column 1 has 'x', .* keep one header line at most"),
-        ("1.5;2\n3;4\n", r"line 2, column 1 has '3;4', .* by commas .* decimal points, as 1\.5"),
-        (TWO + "5,6,7\n8\n", "line 3 has 3 values, and those before it have 2; give as many"),
-        ("x,y\n", "it has no line of numbers, separated by commas"),
+        ("1,2\n3,hello\n", "line 2 has 'hello', which is no number"),
+        ("scan 5\nx,y\n" + TWO, "line 2 has 'x', .* one header line at most"),
+        ("1.5;2\n3;4\n", r"line 2 has '3;4', .* by commas, with decimal points, as 1\.5"),
+        (TWO + "5,6,7\n8\n", "line 3 has 3 values"),
+        ("x,y\n", "it has no line of numbers"),
     ],
 )
 def test_what_is_wrong_in_a_csv_file_is_told_with_its_line(text, words, tmp_path):
@@ -71,7 +71,7 @@ def test_an_array_of_other_than_real_numbers_is_told(values, kind, tmp_path):
 @pytest.mark.parametrize("cell", ["1_0e-9", "\uff11"])
 def test_what_python_alone_takes_for_a_number_is_none(cell, tmp_path):
     (tmp_path / "a.csv").write_text(f"1,2\n3,{cell}\n", encoding="utf-8")
-    with pytest.raises(ValueError, match="line 2, column 2"):
+    with pytest.raises(ValueError, match="line 2 has"):
         table_of_numbers(tmp_path / "a.csv")
     with pytest.raises(CaseError):
         Quantity("m").read(f"{cell} m")

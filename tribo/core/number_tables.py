@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import isnan
 from pathlib import Path
 from typing import Any
 
@@ -88,39 +87,32 @@ def check_pixels(count: int) -> None:
 def _table_of_text(lines: Iterable[str]) -> Array:
     """Return the numbers of a CSV text, below one line of words at most; NaN where missing."""
     rows: list[Array] = []
-    header = ""
+    headed = False
     for place, line in enumerate(lines, 1):
         cells = [cell.strip() for cell in line.partition("#")[0].split(",")]
+        wrong = [cell for cell in cells if not _is_number(cell)]
         if cells == [""]:
             continue
-        values = [_value(cell) for cell in cells]
-        if None in values:
-            some = any(value is not None and not isnan(value) for value in values)
-            if not (rows or header or some):
-                header = line
-                continue
-            column = values.index(None)
+        if wrong == cells and not rows and not headed:
+            headed = True
+            continue
+        if wrong or (rows and len(cells) != len(rows[0])):
+            found = f"{wrong[0][:40]!r}, which is no number" if wrong else f"{len(cells)} values"
             raise ValueError(
-                f"line {place}, column {column + 1} has {cells[column][:40]!r}, which is no "
-                "number; separate values by commas and write them with decimal points, as 1.5, "
-                "leave missing ones empty, and keep one header line at most"
+                f"line {place} has {found}; give as many numbers in each line, separated by "
+                "commas, with decimal points, as 1.5, leave missing ones empty, and keep one "
+                "header line at most"
             )
-        row = np.array(values, dtype=np.float64)
-        if rows and len(row) != len(rows[0]):
-            raise ValueError(
-                f"line {place} has {len(row)} values, and those before it have {len(rows[0])}; "
-                "give as many in each, separated by commas, with decimal points"
-            )
-        rows.append(row)
-        check_pixels(len(rows) * len(row))
+        rows.append(np.array([number(cell or "nan") for cell in cells]))
+        check_pixels(len(rows) * len(cells))
     if not rows:
         raise ValueError("it has no line of numbers, separated by commas, with decimal points")
     return np.array(rows)
 
 
-def _value(cell: str) -> float | None:
-    """Return the number in a cell, NaN in an empty one; None if it has something else."""
+def _is_number(cell: str) -> bool:
     try:
-        return number(cell or "nan")
+        number(cell or "nan")
     except ValueError:
-        return None
+        return False
+    return True
