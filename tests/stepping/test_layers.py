@@ -23,7 +23,7 @@ def ended(case, **options):
 def passed(case):
     """Return the last save, and the distances at which layers were worn through, in m."""
     with Simulation(case).run() as result:
-        return result.saves()[-1], [each["distance_m"] for each in result.worn_through]
+        return result.saves()[-1], [f.distance for f in result.findings if f.kind == "layer"]
 
 
 EXPLICIT = {"type": "explicit", "time_step": "170 s"}
@@ -79,14 +79,11 @@ def test_the_elasticity_of_a_layer_reaches_the_contact():
 def test_a_run_resumed_has_the_same_bits(tmp_path):
     case = flat(pin=coated(), distance="250 m", output={"save_times": ["1500 s"]})
     with goes_on(case, tmp_path, 9) as whole:
-        (passed,) = whole.report().as_json()["worn_through"]
+        (passed,) = whole.findings
         assert whole.provenance["components"]["bodies.pin.layers.1.wear"]["type"] == "archard"
-    assert passed == {
-        "body": "pin",
-        "layer": 1,
-        "distance_m": pytest.approx(THROUGH, rel=1e-9),
-        "time_s": pytest.approx(10 * THROUGH, rel=1e-9),
-    }
+    assert passed.place == "bodies.pin.layers.1"
+    assert passed.distance == pytest.approx(THROUGH, rel=1e-9)
+    assert passed.time == pytest.approx(10 * THROUGH, rel=1e-9)
 
 
 def test_a_run_that_ends_at_a_depth_tells_only_of_layers_passed_by_then():

@@ -161,7 +161,7 @@ def layer_worn_through(body: str, layer: int, bottom: float) -> Finding:
         f"layer {layer} of {body}, down to {1e6 * bottom:.4g} µm, is worn through at its "
         "deepest point",
         value=bottom,
-        place=f"bodies.{body}.layers.{layer - 1}",
+        place=f"bodies.{body}.layers.{layer}",
     )
 
 
@@ -250,19 +250,6 @@ def failed(error: BaseException) -> Finding:
 def damaged(damage: str) -> Finding:
     """Word a checkpoint that could not be read."""
     return Finding("checkpoint", f"{damage}; this is the state of the checkpoint before it")
-
-
-def worn_through(findings: Iterable[Finding]) -> list[dict[str, str | int | float]]:
-    """Return the layers worn through, with body, distance and time, as plain data."""
-    passed: list[dict[str, str | int | float]] = []
-    for each in findings:
-        if each.kind == "layer":
-            _, body, _, layer = each.place.split(".")
-            assert each.distance is not None
-            assert each.time is not None
-            when = {"distance_m": each.distance, "time_s": each.time}
-            passed.append({"body": body, "layer": int(layer) + 1, **when})
-    return passed
 
 
 def as_json(findings: Iterable[Finding]) -> str:

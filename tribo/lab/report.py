@@ -95,8 +95,8 @@ class LabReport:
 
     `first_contact_words` compare it with Hertz and the onset of yield.
     `inferred` are the volumes by a lab's formulas, with their errors; ``rows``
-    are from the plugins of its models. `worn_through` lists the layers worn
-    through, and when; `findings` are from the run, and from rows beyond their limit.
+    are from the plugins of its models. `findings` are from the run, and from rows
+    beyond their limit.
 
     Examples
     --------
@@ -112,7 +112,6 @@ class LabReport:
     first_contact: FirstContact
     first_contact_words: str
     rows: tuple[LabRow, ...] = ()
-    worn_through: tuple[Mapping[str, Any], ...] = ()
     findings: tuple[Finding, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
@@ -122,7 +121,6 @@ class LabReport:
             "inferred_volumes": [each._asdict() for each in self.inferred],
             "first_contact": self.first_contact._asdict(),
             "plugins": [row._asdict() for row in self.rows],
-            "worn_through": list(self.worn_through),
         }
 
 
@@ -137,7 +135,6 @@ def lab_report(result: Result) -> LabReport:
         first_contact=first,
         first_contact_words=words,
         rows=tuple(rows),
-        worn_through=tuple(result.worn_through),
         findings=(*result.findings, *(each for each in beyond if each)),
     )
 

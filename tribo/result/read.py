@@ -17,7 +17,7 @@ from tribo.core.column import labelled
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError
 from tribo.core.fields import Field
-from tribo.core.findings import Finding, worn_through
+from tribo.core.findings import Finding
 from tribo.core.grid import Grid
 from tribo.core.hdf5 import open_hdf5
 from tribo.core.shorthand import call
@@ -186,11 +186,6 @@ class Result(AbstractContextManager["Result"]):
         words = "Result.notices is now Result.warnings; tribo 0.3 has only that"
         warnings.warn(words, DeprecationWarning, stacklevel=2)
         return self.warnings
-
-    @property
-    def worn_through(self) -> list[dict[str, Any]]:
-        """Layers that the deepest point of a body passed: body, layer, distance and time."""
-        return worn_through(self.findings)
 
     @property
     def system(self) -> ContactSystem:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from tribo.case import Case, Output
 from tribo.component import components
 from tribo.core.errors import CaseError, NumericalError, PluginError, TooWorn
-from tribo.core.findings import Finding, outgrown, trial_failed, worn_through
+from tribo.core.findings import Finding, outgrown, trial_failed
 from tribo.core.grid import Grid
 from tribo.core.measures import Measures
 from tribo.evolution.local_fields import effect_fields
@@ -56,7 +55,7 @@ class Prediction:
     hertz: HertzContact | None
     cells_across: tuple[float, float] | None
     last: Measures | None
-    worn_through: tuple[Mapping[str, Any], ...]
+    worn_through: tuple[Finding, ...]
     window_holds: bool | None
     positions: int
     """Of a cycle in which the contact is solved; 1 for an average."""
@@ -80,7 +79,7 @@ class Trial:
 
     last: Measures | None = None
     outgrown: float | None = None
-    worn_through: tuple[Mapping[str, Any], ...] = ()
+    worn_through: tuple[Finding, ...] = ()
     findings: tuple[Finding, ...] = ()
     failure: Finding | None = None
     exit_code: int = 0
@@ -165,7 +164,8 @@ def _trial(model: Model, first: Measures) -> Trial:
         *(replace(each, words=f"at {each.time:.3g} s {each.words}") for each in watch.said),
         *([limit] if limit else []),
     )
-    return Trial(measure(coarse, state), when, tuple(worn_through(state.findings)), findings)
+    layers = tuple(each for each in state.findings if each.kind == "layer")
+    return Trial(measure(coarse, state), when, layers, findings)
 
 
 def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) -> Model:

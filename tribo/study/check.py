@@ -201,11 +201,6 @@ def _end(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
             ended = f"reached after {readable(last.time, '.3g')} s"
         yield f"stop.depth of {1e6 * stop.depth:.4g} µm, about", ended
     for passed in prediction.worn_through:
-        path, end = (readable(passed[key], ".3g") for key in ("distance_m", "time_s"))
-        when = f"{path} m, {end} s"
-        yield (
-            f"layer {passed['layer']} of {passed['body']} worn through, about",
-            f"{when}, on a coarse grid",
-        )
+        yield "on a coarse grid, about", str(passed)
     if any(body.layers for body in model.case.bodies.values()) and not prediction.worn_through:
         yield "layers", "none is worn through"

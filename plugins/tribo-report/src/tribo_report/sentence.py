@@ -75,15 +75,16 @@ def _coating(result: Result, name: str, layers: int) -> str:
     """Name the layers of a body that were worn through, and when."""
     if not layers:
         return ""
-    passed = [each for each in result.worn_through if each["body"] == name]
+    place = f"bodies.{name}.layers."
+    passed = [each for each in result.findings if each.place.startswith(place)]
     what = "coating" if layers == 1 else f"coating ({layers} layers)"
     if not passed:
         return f" The {what} of the {name} is nowhere worn through."
     last = passed[-1]
-    which = "" if layers == 1 else f" down to layer {last['layer']}"
+    which = "" if layers == 1 else f" down to layer {last.place.removeprefix(place)}"
     return (
         f" The {what} of the {name} is worn through{which} at its deepest point since "
-        f"{last['distance_m']:.4g} m."
+        f"{last.distance:.4g} m."
     )
 
 
