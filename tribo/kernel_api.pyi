@@ -88,7 +88,6 @@ from tribo.lab.report import lab_report as lab_report
 from tribo.lab.report import lab_sentences as lab_sentences
 from tribo.lab.report import quantity_rows as quantity_rows
 from tribo.lab.report import run_sentences as run_sentences
-from tribo.lab.rests import with_rests as with_rests
 from tribo.lab.scar import Scar as Scar
 from tribo.lab.scar import crown as crown
 from tribo.lab.scar import diameter as diameter

@@ -13,7 +13,6 @@ from matplotlib.axes import Axes
 from tribo.core.arrays import Array
 from tribo.core.rounding import ROUND_OFF
 from tribo.lab.kept import kept_fields, steady
-from tribo.lab.rests import with_rests
 from tribo.lab.units import shown_in, size, time_unit
 from tribo.plotting.picture import Picture
 from tribo.plotting.style import OVER, UNDER, Look, ticks
@@ -126,7 +125,7 @@ def _wear(result: Result) -> list[TimePanel]:
 
 
 def _contact(result: Result) -> list[TimePanel]:
-    table = with_rests(result)
+    table = result.table("history")
     if len(table["time_s"]) < 2:
         return []
     pressures = {"largest": "max_pressure_Pa", "centre": "centre_pressure_Pa"}
@@ -144,7 +143,7 @@ def _contact(result: Result) -> list[TimePanel]:
 
 
 def _friction(result: Result) -> list[TimePanel]:
-    table, looks = with_rests(result), [{"color": OVER["color"]}]
+    table, looks = result.table("history"), [{"color": OVER["color"]}]
     force = table["friction_force_N"]
     if len(force) < 2 or not np.isfinite(force).all() or steady(force):
         return []
@@ -178,11 +177,10 @@ def _columns(
     unit: str,
     names: Mapping[str, str],
     looks: Sequence[Look] = (UNDER, OVER),
-    scale: Callable[[Axes], None] = _from_zero,
     factor: float = 1.0,
 ) -> TimePanel:
     curves = {label: (table["time_s"], factor * table[name]) for label, name in names.items()}
-    return TimePanel(what, unit, curves, looks, scale)
+    return TimePanel(what, unit, curves, looks)
 
 
 HISTORIES: Mapping[str, Callable[[Result], list[TimePanel]]] = {

@@ -19,7 +19,6 @@ from tribo.kernel_api import (
     size,
     time_labels,
     time_unit,
-    with_rests,
 )
 
 from tribo_report.reduced import Blocks, block_words, each_plain, plain
@@ -160,7 +159,7 @@ def history(results: Results) -> dict[str, Any]:
     """Return panels of curves over the steps, against the distance, and the time."""
     tables, left_out = dict[str, dict[str, Array]](), 0
     for label, result in results.items():
-        every = with_rests(result)
+        every = result.table("history")
         kept = thinned(len(every["time_s"]), LONGEST)
         tables[label] = {name: column[kept] for name, column in every.items()}
         left_out += len(every["time_s"]) - len(kept)
