@@ -12,8 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ball_on_track import BallOnTrack, ball_on_track
+from scipy.optimize import brentq
 
-from tribo.lab.formulas import ball_cap_depth, cap_diameter
+from tribo.lab.formulas import ball_cap_depth, ball_cap_volume
 
 LOAD = 100.0  # N
 RADIUS = 5e-3  # m, of the ball
@@ -215,7 +216,8 @@ def readings() -> tuple[Reading, Reading]:
 
 def flat_cap() -> Cap:
     """Take the ball's weighed loss for a flat cap."""
-    diameter = cap_diameter(BALL_LOSS / DENSITY, RADIUS)
+    lost = BALL_LOSS / DENSITY
+    diameter = brentq(lambda d: ball_cap_volume(d, RADIUS) - lost, 0.0, 2 * RADIUS, xtol=1e-15)
     return Cap(0.5 * diameter, ball_cap_depth(diameter, RADIUS))
 
 

@@ -37,21 +37,6 @@ def ball_cap_volume(diameter: float, radius: float) -> float:
     return math.pi * h * (0.75 * diameter**2 + h**2) / 6.0
 
 
-def cap_diameter(volume: float, radius: float) -> float:
-    """Diameter of the flat scar that has lost this volume, exact.
-
-    Inverse of `ball_cap_volume`, V = πh²(3R − h)/3, for caps up to half the ball.
-
-    Notes
-    -----
-    With 1 − h/R = cos φ − √3 sin φ, the cubic h²(3R − h) = 3V/π becomes
-    sin²(3φ/2) = 3V/4πR³.
-    """
-    phi = 2.0 / 3.0 * math.asin(math.sqrt(3.0 * volume / (4.0 * math.pi * radius**3)))
-    h = radius * (2.0 * math.sin(0.5 * phi) ** 2 + math.sqrt(3.0) * math.sin(phi))
-    return 2.0 * math.sqrt(h * (2.0 * radius - h))
-
-
 def conforming_ball_volume(along: float, across: float, radius: float, groove: float) -> float:
     """Volume off a ball whose scar conforms to a groove (ASTM D7755, DIN 51834).
 

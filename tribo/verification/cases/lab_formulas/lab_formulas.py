@@ -11,10 +11,8 @@ def found() -> dict[str, float]:
     """Return volumes and sections, in SI units."""
     y = (np.arange(500) - 249.5) * WIDTH / 500
     section = formulas.planimetric_area((0.25 * WIDTH**2 - y**2) / (2 * GROOVE), WIDTH / 500)
-    cap = formulas.ball_cap_volume(WIDTH, RADIUS)
     return {
-        "ball: flat scar, G99": cap,
-        "ball: diameter of a flat scar": formulas.cap_diameter(cap, RADIUS),
+        "ball: flat scar, G99": formulas.ball_cap_volume(WIDTH, RADIUS),
         "ball: scar in a groove, D7755": formulas.conforming_ball_volume(
             WIDTH, WIDTH, RADIUS, GROOVE
         ),
