@@ -1,6 +1,5 @@
 """The size of a scar, against the worn ball in the rigid limit."""
 
-from importlib.resources import files
 from itertools import product
 
 import numpy as np
@@ -8,9 +7,8 @@ import pytest
 from ball_on_track import ball_on_track
 from rigid_track import EQUAL, R, half_lengths
 
-from tribo import load_case
 from tribo.core.grid import Grid
-from tribo.lab.scar import crown, diameter, groove_length, scar
+from tribo.lab.scar import crown, diameter, scar
 
 
 def worn_ball(cells=(240, 260), case=EQUAL):
@@ -68,18 +66,3 @@ def test_a_diameter_grows_evenly_with_the_scar(power, off):
     found = [diameter(line[None, :], 1, 1.0) for line in lines]
     assert found == pytest.approx(2 * halves, abs=off)
     assert np.max(np.diff(found)) < 0.3
-
-
-@pytest.mark.parametrize("contact", ["dcfft", "periodic"])
-def test_a_resolved_groove_has_ends_in_a_window_that_repeats_too(tmp_path, contact):
-    resolved = ["kinematics.stroke='0.2 mm'", "kinematics.positions=7", "kinematics.duration='9 s'"]
-    grid = ["grid.size='1.2 mm'", "grid.cells=32", "output.save_times=[0, 9]"]
-    case = load_case(
-        files("tribo.templates") / "ball_on_disk.toml",
-        overrides=[*resolved, *grid, f"contact.type='{contact}'"],
-    )
-    with case.run(tmp_path / "run.h5") as result:
-        contacts = [result.field("pressure", save).any(axis=1) for save in (0, -1)]
-        length = groove_length(result, "disk")
-    first, last = (1.2e-3 / 32 * np.count_nonzero(rows) for rows in contacts)
-    assert first + 0.1e-3 < length < last + 0.25e-3

@@ -11,7 +11,6 @@ import scipy
 from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.core.measures import vertex
-from tribo.result.layout import TRACK
 from tribo.result.read import Result
 
 VISIBLE = 1e-4
@@ -94,18 +93,6 @@ def layer_ends(result: Result, name: str, deepest: float) -> dict[str, float]:
         for number, end in enumerate(ends, start=1)
         if end <= 2 * deepest
     }
-
-
-def groove_length(result: Result, name: str) -> float | None:
-    """Return the length of a body's groove on its track at the end, in m; None if all along it."""
-    if TRACK in dir(result):
-        depth = np.nan_to_num(result.field(TRACK, len(result.times) - 1, name))
-    elif result.case_tables.get("kinematics", {}).get("positions", "average") != "average":
-        # In a window that repeats.
-        depth = result.body(name).wear_depth[-1]
-    else:
-        return None
-    return None if depth.all() else diameter(depth, 0, result.grid.spacing[0])
 
 
 def scar_mask(depth: Array) -> Mask:

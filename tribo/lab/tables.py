@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from tribo.core.data_table import DataTable, Heading, TableRow, Value
+from tribo.core.data_table import DataTable, Heading, TableRow
 from tribo.core.words import readable
 from tribo.lab.inferred import InferredVolume
 from tribo.lab.report import MEASURES, BodyReport, LabReport
-from tribo.lab.scar import groove_length
 from tribo.result.read import Result
 
 COLUMNS = (
@@ -56,12 +55,11 @@ def wear_table(result: Result, bodies: Mapping[str, BodyReport]) -> DataTable:
     tracks = [f"{n} (track)" if body.scar_along_m is None else n for n, body in bodies.items()]
     before = ", what it began with included" if result.case_tables.get("begin") else ""
     saves = [last["bodies"][name] for name in bodies]
-    marks = [_marks(result, name, body) for name, body in bodies.items()]
     row = TableRow.scaled
     rows = [
         row("volume, mm³", (save["wear_volume_m3"] for save in saves), 1e9, ".3g"),
         *(
-            row(f"{name}, {unit}", (mark[key] for mark in marks), factor, form)
+            row(f"{name}, {unit}", (getattr(b, key) or None for b in bodies.values()), factor, form)
             for name, unit, key, factor, form in MEASURES
         ),
         row(
@@ -80,17 +78,6 @@ def doubt_of_depth(result: Result) -> str:
     """Return what to say beside a largest depth that a finding calls wrong; empty if none does."""
     kinds = {each.kind for each in result.findings} & {"averaging", "quadrature"}
     return f" (off: see {' and '.join(sorted(kinds))})" if kinds else ""
-
-
-def _marks(result: Result, name: str, body: BodyReport) -> dict[str, Value]:
-    """Return a lab's measurements of a body; with the length of a resolved groove."""
-    marks: dict[str, Value] = body._asdict()
-    if not body.scar_across_m > 0:
-        return marks | dict.fromkeys(("scar_along_m", "scar_across_m", "track_section_m2"))
-    if body.scar_along_m is None:
-        length = groove_length(result, name)
-        marks["scar_along_m"] = "whole track" if length is None else length
-    return marks
 
 
 def inferred_table(volumes: Sequence[InferredVolume]) -> DataTable:
