@@ -13,7 +13,7 @@ from tribo.core.grid import Grid
 from tribo.plotting import figures, save_figures
 from tribo.plotting.pressure import pressure_map, pressure_sections
 
-CONTACT = ["pressure_map", "pressure_map_early", "pressure_sections"]
+CONTACT = ["pressure_map", "pressure_sections"]
 OVER_TIME = ["wear_history", "contact_history"]
 SCARS = ["ball_scar", "disk_scar"]
 PROFILES = ["ball_profiles", "disk_profiles"]
@@ -22,7 +22,6 @@ BALL = ["ball_scar", "ball_profiles", "worn_section"]
 KEPT = ["fields_history", "film_map", "load_share_map"]
 ROUGH = {"relief": 2e-7, "cap": 4e8}
 COARSE = {**ROUGH, "grid": Grid((2e-3, 1.6e-3), (10, 8)), "times": (0.0, 200.0)}
-EARLY = [CONTACT[0], CONTACT[2]]
 INTERRUPTED = {"times": (0.0, 123.4567), "status": "interrupted"}
 TWIN_WORN = ["wheel-1_scar", "Wheel_β_scar", "wheel-1_profiles", "Wheel_β_profiles"]
 TWIN = {"swept": (True, True), "names": ("wheel-1", "Wheel_β"), "densities": (7850.0, 3200.0)}
@@ -39,16 +38,16 @@ INDENTED = {"worn": (False, False), "plastic": 2e-7, "cap": 2e9, "times": (0.0,)
 @pytest.mark.parametrize(
     ("changes", "expected"),
     [
-        ({"times": (0.0,)}, EARLY),
-        (INTERRUPTED, [*EARLY, *WORN, *OVER_TIME]),
+        ({"times": (0.0,)}, CONTACT),
+        (INTERRUPTED, [*CONTACT, *WORN, *OVER_TIME]),
         ({"worn": (True, False)}, [*CONTACT, *BALL, *OVER_TIME]),
         ({"worn": (False, False)}, [*CONTACT, "contact_history"]),
         (TWIN, [*CONTACT, *TWIN_WORN, "worn_section", *OVER_TIME]),
         ({"swept": (False, False)}, [*CONTACT, *WORN, *OVER_TIME]),
-        (INDENTED, [*EARLY, *WORN]),
+        (INDENTED, [*CONTACT, *WORN]),
         (EVEN, ["contact_history"]),
         ({"film": 1e-11, "worn": (False, False)}, [*CONTACT, "contact_history", *KEPT]),
-        (COARSE, [*EARLY, *WORN, *OVER_TIME]),
+        (COARSE, [*CONTACT, *WORN, *OVER_TIME]),
         (ROUGH, [*CONTACT, *WORN, *OVER_TIME]),
     ],
 )
@@ -57,7 +56,7 @@ def test_each_result_gets_the_pictures_that_make_sense(changes, expected, monkey
     assert save_figures(made(**changes), tmp_path) == expected
 
 
-UNIT = re.compile(r"\((10\S+ )?(mm|µm|nm|pm|MPa|s|m|mm³|mg|%|mm²)\)")
+UNIT = re.compile(r"\((10\S+ )?(mm|µm|nm|pm|MPa|s|m|mm³|mm²)\)")
 # Of each, the ends of the names of the pictures that it lays out otherwise than others do.
 MAPS, SCARS = ("_map", "_sections"), ("_scar", "_profiles", "worn_section")
 LAID_OUT = {

@@ -233,5 +233,3 @@ def _made(result: Result) -> Iterator[tuple[str, Callable[[], Picture]]]:
     for kind in KINDS.values():
         for of in kind.each(result):
             yield kind.file.format(*of), partial(kind.draw, result, *of)
-        if kind.draw is pressure_map and len(result.times) > 2:
-            yield f"{kind.file}_early", partial(kind.draw, result, 1)

@@ -118,10 +118,7 @@ def _wear(result: Result) -> list[TimePanel]:
     if len(time) <= 2:
         # A line between two points would claim that nothing else happened.
         marks["linestyle"] = "none"
-    densities = {name: result.body(name).density for name in worn}
-    masses = {name: (time, 1e6 * d * worn[name][1]) for name, d in densities.items() if d}
-    panels = [("Volume worn", "m^3", worn), *([("Mass worn", "mg", masses)] if masses else [])]
-    return [TimePanel(*panel, [{**looks[name], **marks} for name in panel[2]]) for panel in panels]
+    return [TimePanel("Volume worn", "m^3", worn, [{**looks[name], **marks} for name in worn])]
 
 
 def _contact(result: Result) -> list[TimePanel]:

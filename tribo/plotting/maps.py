@@ -14,13 +14,19 @@ from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.lab.units import axis_units, fitting, height_unit, size
 from tribo.plotting.picture import NothingToDraw, Picture
-from tribo.plotting.sections import MOST_CELLS, Limits, limits, through_centre, varying
-from tribo.plotting.style import AXIS_LABELS, DEPTHS, PRESSURES, ticks, times
+from tribo.plotting.sections import (
+    MOST_CELLS,
+    Limits,
+    Section,
+    limits,
+    section_row,
+    through_centre,
+    varying,
+)
+from tribo.plotting.style import AXIS_LABELS, DEPTHS, PRESSURES, ticks
 
 _AROUND = 19.0
 """Height of the title and of the labels, in mm."""
-_LINE = 3.6
-"""Height of a line of text, in mm."""
 _WIDEST, _TALLEST = 41.0, 60.0
 """Most width and height of a map, in mm."""
 _THINNEST = 2.5
@@ -37,7 +43,6 @@ class Layout(NamedTuple):
     units: Sequence[str]
     size: tuple[float, float]
     """Of a map, in mm."""
-    labels: Sequence[str]
 
     @classmethod
     def of(cls, marked: Mask, grid: Grid, reach: Sequence[float] = (0.0, 0.0)) -> Layout:
@@ -53,18 +58,12 @@ class Layout(NamedTuple):
         if not 1 / _THINNEST <= shape <= _THINNEST:
             shape = _STRETCHED if shape > 1 else 1 / _STRETCHED
         width = min(_WIDEST, _TALLEST / shape)
-        per_metre = width / x, width * shape / y
-        factors = [scale / min(per_metre) for scale in per_metre]
-        labels = [
-            f"{label} ({unit})" + (f"\nenlarged {times(factor)} times" if factor > 1.005 else "")
-            for label, unit, factor in zip(AXIS_LABELS, units, factors, strict=True)
-        ]
-        return cls(grid, windows, units, (width, width * shape), labels)
+        return cls(grid, windows, units, (width, width * shape))
 
     @property
     def height(self) -> float:
         """Of a map with its labels, in mm."""
-        return self.size[1] + _AROUND + _LINE * self.labels[0].count("\n")
+        return self.size[1] + _AROUND
 
     def positions(self) -> tuple[Array, Array]:
         """Return the cells' centres along x and y in the units shown."""
@@ -80,7 +79,7 @@ class Layout(NamedTuple):
         # More steps to choose from, for there may be room for three long labels only.
         axes.xaxis.set_major_locator(MaxNLocator(max(1, int(width / 11.0))))
         axes.yaxis.set_major_locator(ticks(max(2, int(height / 7.0))))
-        along, across = self.labels
+        along, across = (f"{a} ({unit})" for a, unit in zip(AXIS_LABELS, self.units, strict=True))
         axes.set_xlabel(along)
         axes.set_ylabel(across.replace(", ", ",\n"))
 
@@ -178,16 +177,15 @@ def _profile(
     field: Array, marked: Mask, grid: Grid, scale: Scale, title: str, axis: int
 ) -> Picture:
     """Return a field through the centre along an axis, with its range across as a band."""
-    (section,) = through_centre([(grid, field, marked)], (axis,))
+    sections = through_centre([(grid, field, marked)], (axis,))
     low, high = (end(field, axis=1 - axis) / scale.factor for end in (np.min, np.max))
     up = min(0.0, float(np.min(field))), 1.05 * (scale.most or float(np.max(field)))
 
-    def panel(axes: Axes) -> Sequence[Artist]:
-        section.draw(axes, scale.factor, [{"color": "black"}], [""], up)
+    def band(section: Section, axes: Axes) -> Sequence[Artist]:
         x = (grid.x, grid.y)[axis] / size(section.unit)
         axes.fill_between(x, low, high, color="black", alpha=0.2, linewidth=0.0)
-        axes.set_ylabel(scale.label)
-        axes.set_title(title, loc="left")
         return ()
 
-    return Picture([[panel]], 55.0, share="")
+    look, shown = {"color": "black"}, (scale.label, scale.factor)
+    row = section_row(sections, [look], [""], shown, up, title, [band])
+    return Picture([row], 55.0, share="")

@@ -12,18 +12,21 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.lab.scar import removed, scar_mask
-from tribo.lab.units import fitting, height_unit, size
 from tribo.plotting.figures import write_figures
-from tribo.plotting.picture import Picture
-from tribo.plotting.sections import bodies_end, through_centre, varying
-from tribo.plotting.style import SINGLE_COLUMN, WIDE, overlay_looks
+from tribo.plotting.maps import Scale
+from tribo.plotting.picture import Panel, Picture
+from tribo.plotting.sections import (
+    heights_row,
+    section_row,
+    through_centre,
+    varying,
+)
+from tribo.plotting.style import overlay_looks
 from tribo.result.read import Result
 
 Results = Mapping[str, Result]
@@ -44,26 +47,21 @@ def comparison_picture(
     drawn = {name: [_surface(result, time, name) for result in every] for name in names}
     worn = (_field(result, time, name) for name in names for result in every)
     axes = sorted({axis for _, field, marked in worn for axis in varying([field], marked)}) or [0]
-    ends = any(map(bodies_end, every))
-    sections = {name: through_centre(f, axes, ends=ends) for name, f in drawn.items()}
+    sections = {name: through_centre(f, axes) for name, f in drawn.items()}
     windows = [[row[i].window for row in sections.values()] for i in range(len(axes))]
     shared = [(min(low for low, _ in each), max(high for _, high in each)) for each in windows]
 
-    def panel(name: str, column: int, panel_axes: Axes) -> Sequence[Artist]:
-        section = replace(sections[name][column], window=shared[column])
-        shown = [line for part in sections[name] for line in part.in_sight()]
-        low, high = float(min(map(np.min, shown))), float(max(map(np.max, shown)))
-        # A flat has a range too, so that its height reads as a round number.
-        margin = 0.05 * max(high - low, abs(high), 1e-8)
-        up = (low - margin if name else 0.0, high + margin)
-        unit = height_unit(max(map(abs, up))) if name else fitting("Pa", high)
-        panel_axes.set_ylabel(f"Height of {name} ({unit})" if name else f"Pressure ({unit})")
-        if name == names[0] and column == 0:
-            panel_axes.set_title(f"t = {time:g} s{_grids(results)}", loc="left")
-        return section.draw(panel_axes, size(unit), looks, labels, up)
-
-    rows = [[partial(panel, name, column) for column in range(len(axes))] for name in names]
-    picture = Picture(rows, 45.0, WIDE if len(axes) > 1 else SINGLE_COLUMN, "y")
+    rows: list[list[Panel]] = []
+    for name, row in sections.items():
+        row = [replace(one, window=window) for one, window in zip(row, shared, strict=True)]
+        title = "" if rows else f"t = {time:g} s{_grids(results)}"
+        if name:
+            rows.append(heights_row(row, looks, labels, title, f"Height of {name}"))
+        else:
+            high = max(float(np.max(line)) for one in row for line in one.in_sight())
+            scale, up = Scale.of("", high), (0.0, 1.05 * high)
+            rows.append(section_row(row, looks, labels, (scale.label, scale.factor), up, title))
+    picture = Picture(rows, 45.0, "y")
     return picture.figure() if ax is None else np.ravel(picture.draw(ax))[0].figure
 
 

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribo.core.errors import CaseError
-from tribo.plotting.style import SINGLE_COLUMN, house_style, legend_below, new_figure
+from tribo.plotting.style import SINGLE_COLUMN, WIDE, house_style, legend_below, new_figure
 
 Panel = Callable[[Axes], Sequence[Artist]]
 """Draws on axes, and returns what the legend names."""
@@ -24,11 +24,10 @@ class NothingToDraw(CaseError):
 
 @dataclass(frozen=True)
 class Picture:
-    """Panels in rows, all of one size; `height` is the height of a row, in mm, as is `width`."""
+    """Panels in rows, all of one size; `height` is the height of a row, in mm."""
 
     rows: Sequence[Sequence[Panel]]
     height: float
-    width: float = SINGLE_COLUMN
     share: Literal["x", "y", ""] = "x"
     """The axis that the panels of a column, or of a row, have in common, if any."""
     columns: int = 3
@@ -37,7 +36,8 @@ class Picture:
     def figure(self) -> Figure:
         """Return the picture in the house style, tied to no display."""
         with house_style():
-            figure = new_figure(self.height * len(self.rows), self.width)
+            width = WIDE if len(self.rows[0]) > 1 else SINGLE_COLUMN
+            figure = new_figure(self.height * len(self.rows), width)
             self.fill(figure)
         return figure
 

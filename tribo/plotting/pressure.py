@@ -20,7 +20,12 @@ from tribo.lab.units import fitting, size, time_labels
 from tribo.plotting import style
 from tribo.plotting.maps import Layout, Scale, field_picture
 from tribo.plotting.picture import NothingToDraw, Picture
-from tribo.plotting.sections import Section, bodies_end, through_centre, varying
+from tribo.plotting.sections import (
+    Section,
+    section_row,
+    through_centre,
+    varying,
+)
 from tribo.result.read import Result
 
 HERTZ: style.Look = {"color": "#909090", "linewidth": 0.7, "zorder": 3}
@@ -34,7 +39,7 @@ def pressure_map(result: Result, save: int = -1) -> Picture:
     """Draw the pressure at a save from above, or its profile where it varies along one axis.
 
     The solid line is the edge of the contact, the dashed one Hertz's first contact where the
-    surfaces state their curvature. A long contact is drawn wider, and the axis says how much.
+    surfaces state their curvature. A long contact is drawn wider.
     """
     hertz = _hertz(result)
     pressure = result.field("pressure", save)
@@ -75,48 +80,40 @@ def pressure_sections(
     if first > _FADED * max(later, default=np.inf):
         groups = [groups[0][:1], groups[0][1:]]
     looks = dict(zip(saves, style.save_looks(len(saves)), strict=True))
-    rows = []
+    rows, scale = [], (f"Pressure ({unit})", size(unit))
     for group in groups:
         shown = hertz if 0 in group else None
         marked = np.any([fields[save] > 0 for save in group], axis=0)
         kept = [(grid, fields[save], marked) for save in group]
-        sections = through_centre(kept, axes, shown.reach if shown else NOWHERE, bodies_end(result))
+        sections = through_centre(kept, axes, shown.reach if shown else NOWHERE)
         highest = max(float(np.max(p)) for part in sections for _, p in part.curves)
-        named = [(labels[save], looks[save]) for save in group]
-        rows.append(
-            [
-                partial(_draw, part, named, shown, unit, highest, result.system.cap)
-                for part in sections
-            ]
-        )
-    width = style.WIDE if len(axes) > 1 else style.SINGLE_COLUMN
-    return Picture(rows, 48.0, width, "y", columns=6)
+        up = (0.0, 1.05 * highest or size(unit))
+        own = [looks[save] for save in group], [labels[save] for save in group]
+        beside = partial(_draw_limits, shown, unit, highest, result.system.cap)
+        rows.append(section_row(sections, *own, scale, up, more=[beside]))
+    return Picture(rows, 48.0, "y", columns=6)
 
 
-def _draw(
-    section: Section,
-    named: Sequence[tuple[str, style.Look]],
+def _draw_limits(
     hertz: HertzContact | None,
     unit: str,
     highest: float,
     cap: float | None,
+    section: Section,
     axes: Axes,
 ) -> Sequence[Artist]:
-    """Draw the pressures of some saves; Hertz's too, and the hardness where they come near it."""
-    up = (0.0, 1.05 * highest or size(unit))
-    labels, looks = zip(*named, strict=True)
-    drawn: list[Artist] = [*section.draw(axes, size(unit), looks, labels, up)]
+    """Draw Hertz's pressure, and the hardness where pressures up to the `highest` come near it."""
+    drawn: list[Artist] = []
     if hertz is not None:
         ends = (-hertz.reach[section.axis], hertz.reach[section.axis])
         x = np.sort(np.append(np.linspace(*section.window, 801), ends))
         values = hertz.pressure(section.axis, x)
         drawn += axes.plot(x / size(section.unit), values / size(unit), label="Hertz, 0 s", **HERTZ)
-        axes.set_ylim(top=max(up[1], 1.05 * hertz.peak_pressure) / size(unit))
+        axes.set_ylim(top=1.05 * max(highest, hertz.peak_pressure) / size(unit))
     if cap is not None and highest >= 0.9 * cap:
         look: Any = {"color": "black", "linewidth": 0.6, "linestyle": ":", "label": "hardness"}
         axes.set_ylim(top=1.1 * cap / size(unit))
         drawn.append(axes.axhline(cap / size(unit), **look))
-    axes.set_ylabel(f"Pressure ({unit})")
     return drawn
 
 

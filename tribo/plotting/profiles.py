@@ -21,8 +21,8 @@ from tribo.lab.units import height_unit, shown_in, size, time_labels
 from tribo.plotting.maps import Scale, field_picture
 from tribo.plotting.picture import NothingToDraw, Picture
 from tribo.plotting.sections import (
-    bodies_end,
-    profiles_picture,
+    Section,
+    heights_row,
     through_centre,
     varying,
 )
@@ -63,7 +63,7 @@ def body_profiles(
     the change of its height along the whole track.
 
     Heights point out of the body, so that the unworn profile lies on top. They have plastic
-    displacement and no elastic deformation; the picture states how much it enlarges them.
+    displacement and no elastic deformation.
     """
     if axis not in (None, 0, 1):
         raise CaseError(f"a profile runs along axis 0 or across, axis 1; not {axis!r}")
@@ -77,10 +77,11 @@ def body_profiles(
     heights = [body.surface(save) for save in every]
     if TRACK in dir(result) and body.swept:
         heights, what = [-depth for depth in gone], "Change of height"
-    sections = through_centre([(grid, z, scar) for z in heights], axes, ends=bodies_end(result))
+    sections = through_centre([(grid, z, scar) for z in heights], axes)
     labels = time_labels(result.times)
     named = [labels[save] for save in every]
-    return profiles_picture(sections, save_looks(len(every)), named, name, what=what)
+    row = heights_row(sections, save_looks(len(every)), named, name, what)
+    return Picture([row], 60.0, "y")
 
 
 def _gone(result: Result, name: str, saves: Sequence[int]) -> tuple[Grid, list[Array]]:
@@ -97,7 +98,7 @@ def worn_section(result: Result, save: int = -1, axis: int | None = None) -> Pic
 
     They touch at their closest point, without load; a moving body lies below. The unworn surface of
     each worn body is drawn where its points were, and a thin line where a layer ends that is worn
-    by half at least. The picture states how much it enlarges heights and how deep the scars are.
+    by half at least. The picture states how deep the scars are.
     """
     upper, lower = sorted(map(result.body, result.body_names), key=lambda body: body.swept)
     gone = [removed(result, body.name)[save] for body in (upper, lower)]
@@ -128,18 +129,14 @@ def worn_section(result: Result, save: int = -1, axis: int | None = None) -> Pic
             looks.append(LAYER)
             labels.append(label)
     fields = [(result.grid, surface, marked) for surface in surfaces]
-    return profiles_picture(
-        through_centre(fields, shown, ends=bodies_end(result)),
-        looks,
-        labels,
-        f"t = {time_labels(result.times)[save]}, unloaded",
-        shape=0.8,
-        room=(0.27, 0.18),
-        more=[partial(_fill, words)],
-    )
+    sections = through_centre(fields, shown)
+    title = f"t = {time_labels(result.times)[save]}, unloaded"
+    fill = partial(_fill, words)
+    row = heights_row(sections, looks, labels, title, room=(0.27, 0.18), more=[fill])
+    return Picture([row], 70.0, "y")
 
 
-def _fill(words: Sequence[str], axes: Axes) -> Sequence[Artist]:
+def _fill(words: Sequence[str], section: Section, axes: Axes) -> Sequence[Artist]:
     """Fill both bodies, and write their names and depths into them."""
     low, high = axes.get_ylim()
     places = (high, UPPER, 0.97, "top"), (low, LOWER, 0.04, "bottom")

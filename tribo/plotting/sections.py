@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
 
 from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.lab.units import axis_units, height_unit, size
-from tribo.plotting import style
-from tribo.plotting.picture import Panel, Picture
+from tribo.plotting.picture import Panel
+from tribo.plotting.style import AXIS_LABELS, Look, ticks
 from tribo.result.export import profile
-from tribo.result.read import Result
 
 MARGIN = 0.2
 """Shown beyond the contact or the scar on each side, in parts of its half-width."""
@@ -36,37 +35,18 @@ class Section:
 
     axis: int
     window: Limits
-    core: Limits
-    """The part that is marked, without its margin."""
     curves: Sequence[Curve]
     unit: str
     """In which positions are shown."""
 
-    def draw(
-        self,
-        axes: Axes,
-        factor: float,
-        looks: Sequence[style.Look],
-        labels: Sequence[str],
-        up: Limits,
-    ) -> list[Line2D]:
-        """Draw the curves between the limits `up`, in SI units as they are, over a unit's size."""
-        axes.set_xlim(*(end / size(self.unit) for end in self.window))
-        axes.set_xlabel(f"{style.AXIS_LABELS[self.axis]} ({self.unit})")
-        axes.xaxis.set_major_locator(style.ticks(5))
-        axes.set_ylim(*(end / factor for end in up))
-        axes.yaxis.set_major_locator(style.ticks(7))
-        lines: list[Line2D] = []
-        for (position, values), look, label in zip(self.curves, looks, labels, strict=True):
-            # Matplotlib leaves labels that begin with an underscore out of the legend.
-            shown = position / size(self.unit), values / factor
-            lines += axes.plot(*shown, label=label.lstrip("_"), **look)
-        return lines
-
     def in_sight(self) -> list[Array]:
-        """Return the part of each curve that is marked."""
-        low, high = self.core
+        """Return the part of each curve that is shown."""
+        low, high = self.window
         return [values[(low <= x) & (x <= high)] for x, values in self.curves]
+
+
+More = Callable[[Section, Axes], Sequence[Artist]]
+"""Draws on the panel of a section, and returns what the legend names."""
 
 
 def varying(fields: Sequence[Array], marked: Mask) -> tuple[int, ...]:
@@ -94,25 +74,20 @@ def through_centre(
     fields: Sequence[tuple[Grid, Array, Mask]],
     axes: Sequence[int] = (0, 1),
     reach: Sequence[float] = (0.0, 0.0),
-    ends: bool = False,
 ) -> list[Section]:
     """Return sections of fields, each on its grid, and limits around the marked cells of each.
 
     They run along `axes`: 0 is the sliding direction, and 1 across it. `reach` along both is a
-    distance from the centre to be shown as well, in m. Where the bodies end at the window, `ends`,
-    and marked cells reach its edge, the axis extends beyond it and the curves do not.
+    distance from the centre to be shown as well, in m.
     """
-    windows, cores = (
-        [
-            _hull([limits(m, g, axis, reach[axis], margin, ends) for g, _, m in fields])
-            for axis in axes
-        ]
-        for margin in (MARGIN, 0.0)
-    )
+    windows = []
+    for axis in axes:
+        lows, highs = zip(*(limits(m, g, axis, reach[axis]) for g, _, m in fields), strict=True)
+        windows.append((min(lows), max(highs)))
     units = axis_units([max(map(abs, window)) for window in windows])
     return [
-        Section(axis, window, core, [_curve(g, f, axis) for g, f, _ in fields], unit)
-        for axis, window, core, unit in zip(axes, windows, cores, units, strict=True)
+        Section(axis, window, [_curve(g, f, axis) for g, f, _ in fields], unit)
+        for axis, window, unit in zip(axes, windows, units, strict=True)
     ]
 
 
@@ -122,22 +97,11 @@ def _curve(grid: Grid, field: Array, axis: int) -> Curve:
     return np.concatenate([[-edge], x, [edge]]), np.pad(profile(field, axis), 1, mode="edge")
 
 
-def _hull(windows: Sequence[Limits]) -> Limits:
-    return min(low for low, _ in windows), max(high for _, high in windows)
-
-
-def limits(
-    marked: Mask,
-    grid: Grid,
-    axis: int,
-    reach: float = 0.0,
-    margin: float = MARGIN,
-    ends: bool = False,
-) -> Limits:
+def limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:
     """Return limits in m that show all marked cells, a margin, and no more.
 
-    They are the limits of the window if nothing is marked. `marked` has shape
-    (nx, ny) or (1, ny); `reach` and `ends` are as in `through_centre`.
+    They are the limits of the window if nothing is marked. Where the bodies end at the window and
+    marked cells reach its edge, they lie beyond it. `marked` has shape (nx, ny) or (1, ny).
     """
     edge = 0.5 * grid.size[axis]
     index = np.flatnonzero(np.broadcast_to(marked, grid.cells).any(axis=1 - axis))
@@ -146,52 +110,64 @@ def limits(
     step = grid.spacing[axis]
     low = min(float(index[0]) * step - edge, -reach)
     high = max(float(index[-1] + 1) * step - edge, reach)
-    beside = margin * max(0.5 * (high - low), 2.0 * step)
-    beyond = np.inf if ends and (index[0] == 0 or index[-1] == grid.cells[axis] - 1) else edge
+    beside = MARGIN * max(0.5 * (high - low), 2.0 * step)
+    at_end = index[0] == 0 or index[-1] == grid.cells[axis] - 1
+    beyond = np.inf if grid.ends_at_window and at_end else edge
     return max(low - beside, -beyond), min(high + beside, beyond)
 
 
-def bodies_end(result: Result) -> bool:
-    """Return whether the bodies of a result end at its window."""
-    return bool(result.case_tables["grid"].get("ends_at_window"))
-
-
-def profiles_picture(
+def section_row(
     sections: Sequence[Section],
-    looks: Sequence[style.Look],
+    looks: Sequence[Look],
     labels: Sequence[str],
-    title: str,
-    shape: float = 0.62,
-    room: Limits = (0.1, 0.05),
-    what: str = "Height",
-    more: Sequence[Panel] = (),
-) -> Picture:
-    """Return surfaces in one panel for each section, all with one scale of heights.
+    scale: tuple[str, float],
+    up: Limits,
+    title: str = "",
+    more: Sequence[More] = (),
+) -> list[Panel]:
+    """Return a panel for each section, between the limits `up`, in SI units.
 
-    A curve without a label is left out of the legend. `shape` is the height of
-    the axes over their width, on paper; `room` is left free below and above
-    the heights of what is marked, in parts of their range; `what` names the heights; `more` draws
-    on each panel besides.
+    `scale` is the label of the values and the size of their unit. A curve without a label is left
+    out of the legend; `more` draws on each panel besides.
     """
-    parts = [line for section in sections for line in section.in_sight()]
-    low, high = min(map(np.min, parts)), max(map(np.max, parts))
-    span = float(high - low) or 2e-8
-    up = float(low) - room[0] * span, float(high) + room[1] * span
-    unit = height_unit(max(map(abs, up)))
 
-    def panel(section: Section, axes: Axes) -> list[Line2D]:
-        lines = section.draw(axes, size(unit), looks, labels, up)
-        axes.set_box_aspect(shape)
-        enlarged = shape * (section.window[1] - section.window[0]) / (up[1] - up[0])
-        axes.set_title(f"height × {style.times(enlarged)}", loc="right", fontsize="small")
-        axes.set_ylabel(f"{what} ({unit})")
+    def panel(section: Section, axes: Axes) -> Sequence[Artist]:
+        axes.set_xlim(*(end / size(section.unit) for end in section.window))
+        axes.set_xlabel(f"{AXIS_LABELS[section.axis]} ({section.unit})")
+        axes.xaxis.set_major_locator(ticks(5))
+        axes.set_ylim(*(end / scale[1] for end in up))
+        axes.yaxis.set_major_locator(ticks(7))
+        axes.set_ylabel(scale[0])
         if section is sections[0]:
             axes.set_title(title, loc="left")
-        for draw in more:
-            draw(axes)
-        return [line for line, label in zip(lines, labels, strict=True) if label]
+        named: list[Artist] = []
+        for (position, values), look, label in zip(section.curves, looks, labels, strict=True):
+            # Matplotlib leaves labels that begin with an underscore out of the legend.
+            shown = position / size(section.unit), values / scale[1]
+            lines = axes.plot(*shown, label=label.lstrip("_"), **look)
+            named += lines if label else []
+        return [*named, *(artist for draw in more for artist in draw(section, axes))]
 
-    row = [partial(panel, section) for section in sections]
-    two = len(sections) > 1
-    height = 20.0 + shape * (52.0 if two else 68.0)
-    return Picture([row], height, style.WIDE if two else style.SINGLE_COLUMN, "y")
+    return [partial(panel, section) for section in sections]
+
+
+def heights_row(
+    sections: Sequence[Section],
+    looks: Sequence[Look],
+    labels: Sequence[str],
+    title: str,
+    what: str = "Height",
+    room: Limits = (0.1, 0.05),
+    more: Sequence[More] = (),
+) -> list[Panel]:
+    """Return a `section_row` of surfaces, with one scale of heights.
+
+    `room` is left free below and above, in parts of the range of the heights.
+    """
+    parts = [line for section in sections for line in section.in_sight()]
+    low, high = float(min(map(np.min, parts))), float(max(map(np.max, parts)))
+    span = high - low or 2e-8
+    up = low - room[0] * span, high + room[1] * span
+    unit = height_unit(max(map(abs, up)))
+    scale = f"{what} ({unit})", size(unit)
+    return section_row(sections, looks, labels, scale, up, title, more)

@@ -77,11 +77,6 @@ def ticks(most: int) -> MaxNLocator:
     return MaxNLocator(most, steps=[1, 2, 2.5, 5, 10])
 
 
-def times(factor: float) -> str:
-    """Return two digits of a factor."""
-    return f"{float(f'{factor:.1e}'):g}"
-
-
 def save_looks(count: int) -> list[Look]:
     """Return a look for each save, from dark to light, neighbours dashed differently."""
     # The lightest third of the map would not show on white.
@@ -97,24 +92,19 @@ def overlay_looks(count: int) -> list[Look]:
     return [{"color": "#a8a8a8", "linewidth": 3.0}, *save_looks(count - 1)][:count]
 
 
-def legend_below(
-    figure: Figure, curves: Sequence[Artist], columns: int = 3, marks: Sequence[Artist] = ()
-) -> None:
+def legend_below(figure: Figure, curves: Sequence[Artist], columns: int = 3) -> None:
     """Put a legend under the axes, where it hides nothing, and make the figure as much higher.
 
-    Where there are too many curves for it, some are left out evenly; `marks`
-    are all named.
+    Where there are too many curves for it, some are left out evenly.
     """
-    longest = max((len(str(curve.get_label())) for curve in (*curves, *marks)), default=0)
+    longest = max((len(str(curve.get_label())) for curve in curves), default=0)
     room = figure.get_figwidth() * 25.4 / (LETTER * (longest + HANDLE))
     columns = min(columns, max(1, int(room)))
-    most = LEGEND_ROWS * columns - len(marks)
-    if len(curves) > most:
-        chosen = np.unique(np.linspace(0, len(curves) - 1, most).round().astype(int))
-        curves = [curves[i] for i in chosen]
-    entries = [*curves, *marks]
-    rows = -(-len(entries) // columns)
-    columns = -(-len(entries) // rows)
+    most = min(len(curves), LEGEND_ROWS * columns)
+    chosen = np.linspace(0, len(curves) - 1, most).round().astype(int)
+    entries = [curves[i] for i in chosen]
+    rows = -(-most // columns)
+    columns = -(-most // rows)
     figure.set_figheight(figure.get_figheight() + 3.6 * (rows + 1) / 25.4)
     # Matplotlib fills column by column; a reader goes row by row.
     figure.legend(
