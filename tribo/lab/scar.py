@@ -144,29 +144,15 @@ def _ends(line: Array) -> tuple[float, float] | None:
         return None
     first, last = int(index[0]), int(index[-1])
     worn = np.maximum(line[first : last + 1], 0.0)
-    below = _beyond(worn, 0.5 if first == 0 else 1.0)
-    above = _beyond(worn[::-1], 0.5 if last == line.size - 1 else 1.0)
+    below = min(_extrapolated(worn[:4]), 0.5 if first == 0 else 1.0)
+    above = min(_extrapolated(worn[:-5:-1]), 0.5 if last == line.size - 1 else 1.0)
     return first - below, last + above
 
 
-def _beyond(worn: Array, most: float) -> float:
-    """Return the distance of the edge beyond the first worn cell, in cells.
-
-    A rim narrower than a cell appears suddenly when it reaches the centre of a cell. A weight that
-    grows with the distance of the edge from that centre makes the edge move smoothly.
-    """
-    outer, inner = _extrapolated(worn[:4]), _extrapolated(worn[1:5])
-    if outer is None:
-        return 0.5
-    outer = min(outer, most)
-    rim = 0.0 if inner is None else max(outer + 1 - inner, 0.0)
-    return outer - (1 - outer) * rim
-
-
-def _extrapolated(cells: Array) -> float | None:
-    """Return the distance of the edge beyond the first cell; None if cells do not deepen."""
+def _extrapolated(cells: Array) -> float:
+    """Return the distance of the edge beyond the first cell; a half if cells do not deepen."""
     if cells.size < 3 or cells[1] <= cells[0]:
-        return None
+        return 0.5
 
     def toe(power: float) -> float:
         """Return how much further out the inner three cells put the edge than the outer three."""
