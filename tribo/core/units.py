@@ -113,10 +113,9 @@ _THOUSANDS = {1.0: ""} | {
 _LONGEST = 100
 _TIMES_TEN = re.compile(r"^10\^|(?<=[\d.])\s*[·*×x]\s*10\^")
 _NUMBER = re.compile(
-    r"([+-]?(?:\d+/0*[1-9]\d*|(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3}(?!\d))?))(?![\d.])(.*)",
+    r"([+-]?(?:\d+/0*[1-9]\d*|(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3}(?!\d))?))(?![\d.,])(.*)",
     re.S | re.A,
 )
-_AFTER_COMMA = re.compile(r",\d")
 
 
 def plain(text: str) -> str:
@@ -186,11 +185,6 @@ def parse(text: str, unit: str, hint: str = "") -> float:
     hint = hint or _needed(unit, _example(unit))
     written = _TIMES_TEN.sub(lambda ten: "e" if ten.start() else "1e", plain(text.strip()))
     match = _NUMBER.fullmatch(written) if len(text) <= _LONGEST else None
-    if match is not None and _AFTER_COMMA.match(match[2]):
-        raise CaseError(
-            f"{text!r} has a comma; write a decimal point, as in '20.5', and nothing between "
-            "thousands"
-        )
     if match is None:
         raise CaseError(f"{text[:_LONGEST]!r} is not a quantity; {hint}")
     number, symbols = Fraction(match[1]), match[2].strip()
