@@ -47,21 +47,9 @@ def conforming_ball_volume(along: float, across: float, radius: float, groove: f
     -----
     The form supposes a scar as long as it is wide. A scar worn flat along the
     sliding direction in a parabolic groove obeys d∥² = d⊥² (1 − R/R') and has
-    lost d⊥/d∥ times the volume of the formula: `flat_along_ball_volume`.
+    lost d⊥/d∥ times the volume of the formula, πd∥³d⊥/64R.
     """
     return math.pi / 64.0 * along**2 * across**2 * (1.0 / radius - 1.0 / groove)
-
-
-def flat_along_ball_volume(along: float, across: float, radius: float) -> float:
-    """Volume off a ball worn flat along the sliding direction, V = πd∥³d⊥/64R; of no standard.
-
-    The chord of half-length b(y) has lost 2b³/3R; with an ellipse for the
-    outline that adds up to the formula, for small scars. The outline is an
-    ellipse where the ball wears most, and fuller where the track does: then the
-    formula is low, by 3 % where a track of 2 mm loses as much as the ball, and
-    by 1 − 9π/32 = 12 % at most.
-    """
-    return math.pi / 64.0 * along**3 * across / radius
 
 
 def groove_radius(width: float, area: float) -> float:

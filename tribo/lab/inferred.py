@@ -13,7 +13,6 @@ from tribo.lab.formulas import (
     ball_cap_volume,
     circular_groove_area,
     conforming_ball_volume,
-    flat_along_ball_volume,
     groove_radius,
     planimetric_area,
 )
@@ -33,8 +32,8 @@ class InferredVolume(NamedTuple):
         The body.
     method : str
         The shape of the scar that the formula assumes.
-    standard : str or None
-        Where the formula is used, as ``"ASTM G99"``; None for a formula derived here.
+    standard : str
+        Where the formula is used, as ``"ASTM G99"``.
     volume_m3 : float
         In m³.
     relative_error : float
@@ -51,7 +50,7 @@ class InferredVolume(NamedTuple):
 
     body: str
     method: str
-    standard: str | None
+    standard: str
     volume_m3: float
     relative_error: float
 
@@ -61,9 +60,7 @@ class InferredVolume(NamedTuple):
         return signed(100 * self.relative_error, 0)
 
 
-def inferred(
-    body: str, method: str, standard: str | None, volume: float, worn: float
-) -> InferredVolume:
+def inferred(body: str, method: str, standard: str, volume: float, worn: float) -> InferredVolume:
     """Return a volume by a formula with its error relative to the volume worn."""
     return InferredVolume(body, method, standard, volume, volume / worn - 1)
 
@@ -72,11 +69,10 @@ def inferred_volumes(result: Result, save: int = -1) -> list[InferredVolume]:
     """Return the volumes by the usual formulas for a ball on a flat, at a save.
 
     For a stationary ball: the volume of a flat cap of the scar's mean diameter,
-    of a scar conforming to the groove, whose section comes from one profile,
-    and of a scar flat along the sliding direction. For a flat swept by it: the
-    volume of the groove that an unworn ball makes at the track's width. The
-    scars are measured by `scar`, and the lab knows the length of the track.
-    Plastic indentation is left out.
+    and of a scar conforming to the groove, whose section comes from one profile.
+    For a flat swept by it: the volume of the groove that an unworn ball makes at
+    the track's width. The scars are measured by `scar`, and the lab knows the
+    length of the track. Plastic indentation is left out.
 
     G99 asks for the first and the last only where the other body hardly wears, and all assume a
     scar that is deep beside the elastic flattening: elsewhere they are inaccurate.
@@ -108,12 +104,11 @@ def ball_volumes(
     body: str, seen: Scar, radius: float, groove: float | None, worn: float
 ) -> list[InferredVolume]:
     """Return a ball's volumes by formulas, from its scar, its radius and the groove's in m."""
-    cap, along = ball_cap_volume(seen.mean_diameter, radius), flat_along_ball_volume(*seen, radius)
+    cap = ball_cap_volume(seen.mean_diameter, radius)
     found = [inferred(body, "flat scar", "ASTM G99", cap, worn)]
     if groove and groove > radius:
         volume = conforming_ball_volume(*seen, radius, groove)
         found.append(inferred(body, "scar in a groove", "ASTM D7755", volume, worn))
-    found.append(inferred(body, "scar flat along sliding only", None, along, worn))
     return found
 
 

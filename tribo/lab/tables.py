@@ -82,11 +82,10 @@ def doubt_of_depth(result: Result) -> str:
 
 def inferred_table(volumes: Sequence[InferredVolume]) -> DataTable:
     """Compare the volumes that a lab would infer from the scars with the volumes worn."""
-    rows = []
-    for each in volumes:
-        standard = f" ({each.standard})" if each.standard else ""
-        name = f"{each.body}: {each.method}{standard}"
-        rows.append(TableRow((name, 1e9 * each.volume_m3, each.off)))
+    rows = [
+        TableRow((f"{each.body}: {each.method} ({each.standard})", 1e9 * each.volume_m3, each.off))
+        for each in volumes
+    ]
     headings = Heading(""), Heading("mm³", form=".3g"), Heading("%")
     title = "Volume by a lab's formulas, and how far that is off"
     return DataTable(title, headings, rows)
