@@ -106,20 +106,16 @@ def softer_known(system: ContactSystem, hardness: Mapping[str, float | None]) ->
     return system if all(hardness.values()) else replace(system, cap=None)
 
 
-def first_hertz(result: Result) -> HertzContact | str:
-    """Return Hertz's contact for the first save of a result, or why there is none."""
-    if result.case_tables.get("begin"):
-        return "the bodies were worn already"
+def first_hertz(result: Result) -> HertzContact | None:
+    """Return Hertz's contact for the first save of a result; None where it is another."""
     layers = (
         each for body in result.case_tables["bodies"].values() for each in body.get("layers", ())
     )
     # A result's system does not keep them.
-    if any(each.get(key) is not None for each in layers for key in ("young", "poisson")):
-        return "a body has an elastic layer"
-    if result.system.curvature is None:
-        return "the surfaces state no curvature"
-    system = softer_known(result.system, hardness_of(result))
-    return hertz_contact(system) or "the contact is flat"
+    elastic = any(each.get(key) is not None for each in layers for key in ("young", "poisson"))
+    if elastic or result.case_tables.get("begin"):
+        return None
+    return hertz_contact(softer_known(result.system, hardness_of(result)))
 
 
 def computed_pressure(

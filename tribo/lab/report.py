@@ -207,10 +207,9 @@ def _first_contact(result: Result) -> tuple[FirstContact, str]:
     largest = save["max_pressure_Pa"]
     pressure, words = computed_pressure(system, largest, save["centre_pressure_Pa"])
     hertz = first_hertz(result)
-    if isinstance(hertz, str):
-        return FirstContact(None, largest, None, None), (
-            f"First contact: {words}; no closed form to compare, as {hertz}."
-        )
+    if hertz is None:
+        words = f"First contact: {words}; Hertz's theory has no solution for it."
+        return FirstContact(None, largest, None, None), words
     p0, ratio = hertz.peak_pressure, None
     words = f"First contact: {words}, Hertz {in_mpa(p0)}"
     half_space = result.case_tables.get("contact", {}).get("type") == HALF_SPACE

@@ -56,13 +56,10 @@ class PictureKind:
     file: str
     of: Callable[[Result], Sequence[str]] | None = None
     what: str = "body"
-    there: Callable[[Result], object] = lambda result: True
 
     def each(self, result: Result) -> list[tuple[str, ...]]:
-        """Return the subjects of this picture in a result, () for the result; else none."""
-        if self.of is not None:
-            return [(name,) for name in self.of(result)]
-        return [()] if self.there(result) else []
+        """Return the subjects of this picture in a result, () for the result."""
+        return [()] if self.of is None else [(name,) for name in self.of(result)]
 
 
 KINDS: Mapping[str, PictureKind] = {
@@ -70,7 +67,7 @@ KINDS: Mapping[str, PictureKind] = {
     "sections": PictureKind(pressure_sections, "pressure_sections"),
     "scar": PictureKind(scar_map, "{}_scar", _worn),
     "profiles": PictureKind(body_profiles, "{}_profiles", _worn),
-    "worn_section": PictureKind(worn_section, "worn_section", there=_worn),
+    "worn_section": PictureKind(worn_section, "worn_section"),
     "history": PictureKind(history, "{}_history", history_names, "history"),
     "field": PictureKind(field_map, "{}_map", _fields, "field"),
 }

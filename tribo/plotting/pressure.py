@@ -41,7 +41,7 @@ def pressure_map(result: Result, save: int = -1) -> Picture:
     The solid line is the edge of the contact, the dashed one Hertz's first contact where the
     surfaces state their curvature. A long contact is drawn wider.
     """
-    hertz = _hertz(result)
+    hertz = first_hertz(result)
     pressure = result.field("pressure", save)
     touching = pressure > 0
 
@@ -67,7 +67,7 @@ def pressure_sections(
     ones, it has a row of its own.
     """
     saves = range(len(result.times)) if saves is None else saves
-    grid, hertz, labels = result.grid, _hertz(result), time_labels(result.times)
+    grid, hertz, labels = result.grid, first_hertz(result), time_labels(result.times)
     fields = {save: result.field("pressure", save) for save in saves}
     touched = np.any([field > 0 for field in fields.values()], axis=0)
     axes = varying(list(fields.values()), touched) if axis is None else (axis,)
@@ -134,8 +134,3 @@ def _draw_first_contact(axes: Axes, shown: Layout, hertz: HertzContact) -> Line2
     draw = axes.axhline if np.isinf(a) else axes.axvline
     lines = [draw(end, **look) for end in (-min(a, b), min(a, b))]
     return lines[0]
-
-
-def _hertz(result: Result) -> HertzContact | None:
-    hertz = first_hertz(result)
-    return None if isinstance(hertz, str) else hertz

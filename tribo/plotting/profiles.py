@@ -112,7 +112,7 @@ def worn_section(result: Result, save: int = -1, axis: int | None = None) -> Pic
     words = [_scar(body.name, depth) for body, depth in zip((upper, lower), gone, strict=True)]
     shown = varying(gone, marked) if axis is None else (axis,)
     if not shown:
-        raise NothingToDraw(f"the bodies are worn evenly: {', '.join(words)}")
+        raise NothingToDraw(f"no body is worn unevenly: {', '.join(words)}")
     top, bottom = upper.surface(save), lower.surface(save)
     lift = float(np.max(top + bottom))
     surfaces, looks, labels = [lift - top, bottom], [WORN, WORN], ["worn", ""]
