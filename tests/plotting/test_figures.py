@@ -1,17 +1,16 @@
 """Pictures on disk: which, for whatever kind of result."""
 
 import re
-from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 
 import numpy as np
 import pytest
-from made_results import SHAPES, TIMES, made
+from made_results import SHAPES, made
 
 from tribo.core.errors import CaseError, OutputError
 from tribo.core.grid import Grid
 from tribo.plotting import figures, save_figures
-from tribo.plotting.pressure import pressure_map, pressure_sections
+from tribo.plotting.pressure import pressure_map
 
 CONTACT = ["pressure_map", "pressure_sections"]
 OVER_TIME = ["wear_history", "contact_history"]
@@ -114,11 +113,3 @@ def test_the_same_result_gives_the_same_file(suffix, tmp_path):
     pictures = {"map": pressure_map(made((0.0,))).figure}
     one, other = (figures.write_figures(pictures, tmp_path / str(i), suffix)[0] for i in range(2))
     assert one.read_bytes() == other.read_bytes()
-
-
-def test_threads_can_draw_at_the_same_time():
-    result = made()
-    with ThreadPoolExecutor(4) as pool:
-        drawn = list(pool.map(lambda _: pressure_sections(result).figure(), range(4)))
-    assert {figure.axes[0].xaxis.label.get_fontsize() for figure in drawn} == {8.0}
-    assert {len(figure.axes[3].lines) for figure in drawn} == {len(TIMES) - 1}

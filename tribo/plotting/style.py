@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
@@ -49,17 +48,14 @@ PRESSURES = "viridis"
 DEPTHS = "Blues"
 """Colours of depths: deeper is darker."""
 
-# Matplotlib keeps its settings in one place for all threads.
-_lock = threading.RLock()
-
 
 @contextmanager
 def house_style() -> Iterator[None]:
     """Draw in the house style inside the context, whatever the user's settings.
 
-    It is the style ``tribo.plotting.house`` of matplotlib. Threads take turns.
+    It is the style ``tribo.plotting.house`` of matplotlib, which is not safe in threads.
     """
-    with _lock, style.context(["default", "tribo.plotting.house"]):
+    with style.context(["default", "tribo.plotting.house"]):
         yield
 
 
