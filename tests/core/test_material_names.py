@@ -35,6 +35,14 @@ def test_its_numbers_are_usual_and_lie_in_their_ranges(name):
             assert mark.doubt(getattr(material, key)) is None
 
 
+@pytest.mark.parametrize(
+    "wrong", [{"poisson": -1}, {"poisson": 0.5}, {"poisson": float("nan")}, {"young": 0}]
+)
+def test_its_numbers_are_bounded_by_physics(wrong):
+    with pytest.raises(CaseError):
+        Material(**{"young": 1e9, "poisson": 0.3, **wrong})
+
+
 def test_no_two_materials_share_a_name():
     names = [n.casefold() for name, table in KNOWN.items() for n in (name, *table.get("also", ()))]
     assert len(names) == len(set(names))

@@ -6,7 +6,6 @@ import sys
 
 import pytest
 
-from tribo.core import writing
 from tribo.core.errors import CaseError, OutputError
 from tribo.core.writing import check_new, make_folder, open_lock, remove, write_file
 
@@ -30,18 +29,6 @@ def test_what_cannot_be_written_leaves_the_old_file_and_nothing_else(tmp_path, m
         write_file(path, "new\n")
     assert path.read_text() == "old\n"
     assert names(tmp_path) == ["a.csv"]
-
-
-@posix
-def test_what_has_the_name_of_the_new_file_is_neither_followed_nor_replaced(tmp_path, monkeypatch):
-    monkeypatch.setattr(writing, "token_hex", lambda count: "0" * 2 * count)
-    victim, fresh = tmp_path / "victim", tmp_path / f"tribo-{0:016x}.new"
-    victim.write_text("mine")
-    fresh.symlink_to(victim)
-    with pytest.raises(OutputError):
-        write_file(tmp_path / "a.csv", "new")
-    assert victim.read_text() == "mine"
-    assert fresh.is_symlink()
 
 
 def test_each_new_file_has_a_name_of_its_own(tmp_path, monkeypatch):

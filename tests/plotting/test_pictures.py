@@ -111,3 +111,10 @@ def test_the_history_of_the_contact_is_that_of_the_table_with_a_cell_on_either_s
         assert (end.min(), end.max()) == pytest.approx((drawn - cell, drawn + cell))
     (line,) = area.lines
     assert line.get_ydata()[-1] == pytest.approx(table["area (mm²)"].iloc[-1])
+
+
+def test_the_contact_area_is_drawn_with_its_part_at_the_hardness():
+    rough = made(relief=2e-7, cap=4e8)
+    *_, axes = history(rough, "contact").figure().axes
+    for line, column in zip(axes.lines, ("contact_area_m2", "plastic_area_m2"), strict=True):
+        np.testing.assert_allclose(line.get_ydata(), 1e6 * rough.table("history")[column])
