@@ -151,10 +151,8 @@ def yield_words(pressure: float, by_body: Mapping[str, float | None], contact: H
     if pressure >= (1 - ROUND_OFF) * hardness:
         return f"from the start ({loads}): the pressure is the softer body's hardness"
     first = hertz.first_yield_pressure(hardness, line=contact.is_line)
-    onset = f"the pressure is {100 * pressure / first:.0f} % of the {in_mpa(first)} at which"
-    if pressure > first:
-        return (
-            f"beneath the surface, which this model leaves out: {onset} the softer body first "
-            f"yields ({loads}), and a largest plastic depth of 0 does not mean that nothing yields"
-        )
-    return f"none at first: {onset} the softer body first yields beneath the surface ({loads})"
+    where = "beneath the surface, which this model leaves out" if pressure > first else "none"
+    return (
+        f"{where}: the pressure is {100 * pressure / first:.0f} % of the {in_mpa(first)} at which "
+        f"the softer body first yields beneath the surface ({loads})"
+    )

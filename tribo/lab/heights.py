@@ -53,11 +53,7 @@ class Heights:
 
     def __post_init__(self) -> None:
         shape = np.shape(self.heights)
-        if len(shape) != 2:
-            raise CaseError(
-                f"heights of shape {shape} are no map, which has two dimensions; save one map alone"
-            )
-        if min(shape) < FEWEST:
+        if len(shape) != 2 or min(shape) < FEWEST:
             raise CaseError(
                 f"heights of shape {shape} are no map: {FEWEST} × {FEWEST} at least are needed, a "
                 "row for each x with a height for each y; a list of x, y, z is no map"

@@ -128,7 +128,7 @@ REFUSED = {
     ),
     "every height of the map is missing": lambda *_: filled((32, 32)),
     r"shape \(4, 32\) are no map: 16 × 16 at least": lambda *_: filled((4, 32), 0.0),
-    r"shape \(3, 32, 32\) .* two dimensions": lambda *_: filled((3, 32, 32), 0.0),
+    r"shape \(3, 32, 32\) .* no map": lambda *_: filled((3, 32, 32), 0.0),
     r"1 of its 1024 heights .* first is inf m": lambda *_: Heights(
         np.where(np.arange(1024) == 5, np.inf, 0.0).reshape(32, 32), (PITCH, PITCH)
     ),
