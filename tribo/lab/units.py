@@ -8,26 +8,15 @@ from collections.abc import Sequence
 import numpy as np
 
 from tribo.core.arrays import Array
+from tribo.core.column import labelled
 from tribo.core.units import scale
 
 _UNITS = {"m": ("mm", "µm", "nm", "pm"), "Pa": ("MPa", "kPa", "Pa")}
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _FIXED = {"m^2": "mm²", "m^3": "mm³", "1/Pa": "mm³/(N·m)", "m^3/J": "mm³/J"}
 
-UNITS = (
-    ("_1_Pa", "1/Pa"),
-    ("_m_s", "m/s"),
-    ("_J_m2", "J/m^2"),
-    ("_m3", "m^3"),
-    ("_m2", "m^2"),
-    ("_J", "J"),
-    ("_N_m", "N m"),
-    ("_N", "N"),
-    ("_s", "s"),
-    ("_Pa", "Pa"),
-    ("_m", "m"),
-)
-"""Ends of names of columns, and their unit; the longer first, as the inverse of a pressure."""
+UNITS = ("1/Pa", "m/s", "J/m^2", "m^3", "m^2", "J", "N m", "N", "s", "Pa", "m")
+"""Units of columns; the inverse of a pressure comes before the pressure, whose end is the same."""
 NAMES = {
     "load.normal": "normal load",
     "wear.k": "specific wear rate",
@@ -105,8 +94,8 @@ def time_labels(times: Array) -> list[str]:
 
 def column_label(name: str, values: Array) -> tuple[str, str, float]:
     """Return the label of a column, the unit for its values, "" for none, and its size."""
-    end, si = next((each for each in UNITS if name.endswith(each[0])), ("", "1"))
-    path, body = name.removesuffix(end), ""
+    si = next((unit for unit in UNITS if name.endswith(labelled("", unit))), "1")
+    path, body = name.removesuffix(labelled("", si)), ""
     if path.startswith("bodies."):
         _, body, path = path.split(".", 2)
     words = NAMES.get(path, path.replace("_", " ").replace(".", " ").replace("max ", "largest "))
