@@ -59,7 +59,7 @@ BLEND = {"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}
         (
             {"bodies": {}, "observers": [{"type": "counter", "every": 0}]},
             "observers.1.every",
-            "0: must be at least 1",
+            "0: must be greater than or equal to 1",
         ),
         (3, "", "a table is needed, 3 was given"),
         ({"bodies": {}, "observers": {"type": "counter"}}, "observers", '[{ type = "counter" }]'),

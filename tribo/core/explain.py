@@ -25,7 +25,6 @@ _WORDS = {
         "float_type float_parsing": "a number is needed, {given} was given",
         "int_type int_parsing int_from_float": "a whole number is needed, {given} was given",
         "int_parsing_size": "a smaller whole number is needed, {given} was given",
-        "finite_number": "a finite number is needed, {given} was given",
         "bool_type bool_parsing": "true or false is needed, {given} was given",
         "string_type": "text is needed, {given} was given",
         "model_type model_attributes_type dict_type mapping_type": (
@@ -34,11 +33,6 @@ _WORDS = {
         "list_type tuple_type set_type frozen_set_type iterable_type": (
             "a list is needed, {given} was given{listed}"
         ),
-        "greater_than": "{given}: must be greater than {gt}",
-        "greater_than_equal": "{given}: must be at least {ge}",
-        "less_than": "{given}: must be less than {lt}",
-        "less_than_equal": "{given}: must be at most {le}",
-        "multiple_of": "{given}: must be a multiple of {multiple_of}",
         "too_short": "at least {min_length} needed, {actual_length} given",
         "too_long": "at most {max_length} allowed, {actual_length} given",
         "missing": "missing",
@@ -155,7 +149,7 @@ def message(details: ErrorDetails, *keys: str | int) -> str:
     if not text and isinstance(given, Mapping) and "type" in given:
         return f"{given['type']!r} refused its keys without saying why"
     text = text or f"{shown(given)} was refused without saying why"
-    return text.replace("Input should", "must")
+    return text.replace("Input should", f"{shown(given)}: must")
 
 
 def _line(keys: tuple[str | int, ...], text: str, given: Any, kind: str = TOLD) -> InitErrorDetails:
