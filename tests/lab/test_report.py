@@ -62,10 +62,9 @@ def test_the_load_is_set_against_that_of_first_yield(line):
     assert contact.load_ratio == pytest.approx(3)
 
 
-@pytest.mark.parametrize("across", [20, 40])
-def test_the_ends_of_a_line_contact_do_not_count_towards_its_yield(across):
+def test_the_ends_of_a_line_contact_do_not_count_towards_its_yield():
     roller = case(
-        grid=Grid((0.4e-3, 2e-3), (40, across)),
+        grid=Grid((0.4e-3, 2e-3), (40, 40)),
         ends_at_window=True,
         load=200,
         bodies=[
