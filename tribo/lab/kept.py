@@ -81,11 +81,9 @@ def _fields(result: Result) -> Iterator[KeptField]:
                 for body in result.body_names
                 if key in result.fields_of(kind, body)
             }
-            first, *others = of_bodies.values()
-            close = ROUND_OFF * float(np.max(np.abs(first)))
-            alike = bool(others) and all(
-                np.allclose(first, other, rtol=0, atol=close) for other in others
-            )
+            both = np.array([*of_bodies.values()])
+            apart = np.max(np.ptp(both, axis=0))
+            alike = len(both) > 1 and bool(apart <= ROUND_OFF * np.max(np.abs(both)))
             for body, values in [*of_bodies.items()][: 1 if alike else None]:
                 name = field.name.replace("_", " ")
                 own = (key, name) if alike else (f"{body}_{key}", f"{name}, {body}")

@@ -55,19 +55,18 @@ def varying(fields: Sequence[Array], marked: Mask) -> tuple[int, ...]:
 
 
 def _varies(field: Array, marked: Mask, axis: int) -> bool:
-    box = tuple(slice(*_cells(marked, along)) for along in (0, 1))
+    ends = (_ends(marked, along) for along in (0, 1))
+    box = tuple(slice(max(first - 1, 0), last + 2) for first, last in ends)
     part = np.broadcast_to(field, marked.shape)[box]
     spread = np.abs(part - np.mean(part, axis=axis, keepdims=True))
     largest, most = (float(np.percentile(np.abs(each), MOST_CELLS)) for each in (part, spread))
     return most > SHADE * largest
 
 
-def _cells(marked: Mask, axis: int) -> tuple[int, int]:
-    """Return the cells along an axis that show all that is marked, and those beside."""
+def _ends(marked: Mask, axis: int) -> tuple[int, int]:
+    """Return the first and the last marked cell along an axis, of all if none is."""
     index = np.flatnonzero(marked.any(axis=1 - axis))
-    if index.size == 0:
-        return 0, marked.shape[axis]
-    return max(int(index[0]) - 1, 0), int(index[-1]) + 2
+    return (int(index[0]), int(index[-1])) if index.size else (0, marked.shape[axis] - 1)
 
 
 def through_centre(
@@ -104,14 +103,11 @@ def limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:
     marked cells reach its edge, they lie beyond it. `marked` has shape (nx, ny) or (1, ny).
     """
     edge = 0.5 * grid.size[axis]
-    index = np.flatnonzero(np.broadcast_to(marked, grid.cells).any(axis=1 - axis))
-    if index.size == 0:
-        return -edge, edge
+    first, last = _ends(np.broadcast_to(marked, grid.cells), axis)
     step = grid.spacing[axis]
-    low = min(float(index[0]) * step - edge, -reach)
-    high = max(float(index[-1] + 1) * step - edge, reach)
+    low, high = min(first * step - edge, -reach), max((last + 1) * step - edge, reach)
     beside = MARGIN * max(0.5 * (high - low), 2.0 * step)
-    at_end = index[0] == 0 or index[-1] == grid.cells[axis] - 1
+    at_end = first == 0 or last == grid.cells[axis] - 1
     beyond = np.inf if grid.ends_at_window and at_end else edge
     return max(low - beside, -beyond), min(high + beside, beyond)
 
