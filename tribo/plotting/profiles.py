@@ -132,8 +132,8 @@ def worn_section(result: Result, save: int = -1, axis: int | None = None) -> Pic
     sections = through_centre(fields, shown)
     title = f"t = {time_labels(result.times)[save]}, unloaded"
     fill = partial(_fill, words)
-    row = heights_row(sections, looks, labels, title, room=(0.27, 0.18), more=[fill])
-    return Picture([row], 70.0, "y")
+    row = heights_row(sections, looks, labels, title, room=(0.2, 0.1), more=[fill])
+    return Picture([row], 64.0, "y")
 
 
 def _fill(words: Sequence[str], section: Section, axes: Axes) -> Sequence[Artist]:
