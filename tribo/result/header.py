@@ -63,6 +63,6 @@ class Header(BaseModel):
 
     def system(self, cells: tuple[int, int]) -> ContactSystem:
         """Return the constants of the contact, on so many cells."""
-        ends = bool(self.case["grid"].get("ends_at_window"))
+        ends = bool(self.case.get("grid", {}).get("ends_at_window"))
         grid = Grid(self.window, cells, ends)
         return ContactSystem(grid, self.modulus, self.load, self.cap, self.curvature)
