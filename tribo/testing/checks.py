@@ -21,7 +21,6 @@ from tribo.contract import answers_of
 from tribo.core.fields import Field
 from tribo.core.table import descriptions
 from tribo.core.units import parts, quantities
-from tribo.result.provenance import stated_facts
 from tribo.testing.compare import (
     expect_close,
     first_difference,
@@ -151,7 +150,9 @@ class Checks(ABC):
     def same_inputs_give_same_bits(self) -> None:
         """The answer follows from the inputs alone, whatever was asked before; so do its facts."""
         used, answers = self._make(), []
-        stated, later = (stated_facts(used) for _ in range(2))
+        stated, later = (used.facts() for _ in range(2))
+        text = all(isinstance(word, str) for fact in stated.items() for word in fact)
+        require(text, f"facts() gave {stated}; give text by text")
         require(later == stated, f"facts() gave {stated}, and then {later}")
         for given in self._samples():
             first = deepcopy(self._call(self._make(), given))
