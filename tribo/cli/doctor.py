@@ -32,12 +32,10 @@ def doctor(as_json: bool) -> None:
     registry = Registry(installed())
     records = probe_all(registry.plugins)
     checks = _self_test()
-    conflicts = registry.conflicts
     found: dict[str, Any] = {
         **environment(),
         "checks": checks,
         "plugins": [record.facts for record in records],
-        "conflicts": list(conflicts.values()),
     }
     if as_json:
         echo_json(found)
@@ -45,7 +43,6 @@ def doctor(as_json: bool) -> None:
         _print(found)
     bad = [check["name"] for check in checks if not check["ok"]]
     bad += [str(r) for r in records if r.status in ("broken", "incompatible")]
-    bad += conflicts
     if bad:
         raise NumericalError(f"not well: {', '.join(bad)}")
 
@@ -76,8 +73,6 @@ def _print(found: dict[str, Any]) -> None:
         name = f"plugin {plugin['distribution']} {plugin['version']} ({plugin['entry_point']})"
         well = plugin["status"] in ("loaded", "disabled")
         _line(name, well, f"{plugin['status']}: {plugin['reason']}".rstrip(": "))
-    for conflict in found["conflicts"]:
-        _line("name", False, conflict)
 
 
 def _line(name: str, well: bool, detail: str) -> None:

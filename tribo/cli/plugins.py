@@ -64,7 +64,7 @@ def show(name: str) -> None:
     for number, component in enumerate(matching(registry, name)):
         cls = registry.find(component)
         assert cls is not None
-        described = describe(cls, registry.claimants(component)[0])
+        described = describe(cls, registry.owners[component])
         click.echo(f"\n{described}" if number else described)
 
 
@@ -93,8 +93,8 @@ def check(name: str) -> None:
         name = Path(name).name
     registry, failed = default_registry(), []
     for component in matching(registry, name):
-        (owner, *others) = registry.claimants(component)
-        if not others and not (tried := probe_all([owner])[0]).usable:
+        owner = registry.owners[component]
+        if not (tried := probe_all([owner])[0]).usable:
             raise CaseError(f"{component!r} is in {tried}, which is {tried.status}: {tried.reason}")
         cls = registry.find(component)
         assert cls is not None

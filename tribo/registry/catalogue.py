@@ -28,28 +28,19 @@ def catalogue(registry: Registry) -> list[dict[str, str]]:
     """Return a row for every component, and for every plugin that cannot be used.
 
     No plugin is imported: for a component of a plugin not imported yet, kind and summary are empty.
-    A name that several plugins claim has a row for each, with the status ``conflict``.
     """
-    known = registry.components
+    known, owners = registry.components, registry.owners
     names = [name for kind in KINDS for name in registry.names(kind)] + registry.waiting
-    rows = [_row(name, registry.claimants(name)[0], known.get(name)) for name in names]
-    rows += [
-        {**_row(name, plugin), "status": "conflict", "reason": reason}
-        for name, reason in registry.conflicts.items()
-        for plugin in registry.claimants(name)
-    ]
+    rows = [_row(name, owners[name], known.get(name)) for name in names]
     return rows + [_row("", plugin) for plugin in registry.plugins if not plugin.usable]
 
 
 def matching(registry: Registry, name: str) -> list[str]:
-    """Return the names of the component called `name`, or of the components of the distribution.
-
-    Names in conflict come last.
-    """
-    known = [*registry.components, *registry.waiting, *registry.conflicts]
+    """Return the names of the component called `name`, or of the components of the distribution."""
+    known = [*registry.components, *registry.waiting]
     if name in known:
         return [name]
-    found = [k for k in known if name in [p.distribution for p in registry.claimants(k)]]
+    found = [each for each in known if registry.owners[each].distribution == name]
     if found:
         return found
     for plugin in registry.plugins:

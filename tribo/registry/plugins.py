@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 DISABLED = "TRIBO_DISABLE_PLUGINS"
 ONLY = "TRIBO_PLUGINS"
 
-Status = Literal["available", "loaded", "disabled", "broken", "incompatible", "conflict"]
+Status = Literal["available", "loaded", "disabled", "broken", "incompatible"]
 
 
 @dataclass(eq=False)
@@ -31,9 +32,9 @@ class Plugin:
     It came with a version of a distribution, or none, and lies in the module `entry_point`. Its
     status is ``available`` (not imported yet), ``loaded``, ``disabled`` by the user, ``broken`` (it
     raised, breaks the contract of plugins, or did not end in time) or ``incompatible`` (it is for
-    another contract), the `reason` why it cannot be used; in lists, a name that two plugins declare
-    is in ``conflict``. `names` are those that its entry points declare, `classes` the components by
-    name once `load`, which returns the object that carries the hooks, has imported it.
+    another contract), the `reason` why it cannot be used. `names` are those that its entry points
+    declare, `classes` the components by name once `load`, which returns the object that carries the
+    hooks, has imported it.
 
     Examples
     --------
@@ -90,7 +91,8 @@ def installed() -> list[Plugin]:
     An entry point ``acme.fretting = "acme_tribo"`` in the group ``tribo.2`` declares that the
     module ``acme_tribo`` offers a component of that name; an entry point named after its
     distribution, as ``acme-tribo = "acme_tribo.hooks"``, that it has hooks and no component. The
-    number is the contract's: a distribution that has only other groups is ``incompatible``. The
+    number is the contract's: a distribution that has only other groups is ``incompatible``. Plugins
+    that declare the same name are ``broken``. The
     environment variable TRIBO_DISABLE_PLUGINS lists distributions to leave out, ``*`` for all;
     TRIBO_PLUGINS the only ones that may take part.
     """
@@ -123,6 +125,11 @@ def installed() -> list[Plugin]:
             )
     plugins = [found[key] for key in sorted(found)]
     _choose(plugins)
+    claims = Counter(name for plugin in plugins if plugin.usable for name in plugin.names)
+    for plugin in plugins:
+        if plugin.usable and (name := next((n for n in plugin.names if claims[n] > 1), "")):
+            plugin.status = "broken"
+            plugin.reason = f"another package offers {name!r} too; uninstall or disable one"
     return plugins
 
 

@@ -6,7 +6,6 @@ import os
 import re
 import sys
 import warnings
-from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Set
 from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
 from functools import cache, partial
@@ -34,7 +33,7 @@ class Registry:
     """The components that a set of plugins offers, by name.
 
     An installed plugin is imported only when a name that its entry points
-    declare is looked up. A name that two plugins claim cannot be used.
+    declare is looked up. Each name belongs to one plugin.
 
     Parameters
     ----------
@@ -60,20 +59,16 @@ class Registry:
         self.plugins: tuple[Plugin, ...] = ()
         self._manager = pluggy.PluginManager(hookspecs.PROJECT)
         self._manager.add_hookspecs(hookspecs)
-        self._owners: defaultdict[str, list[Plugin]] = defaultdict(list)
         self._own: dict[str, type[Component]] = {}
         self._records: dict[object, Plugin] = {}
         for plugin in plugins:
             self.add(plugin)
 
     def add(self, plugin: Plugin) -> None:
-        """Let one more plugin take part."""
+        """Let one more plugin take part; `ValueError` if it offers a name that another has."""
         if plugin.origin != "installed":
             self._register(plugin)
         self.plugins += (plugin,)
-        if plugin.usable:
-            for name in plugin.names:
-                self._owners[name].append(plugin)
 
     def know(self, cls: type[Component]) -> None:
         """Let a class that no plugin offers take part, in place of an earlier one of its name."""
@@ -110,35 +105,23 @@ class Registry:
     def components(self) -> dict[str, type[Component]]:
         """The usable classes of the plugins that were imported, by name."""
         return {
-            name: cls
-            for plugin in self.plugins
-            for name, cls in sorted(plugin.classes.items())
-            if len(self._owners[name]) == 1
+            name: cls for plugin in self.plugins for name, cls in sorted(plugin.classes.items())
         }
 
     @property
     def waiting(self) -> list[str]:
         """The usable names of the plugins not imported yet, sorted; their kinds are unknown."""
-        owned = sorted(self._owners.items())
-        return [name for name, own in owned if [p.status for p in own] == ["available"]]
-
-    @property
-    def conflicts(self) -> dict[str, str]:
-        """The names that more than one plugin claims, and what to do about each."""
-        return {
-            name: f"{name!r} is offered by {' and '.join(map(str, owners))}, so that it is not "
-            "clear which is meant; uninstall or disable one of them"
-            for name, owners in self._owners.items()
-            if len(owners) > 1
-        }
+        return sorted(n for p in self.plugins if p.status == "available" for n in p.names)
 
     def names(self, kind: str) -> list[str]:
         """Return the usable names of one kind, sorted, of the plugins that were imported."""
         return sorted(name for name, cls in self.components.items() if cls.kind() == kind)
 
-    def claimants(self, name: str) -> list[Plugin]:
-        """Return the plugins that claim a name; imports nothing."""
-        return self._owners.get(name, [])
+    @property
+    def owners(self) -> dict[str, Plugin]:
+        """The plugin that offers each name, one that is usable where there is one."""
+        plugins = sorted(self.plugins, key=lambda plugin: plugin.usable)
+        return {name: plugin for plugin in plugins for name in plugin.names}
 
     def lookup(self, kind: str, name: str) -> type[Component]:
         """Return the class that `name` stands for, importing its plugin if need be.
@@ -154,8 +137,8 @@ class Registry:
         Raises
         ------
         CaseError
-            If no plugin, or more than one, offers `name`, its plugin cannot be
-            used, or it is of another kind.
+            If no plugin offers `name`, its plugin cannot be used, or it is of
+            another kind.
         """
         words = kind.replace("_", " ")
         cls = self.find(name, words)
@@ -175,20 +158,16 @@ class Registry:
 
     def find(self, name: str, words: str = "component") -> type[Component] | None:
         """Return the class of any kind that `name` stands for; None if no plugin offers it."""
-        owners = self._owners.get(name, [])
-        if len(owners) > 1:
-            raise CaseError(f"{words} {self.conflicts[name]}")
-        for plugin in owners:
+        plugin = self.owners.get(name)
+        if plugin is not None:
             self.load(plugin)
             if name in plugin.classes:
                 return plugin.classes[name]
-        if name in self._own:
-            return self._own[name]
-        refused = [p for p in self.plugins if name in p.names and not p.usable]
-        if refused:
-            why = "; ".join(f"{plugin} is {plugin.status}: {plugin.reason}" for plugin in refused)
-            raise CaseError(f"{words} {name!r} cannot be used: {why}")
-        return None
+        if plugin is None or name in self._own:
+            return self._own.get(name)
+        raise CaseError(
+            f"{words} {name!r} cannot be used: {plugin} is {plugin.status}: {plugin.reason}"
+        )
 
     def load_all(self) -> None:
         """Import every plugin that is not disabled."""
@@ -252,6 +231,9 @@ class Registry:
             self._manager.check_pending()
             others = self._manager.get_plugins() - {module}
             classes = offered(self._manager.subset_hook_caller("tribo_components", others)())
+            if plugin.origin != "installed" and (taken := self.owners.keys() & classes):
+                name = min(taken)
+                raise ValueError(f"{name!r} is offered by {self.owners[name]} already")
             if plugin.origin == "installed" and set(plugin.names) != set(classes):
                 raise ValueError(
                     f"its entry points declare {', '.join(plugin.names) or 'none'}, but its hook "
