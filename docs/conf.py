@@ -22,8 +22,6 @@ import reference  # noqa: E402
 os.environ["PYTHONPATH"] = os.pathsep.join(
     [str(DOCS / "support"), str(DOCS.parent / "examples"), str(DOCS.parent)]
 )
-# Pages show no plugin as broken because this machine is busy.
-os.environ.setdefault("TRIBO_PLUGIN_TIME_LIMIT", "240")
 os.environ["TRIBO_REPOSITORY"] = str(DOCS.parent)
 # Cells show their figures as in a notebook, whatever draws outside.
 os.environ["MPLBACKEND"] = "module://matplotlib_inline.backend_inline"

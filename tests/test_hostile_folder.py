@@ -32,7 +32,7 @@ def test_a_command_imports_nothing_from_the_folder_it_starts_in(tmp_path, name):
     done = subprocess.run(
         [sys.executable, "-m", "tribo", *COMMANDS[name]],
         cwd=folder,
-        env={**os.environ, "TRIBO_PLUGIN_TIME_LIMIT": "200", "TRIBO_PLUGINS": "tribo-energy"},
+        env={**os.environ, "TRIBO_PLUGINS": "tribo-energy"},
         capture_output=True,
         text=True,
         timeout=500,

@@ -9,6 +9,7 @@ import pytest
 from fake_distributions import LAW, OBSERVER, SHORT, distribute
 
 from tribo import Result
+from tribo.registry import child
 from tribo.templates import template
 
 GOOD = LAW.format(name="odd.one")
@@ -66,10 +67,10 @@ def test_the_doctor_names_every_fault_and_none_hurts_a_list_or_a_check(folder, a
     statuses = {row["name"]: row["status"] for row in json.loads(listed.stdout)}
     assert statuses["odd.endless"] == "available"
     with monkeypatch.context() as patient:
-        patient.setenv("TRIBO_PLUGIN_TIME_LIMIT", "0.5")
+        patient.setattr(child, "TIMES", 0.5)
         checked = asked("plugins", "check", "odd.endless")
     assert checked.returncode == 2
-    assert "endless 1.0, which is broken: its import did not end within 0.5 s" in checked.stderr
+    assert "endless 1.0, which is broken: its import did not end within 0.5 times" in checked.stderr
     for verb in ("show", "check"):
         done = asked("plugins", verb, "odd.both")
         assert done.returncode == 2

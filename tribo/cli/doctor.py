@@ -24,13 +24,12 @@ def doctor(as_json: bool) -> None:
       tribo doctor
     """
     from tribo.core.errors import NumericalError
+    from tribo.registry.all_plugins import try_out
     from tribo.registry.plugins import installed
-    from tribo.registry.probe import probe_all
-    from tribo.registry.registry import Registry
     from tribo.result.provenance import environment
 
-    registry = Registry(installed())
-    records = probe_all(registry.plugins)
+    records = installed()
+    try_out(records)
     checks = _self_test()
     found: dict[str, Any] = {
         **environment(),
@@ -71,7 +70,7 @@ def _print(found: dict[str, Any]) -> None:
         _line(*check.values())
     for plugin in found["plugins"]:
         name = f"plugin {plugin['distribution']} {plugin['version']} ({plugin['entry_point']})"
-        well = plugin["status"] in ("loaded", "disabled")
+        well = plugin["status"] in ("available", "disabled")
         _line(name, well, f"{plugin['status']}: {plugin['reason']}".rstrip(": "))
 
 

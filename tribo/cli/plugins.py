@@ -84,8 +84,8 @@ def check(name: str) -> None:
       tribo plugins check acme-fretting
       tribo plugins check law.py
     """
+    from tribo.registry.all_plugins import try_out
     from tribo.registry.plugin_file import add_files
-    from tribo.registry.probe import probe_all
     from tribo.testing import check as conform
 
     if name.endswith(".py"):
@@ -94,8 +94,9 @@ def check(name: str) -> None:
     registry, failed = default_registry(), []
     for component in matching(registry, name):
         owner = registry.owners[component]
-        if not (tried := probe_all([owner])[0]).usable:
-            raise CaseError(f"{component!r} is in {tried}, which is {tried.status}: {tried.reason}")
+        try_out([owner])
+        if not owner.usable:
+            raise CaseError(f"{component!r} is in {owner}, which is {owner.status}: {owner.reason}")
         cls = registry.find(component)
         assert cls is not None
         fields = cls.model_fields.items()

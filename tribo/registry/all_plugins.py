@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 from tribo.core.errors import CaseError, warn
 from tribo.core.words import did_you_mean, suggestion
-from tribo.registry.probe import probe_all
+from tribo.registry.child import in_child
+from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry, default_registry
 
 
@@ -41,13 +42,32 @@ def import_all(registry: Registry) -> None:
 
     A child process imports them first; a plugin that ends it is not imported here.
     """
-    usable = [plugin for plugin in registry.plugins if plugin.usable]
-    # Where no process can be started, as in a browser, they are imported untried.
-    with suppress(OSError):
-        for plugin, tried in zip(usable, probe_all(usable), strict=True):
-            if not tried.usable:
-                plugin.status, plugin.reason = tried.status, tried.reason
+    try_out(registry.plugins)
     registry.load_all()
     for plugin in registry.plugins:
         if not plugin.usable and plugin.status != "disabled":
             warn(f"{plugin} is left out: {plugin.reason}")
+
+
+def try_out(plugins: Iterable[Plugin]) -> None:
+    """Import plugins in one child process, and mark those ``broken`` that fail there.
+
+    If that process does not finish, each plugin has a process of its own; see `in_child` for its
+    limits.
+    """
+    waiting = [plugin for plugin in plugins if plugin.status == "available"]
+    reasons, ended = in_child(_imported, [(plugin,) for plugin in waiting])
+    if ended and len(waiting) > 1:
+        for plugin in waiting:
+            try_out([plugin])
+        return
+    for plugin, reason in zip(waiting, [f"its import {ended}"] if ended else reasons, strict=True):
+        if reason:
+            plugin.status, plugin.reason = "broken", reason
+
+
+def _imported(plugin: Plugin) -> str:
+    """Import a plugin; return why it cannot be used, empty if it can."""
+    tried = replace(plugin)
+    Registry([tried]).load_all()
+    return tried.reason

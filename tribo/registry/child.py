@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import faulthandler
 import io
-import math
 import os
 import pickle
 import signal
@@ -15,11 +14,8 @@ from collections.abc import Callable, Sequence
 from tempfile import TemporaryFile
 from typing import Any
 
-from tribo.core.errors import CaseError
-
 TIMES = 30
 """CPU time of a call over the import of tribo, which takes 0.6 s: the import of SciPy takes 1."""
-LIMIT = "TRIBO_PLUGIN_TIME_LIMIT"
 
 _LATE = -getattr(signal, "SIGPROF", 0) or None
 _CHILD = f"from {__name__} import answer; answer()"
@@ -30,11 +26,9 @@ def in_child(
 ) -> tuple[list[Any], str]:
     """Return what some calls of a function return, and how its process ended if not well.
 
-    Each may take 30 times the CPU time of tribo's own import, or TRIBO_PLUGIN_TIME_LIMIT in s, and
-    wait ten times as long. Where no process can be started, or it cannot import what it is sent,
-    the function is called in this one.
+    Each may take 30 times the CPU time of tribo's own import, and wait ten times as long. Where no
+    process can be started, or it cannot import what it is sent, the function is called in this one.
     """
-    limit = _limit()
     # The child finds what this process would find.
     path = os.pathsep.join(each or os.getcwd() for each in sys.path)
     # To a file: what a plugin starts may outlive the child, and would hold a pipe open.
@@ -42,7 +36,7 @@ def in_child(
         try:
             code = subprocess.run(
                 [sys.executable, "-P", "-c", _CHILD],
-                input=pickle.dumps((limit, pickle.dumps((function, calls)))),
+                input=pickle.dumps((TIMES, pickle.dumps((function, calls)))),
                 stdout=answers,
                 stderr=subprocess.DEVNULL,
                 env={**os.environ, "PYTHONPATH": path},
@@ -55,14 +49,13 @@ def in_child(
     if came == [False]:
         return [function(*given) for given in calls], ""
     if code == _LATE or rest.startswith(b"Timeout"):
-        within = f"{limit:g} s" if limit else f"{TIMES} times the CPU time of tribo's own import"
-        return came[1:], f"did not end within {within}; {LIMIT}, in s, sets another limit"
+        return came[1:], f"did not end within {TIMES} times the CPU time of tribo's own import"
     return came[1:], _how(code)
 
 
 def answer() -> None:
     """Answer in this process what `in_child` sends it."""
-    limit, sent = pickle.loads(sys.stdin.buffer.read())
+    times, sent = pickle.loads(sys.stdin.buffer.read())
     answers = os.fdopen(os.dup(1), "wb", buffering=0)
     # What a model prints goes elsewhere.
     os.dup2(2, 1)
@@ -73,7 +66,7 @@ def answer() -> None:
         return
     pickle.dump(True, answers)
     # What this process has done so far is the import of tribo.
-    cpu = limit or TIMES * time.process_time()
+    cpu = times * time.process_time()
     for given in calls:
         _end_after(cpu, answers)
         answers.write(pickle.dumps(function(*given)))
@@ -101,20 +94,6 @@ def _loaded(data: bytes) -> tuple[list[Any], bytes]:
             end = file.tell()
     except (EOFError, pickle.UnpicklingError):
         return came, data[end:]
-
-
-def _limit() -> float | None:
-    """Return the seconds of CPU time that a call has, if they are set."""
-    chosen = os.environ.get(LIMIT)
-    if chosen is None:
-        return None
-    try:
-        limit = float(chosen)
-    except ValueError:
-        limit = math.nan
-    if not 0 < limit < math.inf:
-        raise CaseError(f"{LIMIT} is {chosen!r}; it must be a number of seconds above 0")
-    return limit
 
 
 def _how(code: int) -> str:

@@ -5,11 +5,9 @@ import subprocess
 import pytest
 from fake_distributions import distribute, observer, plugins
 
-from tribo import CaseError
 from tribo.core.errors import TriboWarning
 from tribo.registry import child as module
-from tribo.registry.all_plugins import import_all
-from tribo.registry.probe import probe_all
+from tribo.registry.all_plugins import import_all, try_out
 from tribo.registry.registry import Registry
 
 CALM = observer("probe.calm")
@@ -23,22 +21,15 @@ def plugin(folder, module, code):
     return found
 
 
-@pytest.mark.parametrize("limit", ["abc", "0", "nan", ""])
-def test_a_time_limit_that_is_none_is_one_clear_error(folder, monkeypatch, limit):
-    monkeypatch.setenv("TRIBO_PLUGIN_TIME_LIMIT", limit)
-    with pytest.raises(CaseError, match=f"TRIBO_PLUGIN_TIME_LIMIT is {limit!r}; "):
-        probe_all([plugin(folder, "limited", CALM)])
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "code", "status", "reason"),
     [
-        ("forks", FORKS + CALM, "loaded", ""),
+        ("forks", FORKS + CALM, "available", ""),
         ("forks_and_crashes", FORKS + "os.abort()", "broken", "SIGABRT"),
-        ("forks_and_hangs", FORKS + "time.sleep(600)", "broken", "0.3 s"),
-        ("threads_and_hangs", THREAD + CALM, "broken", "0.3 s"),
-        ("burns_and_hangs", "while True: pass", "broken", "0.3 s"),
+        ("forks_and_hangs", FORKS + "time.sleep(600)", "broken", "did not end"),
+        ("threads_and_hangs", THREAD + CALM, "broken", "did not end"),
+        ("burns_and_hangs", "while True: pass", "broken", "did not end"),
         (
             "keeps_no_core",
             "import resource; raise ValueError(resource.getrlimit(resource.RLIMIT_CORE))",
@@ -51,10 +42,10 @@ def test_a_time_limit_that_is_none_is_one_clear_error(folder, monkeypatch, limit
     ],
 )
 def test_a_plugin_cannot_hold_up_who_tries_it(folder, monkeypatch, name, code, status, reason):
-    monkeypatch.setenv("TRIBO_PLUGIN_TIME_LIMIT", "0.3" if "hangs" in name else "60")
-    (tried,) = probe_all([plugin(folder, name, code)])
+    monkeypatch.setattr(module, "TIMES", 0.5 if "hangs" in name else 90)
+    tried = plugin(folder, name, code)
+    try_out([tried])
     assert tried.status == status
-    assert not tried.usable or status == "loaded"
     assert reason in tried.reason
     assert tried.reason.count(".py, line") <= 1
 
@@ -82,10 +73,9 @@ def three(folder, code):
 
 def test_one_child_tries_all_plugins_that_end_it_not(folder, children):
     registry = three(folder, "1 / 0")
-    statuses = [each.status for each in probe_all(registry.plugins)]
-    assert statuses == ["loaded", "broken", "loaded"]
+    try_out(registry.plugins)
+    assert [each.status for each in registry.plugins] == ["available", "broken", "available"]
     assert len(children) == 1
-    assert [each.status for each in registry.plugins] == ["available"] * 3
 
 
 def test_of_plugins_one_that_crashes_is_left_out_alone(folder, children):
