@@ -86,7 +86,6 @@ def test_a_name_alone_is_a_table_with_its_type():
         ("a\nb=3", "is not a path"),
         ("effects.3.rate=1", "effects: '3' is no entry of this list; allowed: 1 to 2"),
         ("effects.0.rate=1", "allowed: 1 to 2"),
-        ("observers.1.every=1", "observers: the case has none; give the whole list, as --set 'obs"),
         ("effects=[heat]", "effects: '[heat]' is not TOML"),
         ("load.normal.x=1", "load.normal: is not a table"),
     ],

@@ -1,7 +1,6 @@
 """A material may be given by its name, and each number that is known has its source."""
 
 import json
-import re
 import tomllib
 
 import pytest
@@ -102,16 +101,9 @@ def test_a_name_that_is_no_text_is_refused():
 
 @pytest.mark.parametrize("given", ["100Cr5", {"name": "100Cr5", "hardness": 1e9}])
 def test_an_unknown_name_is_refused_with_near_ones(given):
-    with pytest.raises(CaseError, match=r"'100Cr5'.* 100Cr6\?") as caught:
+    with pytest.raises(CaseError, match=r"'100Cr5'.*'100Cr6'\?") as caught:
         material_of_ball(given)
     assert caught.value.path == "bodies.ball.material"
-
-
-def test_a_kind_of_material_names_those_of_it():
-    with pytest.raises(CaseError) as caught:
-        material_of_ball("steel")
-    assert {"100Cr6", "C45"} < set(re.findall(r"\w+", str(caught.value)))
-    assert "copper" not in str(caught.value)
 
 
 def test_a_package_offers_materials_in_a_file_and_is_left_out_if_that_is_wrong(

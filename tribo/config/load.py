@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -20,8 +19,7 @@ from tribo.registry.registry import Registry, default_registry
 
 _LARGEST = 10_000_000
 """Bytes; a height map of 1000² points, as text, has as many."""
-_ONCE = "give each table and each key once"
-_WRITING = "text and values with a unit are quoted, as in '5 mm'; decimals follow a point"
+_WRITING = "quote texts and values with a unit, as '5 mm'; give each table and key once"
 
 
 def load_case(
@@ -122,8 +120,6 @@ def read_toml(
         raise CaseError(f"{path} is a result, not {what}; see it with: tribo show {path}")
     if not content.strip():
         raise CaseError(f"{path} is empty; {hint}")
-    if b"\0" in content:
-        raise CaseError(f"{path} is not text in UTF-8; {hint}")
     try:
         # Editors on Windows put a byte order mark at the start.
         data = tomllib.loads(content.decode("utf-8-sig"))
@@ -131,10 +127,7 @@ def read_toml(
         line = content.count(b"\n", 0, error.start) + 1
         raise CaseError(f"{path}, line {line}: not UTF-8 text; save the file as UTF-8") from None
     except ValueError as error:
-        # What is given twice is written well.
-        remedy = _ONCE if str(error).startswith("Cannot") else _WRITING
-        reason = re.sub(r"\('(.*)',?\)", r"[\1]", str(error)).replace("', '", ".")
-        raise CaseError(f"{path} is not TOML: {reason}; {remedy}") from None
+        raise CaseError(f"{path} is not TOML: {error}; {_WRITING}") from None
     except RecursionError:
         raise CaseError(f"{path}: tables or lists are nested too deeply") from None
     return data

@@ -12,7 +12,6 @@ from pydantic import BaseModel
 from tribo.case import SHORT
 from tribo.component import Component
 from tribo.core.errors import CaseError, located
-from tribo.core.toml import inline
 from tribo.core.units import Quantity, quantities
 from tribo.core.words import shown
 
@@ -123,17 +122,11 @@ def _changed(inside: Any, keys: list[str], value: Any, above: tuple[str, ...] = 
     if isinstance(inside, Mapping):
         if not rest and above and _decides([*above, key]):
             return inside if inside.get(key) == value else {key: value}
-        absent: Any = [] if rest and rest[0].isdigit() else {}
-        return {**inside, key: _changed(inside.get(key, absent), rest, value, (*above, key))}
+        return {**inside, key: _changed(inside.get(key, {}), rest, value, (*above, key))}
     if not isinstance(inside, list):
         raise CaseError("is not a table; nothing in it can be set", ".".join(above))
     at = int(key) - 1 if key.isascii() and key.isdigit() else -1
     if not 0 <= at < len(inside):
-        place = ".".join(above)
-        if not inside:
-            whole = inline([_changed({}, rest, value, (*above, key))])
-            raise CaseError(
-                f"the case has none; give the whole list, as --set '{place}={whole}'", place
-            )
-        raise CaseError(f"{key!r} is no entry of this list; allowed: 1 to {len(inside)}", place)
+        words = f"{key!r} is no entry of this list; allowed: 1 to {len(inside)}"
+        raise CaseError(words, ".".join(above))
     return [*inside[:at], _changed(inside[at], rest, value, (*above, key)), *inside[at + 1 :]]

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
-from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
-from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 from typing import Annotated, Any
@@ -17,7 +14,7 @@ from tribo.core.errors import CaseError, WrongValues, warn
 from tribo.core.shorthand import call
 from tribo.core.table import Table
 from tribo.core.units import Quantity, quantities
-from tribo.core.words import said
+from tribo.core.words import did_you_mean, said, suggestion
 
 Poisson = Annotated[float, Quantity("1", above=-1, below=0.5, usual=(0, 0.5))]
 """Poisson's ratio; below 0 only foams and lattices made for it."""
@@ -121,18 +118,8 @@ class Materials:
         called = {a.casefold(): n for n, t in tables.items() for a in (n, *t.get("also", ()))}
         if found := called.get(name.casefold()):
             return found, tables[found]
-        near = ", ".join(self.like(name))
-        listed = f"did you mean {near}? {_LISTED}" if near else _LISTED
-        raise WrongValues(f"no material is called {name!r}; {listed}")
-
-    def like(self, word: str) -> list[str]:
-        """Return the names of the materials with such a word in their names or descriptions."""
-        words = defaultdict(set)
-        for name, table in self.tables().items():
-            for each in (name, *table.get("also", ()), *re.findall(r"\w+", table["summary"])):
-                words[each.casefold()].add(name)
-        near = get_close_matches(word.casefold(), words, cutoff=0.8)
-        return [name for name in self if any(name in words[each] for each in near)]
+        meant = suggestion(did_you_mean(name, [*tables, *called]))
+        raise WrongValues(f"no material is called {name!r}{meant} {_LISTED}")
 
 
 materials = Materials()
