@@ -72,7 +72,7 @@ def test_a_value_that_is_no_toml_is_told_with_how_values_are_written(monkeypatch
     (folder / "bare.toml").write_text(f'a = "b"\n{line}\n')
     words = told(monkeypatch, folder, "check {}", "bare.toml")
     assert "at line 2" in words
-    assert words.endswith("quoted, as in '5 mm'; decimals follow a point")
+    assert words.endswith("write 0.3, and each key once")
 
 
 @pytest.mark.parametrize("name", ["out.csv", "out.toml"])

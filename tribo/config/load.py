@@ -19,7 +19,7 @@ from tribo.registry.registry import Registry, default_registry
 
 _LARGEST = 10_000_000
 """Bytes; a height map of 1000² points, as text, has as many."""
-_WRITING = "quote texts and values with a unit, as '5 mm'; give each table and key once"
+_WRITING = "quote texts and values with a unit, as '5 mm'; write 0.3, and each key once"
 
 
 def load_case(
