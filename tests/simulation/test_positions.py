@@ -5,9 +5,7 @@ import pytest
 from paper_models import K, archard, case, flat, last, motion, named, pair, steel
 
 from tribo import (
-    Begin,
     Grid,
-    Load,
     Periodic,
     Pin,
     Simulation,
@@ -36,8 +34,6 @@ def with_bodies(stroke, *bodies):
     return given.model_copy(update={"bodies": given.bodies | dict(bodies)})
 
 
-LINEAR = [{"at": -1e-3, "share": 0.5}, {"at": 1e-3, "share": 1.5}]
-ALONG = left_open(distance="0.1 m").model_copy(update={"load": Load(normal=100, along=LINEAR)})
 PIN = named("ball", Pin(radius="0.4 mm", edge="0.12 mm"), steel(), archard())
 WAVY = named("disk", Waves(amplitude="10 nm", wavelength="0.2 mm", along="x"), steel(), archard())
 
@@ -55,7 +51,6 @@ WAVY = named("disk", Waves(amplitude="10 nm", wavelength="0.2 mm", along="x"), s
         (left_open(stepping=Explicit(time_step=0.25)), "average"),
         (left_open("0.58 mm", swept="ball"), "cells"),
         (with_bodies("0.58 mm", WAVY), "cells"),
-        (ALONG, 33),
     ],
 )
 def test_the_positions_that_are_taken(given, taken):
@@ -127,5 +122,5 @@ def test_worn_bodies_go_on_in_the_positions_they_had(tmp_path, positions):
     kinematics = motion(stroke="0.7 mm", duration=None, distance="0.1 m", positions=positions)
     Simulation(case(grid=grid, kinematics=kinematics)).run(tmp_path / "a.h5").close()
     given = left_open("0.7 mm", grid=grid, distance="20 m")
-    given = given.model_copy(update={"begin": Begin(result=str(tmp_path / "a.h5"))})
+    given = given.model_copy(update={"begin": str(tmp_path / "a.h5")})
     assert composed(given).case.kinematics.positions == positions

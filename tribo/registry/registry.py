@@ -119,7 +119,7 @@ class Registry:
 
     @property
     def owners(self) -> dict[str, Plugin]:
-        """The plugin that offers each name, one that is usable where there is one."""
+        """The plugin that offers each name; of several, a usable plugin."""
         plugins = sorted(self.plugins, key=lambda plugin: plugin.usable)
         return {name: plugin for plugin in plugins for name in plugin.names}
 
