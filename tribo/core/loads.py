@@ -135,21 +135,15 @@ class Load(Table):
         return tuple(found)
 
     def thinned(self) -> Load:
-        """Return the load in a few stages, each held at the mean of the stages that it replaces."""
+        """Return the load in a few stages of equal length, each held at the mean over its time."""
         if isinstance(self.normal, float) or len(self.normal) <= FEW:
             return self
         times, loads = np.array(self.points).T
-        ends, lasted = times[1:], np.diff(times)
-        carried = lasted * (0.5 * (loads[:-1] + loads[1:]))
-        # At a jump no time passes.
-        ends, carried = ends[lasted > 0], carried[lasted > 0]
-        firsts = np.arange(0, len(carried), -(-len(carried) // FEW))
-        until = ends[[*(firsts[1:] - 1), -1]]
-        normal = np.add.reduceat(carried, firsts) / np.diff([0.0, *until])
-        stages = zip(until.tolist(), normal.tolist(), strict=True)
-        return self.model_copy(
-            update={"normal": tuple(Stage(until=time, normal=load) for time, load in stages)}
-        )
+        carried = np.cumsum([0.0, *(np.diff(times) * 0.5 * (loads[:-1] + loads[1:]))])
+        ends = np.linspace(0.0, times[-1], FEW + 1)
+        means = np.diff(np.interp(ends, times, carried)) / np.diff(ends)
+        stages = zip(ends[1:].tolist(), means.tolist(), strict=True)
+        return Load(normal=tuple(Stage(until=time, normal=load) for time, load in stages))
 
 
 @dataclass(frozen=True)
