@@ -1,6 +1,5 @@
 """Every name of the package, and the module that it is in; `__init__.py` reads it too."""
 
-from tribo.case import Begin as Begin
 from tribo.case import Body as Body
 from tribo.case import Case as Case
 from tribo.case import Friction as Friction

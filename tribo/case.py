@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from tribo.study.check import Check
 
 
-SHORT = {"load": "normal", "friction": "coefficient", "begin": "result"}
+SHORT = {"load": "normal", "friction": "coefficient"}
 """Tables of a case for which the value of one key is short."""
 
 
@@ -135,21 +135,6 @@ class Friction(Table):
     """Coefficient of friction, uniform and constant."""
 
 
-class Begin(Table):
-    """The result with whose worn bodies a run begins; a path alone is short for it.
-
-    Examples
-    --------
-    >>> tribo.Begin(result="run_in.h5", time="10 min").time
-    600.0
-    """
-
-    result: str
-    """The result file; a relative name starts at the current directory."""
-    time: Annotated[float, Quantity("s", at_least=0)] | None = None
-    """The save to begin with, by its time; the last if left out."""
-
-
 SaveTime = Annotated[float | str, Quantity("s", at_least=0, also=("m", "lap"))]
 """A time, or the path slid by then."""
 
@@ -215,7 +200,7 @@ class Case(Table):
             bodies: Mapping[str, Body],
             kinematics: Kinematics,
             materials: Mapping[str, Material] = ...,
-            begin: Begin | str | None = None,
+            begin: str | Path | None = None,
             contact: ContactSolver = ...,
             stepping: Implicit | Explicit = ...,
             friction: Friction | float | None = None,
@@ -231,8 +216,9 @@ class Case(Table):
     """Materials of one's own, by the names that bodies may give."""
     bodies: dict[str, Body]
     """The two bodies, by name."""
-    begin: Begin | None = None
-    """How worn they are at first: unworn if left out."""
+    begin: str | None = None
+    """The result with whose worn bodies the run begins, a relative name from the current directory;
+    unworn if left out."""
     contact: ContactSolver = DcFft()
     """How the normal contact is solved."""
     kinematics: Kinematics
@@ -252,7 +238,12 @@ class Case(Table):
     def _short(cls, value: Any, info: ValidationInfo) -> Any:
         if value is None or isinstance(value, Mapping | BaseModel):
             return value
-        return {SHORT[str(info.field_name)]: str(value) if isinstance(value, Path) else value}
+        return {SHORT[str(info.field_name)]: value}
+
+    @field_validator("begin", mode="before")
+    @classmethod
+    def _path(cls, value: Any) -> Any:
+        return str(value) if isinstance(value, Path) else value
 
     @field_validator("contact", "stepping", mode="before")
     @classmethod

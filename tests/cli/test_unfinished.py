@@ -141,7 +141,7 @@ def test_a_result_is_read_as_far_as_it_came(state, monkeypatch, name, command):
 def test_no_run_begins_with_a_result_or_upon_it_before_it_is_done(state, name):
     state(name)
     if not name.startswith("interrupted"):
-        assert refusal(WRITING["check"]).startswith("begin.result: ")
+        assert refusal(WRITING["check"]).startswith("begin: ")
     assert "'tribo resume r.h5'" in refusal(WRITING["run"])
 
 

@@ -65,7 +65,7 @@ def test_keys_of_the_new_type_survive_in_any_order(reverse):
 
 def test_a_value_that_is_short_for_a_table_is_one():
     """As the validation reads them."""
-    data = {"load": "40 N", "friction": 0.1, "begin": "former.h5"}
+    data = {"load": "40 N", "friction": 0.1}
     changed = apply_settings(data, ["load.normal=25 N", "friction.coefficient=0.2"])
     assert changed == data | {"load": {"normal": "25 N"}, "friction": {"coefficient": 0.2}}
     stages = {"load": [{"until": 1, "force": 2}]}

@@ -20,7 +20,6 @@ from paper_models import (
 )
 
 from tribo import (
-    Begin,
     CaseError,
     Effect,
     Explicit,
@@ -72,12 +71,6 @@ def test_a_resolved_cycle_goes_on_along_its_whole_track(tmp_path):
     np.testing.assert_allclose(found, expected, atol=1e-8 * expected.max(), rtol=0)
     with pytest.raises(CaseError, match=r"disk has 44 rows of cells in .*, and 1 in"):
         Simulation(worn_case(begin=begin)).run()
-
-
-def test_the_save_is_named_by_its_time(run_in):
-    with Simulation(worn_case(begin=Begin(result=str(run_in), time=4))).run() as result:
-        worn = result.saves()[0]["bodies"]["ball"]["wear_volume_m3"]
-    assert worn == pytest.approx(K * 20 * 4 * SPEED, rel=1e-10, abs=0)
 
 
 class Slips(WearLaw):
@@ -193,7 +186,7 @@ def test_a_run_that_began_with_what_is_another_file_by_now_is_neither_taken_nor_
     # As if it had been stopped.
     with edited(second) as file:
         file.attrs["status"] = "interrupted"
-    with pytest.raises(CaseError, match=r"begin\.result was a file of .*--allow-changed"):
+    with pytest.raises(CaseError, match=r"begin was a file of .*--allow-changed"):
         simulation.resume(second)
 
 
@@ -229,12 +222,10 @@ ROUND = [named("ball", paraboloid(), steel(), archard()), named("disk", flat(), 
     ],
 )
 def test_a_result_that_does_not_fit_the_case_is_refused(run_in, changes, words):
-    with pytest.raises(CaseError, match=rf"begin\.result: .*{words}"):
+    with pytest.raises(CaseError, match=rf"begin: .*{words}"):
         Simulation(worn_case(begin=run_in, **changes)).run()
 
 
-def test_a_file_that_is_not_there_and_a_time_without_a_save_are_refused(run_in):
-    with pytest.raises(CaseError, match=r"begin\.result: no\.h5 is not a file"):
+def test_a_file_that_is_not_there_is_refused():
+    with pytest.raises(CaseError, match=r"begin: no\.h5 is not a file"):
         Simulation(worn_case(begin="no.h5")).run()
-    with pytest.raises(CaseError, match=r"begin\.time: .*no saved time 5 s; saved times: 0, 4, 10"):
-        Simulation(worn_case(begin=Begin(result=str(run_in), time=5))).run()

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from tribo.case import Begin
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, located
 from tribo.core.findings import begun_worn
@@ -31,17 +30,15 @@ def first_state(model: Model) -> State:
     begin = model.case.begin
     if begin is None:
         return first_contact(model)
-    with located("begin.result"), Result.open(begin.result) as result:
+    with located("begin"), Result.open(begin) as result:
         if result.status in ("running", "killed"):
             raise CaseError(
                 f"{result.name} is {result.status}: let its run end, or go on with it first"
             )
-        with located("begin.time"):
-            save = -1 if begin.time is None else result.save_at(begin.time)
         _check_alike(model, result)
-        bodies = {name: _worn(model, result, name, save) for name in model.case.bodies}
-        found, afresh, left = _states(model, result, save)
-        carried = result.saves()[save]
+        bodies = {name: _worn(model, result, name) for name in model.case.bodies}
+        found, afresh, left = _states(model, result)
+        carried = result.saves()[-1]
     for name, body in bodies.items():
         bodies[name] = replace(body, law={k: found.get((name, k), v) for k, v in body.law.items()})
     of_effects = {key_of(field, place): values for (place, field), values in found.items()}
@@ -51,12 +48,12 @@ def first_state(model: Model) -> State:
         load_distance=carried["load_distance_N_m"],
         friction_energy=carried.get("friction_energy_J", 0.0),
     )
-    return state.with_findings(begun_worn(begin.result, carried["time_s"], afresh, left))
+    return state.with_findings(begun_worn(begin, carried["time_s"], afresh, left))
 
 
-def checksum(begin: Begin) -> str:
+def checksum(begin: str) -> str:
     """Return the checksum of the file of a result."""
-    return sha256(Path(begin.result).read_bytes()).hexdigest()
+    return sha256(Path(begin).read_bytes()).hexdigest()
 
 
 def _check_alike(model: Model, result: Result) -> None:
@@ -86,12 +83,12 @@ def _check_alike(model: Model, result: Result) -> None:
             )
 
 
-def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
+def _worn(model: Model, result: Result, name: str) -> BodyState:
     """Return the state of a body in a result, on the rows of the body in the case."""
     body, rows = result.body(name), model.cycle.maps[name].rows
-    depth, plastic = body.wear_depth[save], body.plastic_depth[save]
-    if (track := _on_track(result, TRACK, name, save)) is not None:
-        yielded = _on_track(result, TRACK_PLASTIC, name, save)
+    depth, plastic = body.wear_depth[-1], body.plastic_depth[-1]
+    if (track := _on_track(result, TRACK, name)) is not None:
+        yielded = _on_track(result, TRACK_PLASTIC, name)
         depth, plastic = track, np.zeros_like(track) if yielded is None else yielded
     wear = _fitted(depth, (rows, model.grid.cells[1]))
     if wear is None:
@@ -104,7 +101,7 @@ def _worn(model: Model, result: Result, name: str, save: int) -> BodyState:
 
 
 def _states(
-    model: Model, result: Result, save: int
+    model: Model, result: Result
 ) -> tuple[dict[tuple[str | None, str], Array], list[str], list[str]]:
     """Return the states of laws and effects with which the case continues, by body and field.
 
@@ -125,7 +122,7 @@ def _states(
             if place is not None:
                 shape = model.cycle.maps[place].rows, model.grid.cells[1]
             if variable := kept.get((field.name, field.unit)):
-                values = _fitted(_on_track(result, variable, place, save), shape)
+                values = _fitted(_on_track(result, variable, place), shape)
             if values is None:
                 afresh.append(f"{field.name} of {where}")
             else:
@@ -134,11 +131,11 @@ def _states(
     return found, afresh, left
 
 
-def _on_track(result: Result, variable: str, name: str | None, save: int) -> Array | None:
+def _on_track(result: Result, variable: str, name: str | None) -> Array | None:
     """Return a field along the whole path of a body, shape (rows, ny), if it is kept."""
     if variable not in dir(result):
         return None
-    track = np.atleast_2d(result.field(variable, save, name))
+    track = np.atleast_2d(result.field(variable, -1, name))
     # Shorter ones lie in the middle of the longest, NaN beyond their ends.
     return track[~np.isnan(track[:, 0])] if np.any(np.isfinite(track)) else None
 

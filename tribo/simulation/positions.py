@@ -43,7 +43,7 @@ def composed(case: Case) -> Model:
     if not isinstance(motion, Reciprocating) or motion.positions != "auto":
         return assemble(case)
     if case.begin is not None:
-        with located("begin.result"), Result.open(case.begin.result) as result:
+        with located("begin"), Result.open(case.begin) as result:
             given = result.case_tables["kinematics"].get("positions", "average")
         return assemble(_fixed(case, given))
     try:

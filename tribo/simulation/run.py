@@ -206,11 +206,11 @@ class Simulation:
         """
         changes = changed_components(result.provenance, self._provenance())
         begun, begin = result.provenance.get("begun_with"), self.model.case.begin
-        if begun and begin and os.path.exists(begin.result):
+        if begun and begin and os.path.exists(begin):
             was, is_now = begun["sha256"][:8], checksum(begin)[:8]
             if was != is_now:
                 changes.append(
-                    ("begin.result", f"a file of checksum {was}…", f"one of checksum {is_now}…")
+                    ("begin", f"a file of checksum {was}…", f"one of checksum {is_now}…")
                 )
         return changes
 
@@ -281,7 +281,7 @@ class Simulation:
         model, made = self.model, self._provenance()
         if model.case.begin is not None and resumed_from is None:
             begin = model.case.begin
-            made["begun_with"] = {"result": begin.result, "sha256": checksum(begin)}
+            made["begun_with"] = {"result": begin, "sha256": checksum(begin)}
         return RunInfo(
             system=model.contact.system,
             bodies=tuple(

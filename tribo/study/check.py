@@ -160,7 +160,7 @@ def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, 
         yield "load", f"{first.load:.4g} N at first, {low:.4g} to {high:.4g} N in all"
     if begin := model.case.begin:
         most = f"p max {in_mpa(first.max_pressure)}"
-        yield "first contact", f"of the bodies as worn in {begin.result}: {most}"
+        yield "first contact", f"of the bodies as worn in {begin}: {most}"
     elif hertz is None or prediction.cells_across is None:
         yield "first contact", "no Hertz solution for these surfaces"
     else:
