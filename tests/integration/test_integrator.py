@@ -128,9 +128,12 @@ def test_layers_are_passed_to_the_last_digit(length):
     assert len(asked) < 60
 
 
-@pytest.mark.parametrize("length", [0.5, 3.0, 40.0])
+@pytest.mark.parametrize("length", [0.4, 0.45, 0.5, 0.6, 3.0, 40.0])
 def test_what_relaxes_under_a_layer_begins_when_that_is_passed(length):
-    """Its rate is 4, three times more at first; above the layer nothing but the depth goes on."""
+    """Its rate is 4, three times more at first; above the layer nothing but the depth goes on.
+
+    After three quarters, two thirds or half of the length all rows agree by chance.
+    """
 
     def rates(values, _):
         depth, worked = values

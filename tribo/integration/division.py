@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, Mask
 from tribo.core.errors import BadValues, PluginError
-from tribo.integration.integrator import Part, apart, part_of, solved
+from tribo.integration.integrator import Part, Share, apart, part_of, solutions
 from tribo.integration.kept import Kept, Rates, Sum, Values
 from tribo.integration.step_to_break import places_passing
 
@@ -30,13 +30,13 @@ class Division:
 
     Parameters
     ----------
-    parts : tuple of float
-        Parts of it, which add up to 1.
+    parts : tuple of Share
+        Parts of it, whose sizes add up to 1.
     accuracy : float
         Of the integration; infinite to take the parts as they are.
     """
 
-    parts: tuple[float, ...] = (1.0,)
+    parts: tuple[Share, ...] = (Share(1.0),)
     accuracy: float = ACCURACY
 
 
@@ -65,7 +65,8 @@ def integrated(
     """Integrate states and sums over an increment.
 
     Each part is solved by exponential Euler steps, exact for a state that relaxes linearly, which
-    are extrapolated; where that is not accurate, or leaves the limits of a state, in two halves.
+    are extrapolated, with as many rows as the accuracy needs; where the most rows are not accurate,
+    or leave the limits of a state, it is solved in two halves.
     States that relax over far less than a part reach equilibrium there. Steps end at breaks that a
     state declares; towards a jump elsewhere parts are halved, and many jumps are refused.
 
@@ -105,51 +106,62 @@ def integrated(
     first = rates(start, 0.0)
     values = [*start, *(np.zeros_like(rate) for rate in first[count:])]
     peaks, passed, breaks = [*map(np.abs, values)], 0.0, dict[tuple[int, int], float]()
-    waiting, done = list(plan.parts), list[float]()
+    waiting, done = list(plan.parts), list[Share]()
     while waiting:
-        part = waiting[0]
+        share, part = waiting[0], waiting[0].size
 
         def along(
-            states: Sequence[Array], share: float, passed: float = passed, part: float = part
+            states: Sequence[Array], at: float, passed: float = passed, part: float = part
         ) -> Values:
             held = [of.hold(state) for state, of in zip(states, kept, strict=True)]
-            return rates(held, passed + share * part)
+            return rates(held, passed + at * part)
 
-        taken = solved(along, values[:count], first, part * length, kept, sums)
         begun = [0.0] * count + values[count:]
-        end = [old + new for old, new in zip(begun, taken.end, strict=True)]
-        largest = [np.maximum(peak, np.abs(value)) for peak, value in zip(peaks, end, strict=True)]
-        beyond = [*map(_beyond, end, largest, kept)]
-        left = max(beyond, default=0.0) > ACCURACY
-        held = [of.hold(value) for value, of in zip(end, kept, strict=False)]
-        last = along(held, 1.0) if adapts or len(waiting) > 1 else first
-        off = 0.0
-        if adapts:
-            sizes = [
-                np.maximum.reduce([np.abs(old), np.abs(new), FADED * peak])
-                for old, new, peak in zip(values, end, largest, strict=True)
-            ]
-            errors = _errors(taken, sums, along, last, part * length)
-            off = max(map(part_of, errors, sizes), default=0.0)
-        if off <= plan.accuracy and not left:
-            # Later parts pass later.
-            later = {at: passed + share * part for at, share in taken.passed().items()}
-            breaks, values, peaks, first = {**later, **breaks}, held + end[count:], largest, last
-            passed += part
-            done.append(waiting.pop(0))
-        elif len(waiting) + len(done) < MOST_PARTS:
-            waiting[:1] = [0.5 * part] * 2
-        elif left:
-            of = kept[int(np.argmax(beyond))]
-            raise PluginError(
-                f"{of} leaves its limits of {of.least:g} to {of.most:g}: let its rate vanish there"
-            )
+        for taken in solutions(along, values[:count], first, part * length, kept, sums, share):
+            end = [old + new for old, new in zip(begun, taken.end, strict=True)]
+            largest = [*map(np.maximum, peaks, map(np.abs, end))]
+            beyond = [*map(_beyond, end, largest, kept)]
+            left = max(beyond, default=0.0) > ACCURACY
+            held = [of.hold(value) for value, of in zip(end, kept, strict=False)]
+            last, off = first, 0.0
+            if adapts:
+                sizes = [
+                    np.maximum(np.maximum(np.abs(old), np.abs(new)), FADED * peak)
+                    for old, new, peak in zip(values, end, largest, strict=True)
+                ]
+                errors = [apart(*each) for each in zip(taken.end, taken.rough, strict=True)]
+                off = max(map(part_of, errors, sizes), default=0.0)
+            if off > plan.accuracy or left:
+                continue
+            if adapts or len(waiting) > 1:
+                last = along(held, 1.0)
+            if adapts:
+                errors = _errors(taken, sums, along, last, part * length)
+                off = max(map(part_of, errors, sizes), default=0.0)
+            if off <= plan.accuracy:
+                # Later parts pass later.
+                later = {at: passed + when * part for at, when in taken.passed().items()}
+                breaks, values, peaks = {**later, **breaks}, held + end[count:], largest
+                first, passed = last, passed + part
+                waiting.pop(0)
+                relaxes = [np.ndim(slope) > 0 for slope in taken.relaxing]
+                done.append(Share(part, len(taken.rows), relaxes))
+                break
         else:
-            names = ", ".join(map(str, kept))
-            raise BadValues(
-                f"states ({names}) change too often to be integrated over {length:g} (m, or s of "
-                "a rest): shorten the steps, or declare the breaks where rates jump"
-            )
+            if len(waiting) + len(done) < MOST_PARTS:
+                waiting[:1] = [Share(0.5 * part)] * 2
+            elif left:
+                of = kept[int(np.argmax(beyond))]
+                raise PluginError(
+                    f"{of} leaves its limits of {of.least:g} to {of.most:g}: let its rate vanish "
+                    "there"
+                )
+            else:
+                names = ", ".join(map(str, kept))
+                raise BadValues(
+                    f"states ({names}) change too often to be integrated over {length:g} (m, or s "
+                    "of a rest): shorten the steps, or declare the breaks where rates jump"
+                )
     return Integral(values[:count], values[count:], replace(plan, parts=tuple(done)), breaks)
 
 
@@ -159,21 +171,30 @@ def _errors(
     """Return the error of states and sums after a part, summed over the cells.
 
     It is the change by the last row of the extrapolation. Where a point passes a break it is half
-    the change of its rates up to the break, and from there on; a rate that jumps elsewhere is in
-    error by its jump. `last` are the rates at the end.
+    the change of its rates up to the break, and from there to the end of a step; a rate that jumps
+    elsewhere is in error by its jump. `last` are the rates at the end.
     """
     # States lie at their places.
     every = [*(Sum(of.place) for of in part.kept), *sums]
     passing, row = places_passing(part.kept, part.pieces), part.rows[-1]
     errors = [apart(*each) for each in zip(part.end, part.rough, strict=True)]
+    stopped: Mapping[str, Mask] = {}
     for taken, pieces in enumerate(row):
-        for piece in pieces if pieces[0].ended else ():
+        passes = stopped or pieces[0].ended
+        for piece in pieces:
+            begun, stopped = stopped, piece.stopped(part.kept)
+            if not passes:
+                continue
             found = rates(piece.nearly(part.kept, part.relaxing), taken / len(row))
             for at, of in enumerate(every):
-                lasts = np.asarray(of.span(piece.spans, 0.0))
-                change = np.abs(found[at] - piece.rates[at])
-                passed = np.where(lasts < piece.step, lasts, 0.0)
-                errors[at] += 0.5 * float(np.sum(change * passed))
+                if of.place in passing:
+                    lasts = of.span(piece.spans, 0.0)
+                    here = np.asarray(lasts < piece.step)
+                    for points in (begun, stopped):
+                        if of.place in points:
+                            here = here | of.seen(points[of.place])
+                    change = np.abs(found[at] - piece.rates[at])
+                    errors[at] += 0.5 * float(np.sum(change * np.where(here, lasts, 0.0)))
     for at, of in enumerate(every):
         if of.place is None and passing:
             # Rows may agree by chance.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 
@@ -15,11 +15,30 @@ from tribo.integration.step_to_break import Stretch, places_passing, stepped, st
 
 NUDGE = 3e-5
 """Part of a state by which it is moved to determine its relaxation rate."""
-ROWS = (1, 2, 3, 4)
-"""Euler steps of the rows of the extrapolation."""
+MOST_ROWS = 4
+"""Rows of the extrapolation, of 1, 2, … Euler steps."""
 
 Row = Sequence[Sequence[Stretch]]
 """Euler steps of a part, each in pieces."""
+
+
+@dataclass(frozen=True)
+class Share:
+    """How a part of an increment is solved.
+
+    Parameters
+    ----------
+    size : float
+        Its length over the length of the increment.
+    rows : int
+        The least rows of its extrapolation.
+    relaxes : sequence of bool, optional
+        Whether the rate of each state may fall with the state; if left out, any may.
+    """
+
+    size: float
+    rows: int = 2
+    relaxes: Sequence[bool] | None = None
 
 
 @dataclass(frozen=True)
@@ -64,12 +83,12 @@ class Part:
     @property
     def end(self) -> Values:
         """States and sums at its end."""
-        return _extrapolated(self.ends, ROWS)
+        return _extrapolated(self.ends, 1)
 
     @property
     def rough(self) -> Values:
         """States and sums at its end, less accurate."""
-        return _extrapolated(self.ends[1:], ROWS[1:])
+        return _extrapolated(self.ends[1:], 2)
 
     def passed(self) -> dict[tuple[int, int], float]:
         """Return by state and break the first share of it at which a point rises to the break."""
@@ -90,21 +109,22 @@ class Part:
         return found
 
 
-def solved(
+def solutions(
     rates: Rates,
     start: Sequence[Array],
     first: Values,
     length: float,
     kept: Sequence[Kept],
     sums: Sequence[Sum],
-) -> Part:
-    """Return a part of an increment, solved from its first rates on.
+    share: Share,
+) -> Iterator[Part]:
+    """Yield a part of an increment, solved from its first rates on, with ever more rows.
 
     Rates are evaluated at states that may exceed their limits.
     """
-    slopes, turned = relaxation(rates, start, first, length, kept)
+    slopes, turned = relaxation(rates, start, first, length, kept, share.relaxes)
     rows, ends = list[Row](), list[Values]()
-    for steps in ROWS:
+    for steps in range(1, MOST_ROWS + 1):
         step, row, states = length / steps, list[list[Stretch]](), list(start)
         totals = [np.zeros_like(rate) for rate in first[len(start) :]]
         for taken in range(steps):
@@ -118,7 +138,8 @@ def solved(
             row.append(pieces)
         rows.append(row)
         ends.append([*states, *totals])
-    return Part(kept, slopes, rows, ends, turned)
+        if steps >= share.rows:
+            yield Part(kept, slopes, [*rows], [*ends], turned)
 
 
 def retraced(
@@ -128,25 +149,26 @@ def retraced(
     length: float,
     kept: Sequence[Kept],
     sums: Sequence[Sum],
-    parts: Sequence[float],
+    shares: Sequence[Share],
 ) -> list[Part]:
     """Return the parts of an increment as it was divided, for `transposed`.
 
-    `parts` are shares of it. Rates are evaluated at shares of the increment.
+    Rates are evaluated at shares of the increment.
     """
     passed, states, done = 0.0, list(start), list[Part]()
-    for share in parts:
+    for share in shares:
 
         def along(
-            values: Sequence[Array], at: float, passed: float = passed, share: float = share
+            values: Sequence[Array], at: float, passed: float = passed, size: float = share.size
         ) -> Values:
-            return rates(values, passed + at * share)
+            return rates(values, passed + at * size)
 
         if passed:
             first = along(states, 0.0)
-        done.append(solved(along, states, first, share * length, kept, sums))
+        span = share.size * length
+        done.append(next(solutions(along, states, first, span, kept, sums, share)))
         held = zip(done[-1].end, kept, strict=False)
-        passed, states = passed + share, [of.hold(state) for state, of in held]
+        passed, states = passed + share.size, [of.hold(state) for state, of in held]
     return done
 
 
@@ -233,6 +255,7 @@ def relaxation(
     first: Sequence[Array],
     length: float,
     kept: Sequence[Kept],
+    relaxes: Sequence[bool] | None,
 ) -> tuple[list[Field], list[tuple[int, Values, Array]]]:
     """Return the derivative of the rate of each state in the state, where negative.
 
@@ -243,12 +266,13 @@ def relaxation(
     turned = []
     for at, (state, rate, of) in enumerate(zip(states, first, kept, strict=False)):
         largest = max(float(np.max(np.abs(state))), length * float(np.max(np.abs(rate))))
-        if largest == 0:
+        if largest == 0 or not (relaxes is None or relaxes[at]):
             continue
         other = of.aside(state, NUDGE * largest)
         asked = rates([*states[:at], other, *states[at + 1 :]], 0.0)
-        found[at] = np.minimum((asked[at] - rate) / (other - state), 0.0)
-        if np.any(np.asarray(found[at]) < 0):
+        slope = (asked[at] - rate) / (other - state)
+        if np.any(slope < 0):
+            found[at] = np.minimum(slope, 0.0)
             turned.append((at, asked, other - state))
     return found, turned
 
@@ -272,15 +296,15 @@ def part_of(amount: float, size: Array) -> float:
     return 0.0 if amount == 0 else math.inf
 
 
-def _extrapolated(ends: Sequence[Values], rows: Sequence[int]) -> Values:
-    """Return the ends of rows of Euler steps, extrapolated to infinitely many steps."""
-    counts = [weight(steps, rows) for steps in rows]
+def _extrapolated(ends: Sequence[Values], fewest: int) -> Values:
+    """Return the ends of rows of `fewest` Euler steps and more, extrapolated to infinitely many."""
+    steps = range(fewest, fewest + len(ends))
     *rough, last = ends
     total = list(last)
-    for count, end in zip(counts, rough, strict=False):
+    for own, end in zip(steps, rough, strict=False):
         # So a state that stays as it is does so to the last bit.
         pairs = zip(total, end, last, strict=True)
-        total = [value + count * (each - fine) for value, each, fine in pairs]
+        total = [value + weight(own, steps) * (each - fine) for value, each, fine in pairs]
     return total
 
 

@@ -70,13 +70,12 @@ class Kept:
         return self.ends[number + 1]
 
     def reaches(self, values: Array, later: Array) -> bool:
-        """Whether a value reaches a limit or a break on its way to a later value, or leaves one."""
-        below = [(self.least, np.less_equal), *((each, np.less) for each in self.breaks)]
-        return any(
-            np.any(side(values, end) != side(later, end))
-            for end, side in (*below, (self.most, np.less))
-            if math.isfinite(end)
-        )
+        """Whether a value reaches a limit or a break on its way to a later value."""
+        if math.isfinite(self.least) and np.any((later <= self.least) & (values > self.least)):
+            return True
+        if math.isfinite(self.most) and np.any((later >= self.most) & (values < self.most)):
+            return True
+        return any(np.any((values < each) != (later < each)) for each in self.breaks)
 
     def next(self, values: Array, rate: Array, slope: Field) -> tuple[Array, Numbers, Array]:
         """Return the break or limit that each value reaches next, its number, and when.
@@ -92,7 +91,7 @@ class Kept:
         ahead = np.where(rate > 0, room >= 0, (rate < 0) & (room <= 0))
         far = np.isfinite(end) & ahead & (inner | (room != 0))
         time = np.divide(room, rate, out=np.full(values.shape, np.inf), where=far)
-        if np.any(slope):
+        if np.ndim(slope):
             with np.errstate(divide="ignore", invalid="ignore"):
                 rise = slope * time
                 later = np.where(rise > -1, np.log1p(rise) / slope, np.inf)

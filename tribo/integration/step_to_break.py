@@ -12,6 +12,8 @@ from tribo.integration.kept import Field, Kept, Numbers, Sum, Values
 
 LEFT = 1e-12
 """Part of a step below which its remainder is rounding."""
+END = 1 + LEFT
+"""Where a step reaches a break, over the step: at its end but for rounding."""
 SMALL = 1e-4
 """Rise below which the derivative of its mean is computed by series."""
 
@@ -35,6 +37,13 @@ class Stretch:
             state + lasting(self.spans[of.place], slope) * rate
             for state, rate, slope, of in zip(self.states, self.rates, slopes, kept, strict=False)
         ]
+
+    def stopped(self, kept: Sequence[Kept]) -> dict[str, Mask]:
+        """Return by place the points at which a state reaches a break or a limit at its end."""
+        masks: dict[str, Mask] = {}
+        for at, (here, _) in self.ended.items():
+            masks[kept[at].place] = masks.get(kept[at].place, np.False_) | here
+        return masks
 
     def nearly(self, kept: Sequence[Kept], slopes: Sequence[Field]) -> Values:
         """Return the states just before its end, on this side of a break."""
@@ -77,14 +86,14 @@ def stepped(
         ]
         for at, _, _, time in coming:
             place = kept[at].place
-            if np.any((time <= left[place]) & (left[place] > 0)):
+            if np.any((time <= END * left[place]) & (left[place] > 0)):
                 spans[place] = np.minimum(spans[place], time)
         piece = Stretch(states, found, step, spans, ended)
         states = piece.stepped(kept, slopes)
         claimed: dict[str, Mask] = {}
         for at, end, number, time in coming:
             place = kept[at].place
-            here = (time <= spans[place]) & (left[place] > 0) & ~claimed.get(place, np.False_)
+            here = (time <= END * spans[place]) & (left[place] > 0) & ~claimed.get(place, np.False_)
             if np.any(here):
                 claimed[place] = claimed.get(place, np.False_) | here
                 ended[at] = here, number
@@ -171,7 +180,7 @@ def stepped_back(
 
 def growth(span: Field, slope: Field) -> Field:
     """Return the derivative of `lasting` in the span."""
-    return np.exp(slope * np.asarray(span)) if np.any(slope) else 1.0
+    return np.exp(slope * np.asarray(span)) if np.ndim(slope) else 1.0
 
 
 def relaxed(rise: Field) -> Array:
@@ -182,12 +191,12 @@ def relaxed(rise: Field) -> Array:
 
 def lasting(step: Field, slope: Field) -> Field:
     """Return the effective length of a step where the rate has this slope in its own state."""
-    return step * relaxed(step * slope) if np.any(slope) else step
+    return step * relaxed(step * slope) if np.ndim(slope) else step
 
 
 def bending(step: Field, slope: Field) -> Field:
     """Return the derivative of `lasting` in the slope."""
-    if not np.any(slope):
+    if not np.ndim(slope):
         return 0.0
     rise = np.asarray(step * slope)
     small = np.abs(rise) < SMALL

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from itertools import compress
 
 import numpy as np
 from tribo import WORN_DEPTH, Array, Box
@@ -268,13 +269,22 @@ def increments(
 
     def part(box: Box, *names: str) -> Increment:
         own = {name: slid.before.laws[name] for name in names}
+        its = [body in (None, *names) for body in slid.before.bodies]
+        shares = (
+            replace(share, relaxes=[*compress(share.relaxes or (), its)])
+            for share in slid.plan.parts
+        )
         return Increment(
             Sloping(
                 model.with_laws({name: model.laws.wear[name] for name in names}),
                 carriers,
                 box,
                 window[(slice(None), *box.slices)],
-                replace(slid, before=replace(slid.before, laws=own)),
+                replace(
+                    slid,
+                    before=replace(slid.before, laws=own),
+                    plan=replace(slid.plan, parts=tuple(shares)),
+                ),
                 along,
             )
         )
