@@ -191,7 +191,9 @@ class Implicit(Scheme):
                 raise StepRejected(str(error)) from error
             implied = beyond + depths(wear, contacts, dx)
             solved, passes = counted(solved, contacts), passes + 1
-            slid = slide(contacts=contacts, plan=slid.plan)
+            # Later passes change the contacts little.
+            plan = slid.plan if passes == 1 else replace(slid.plan, accuracy=np.inf)
+            slid = slide(contacts=contacts, plan=plan)
             worn = worn_depths(model, slid.rates, increment)
             opened, deepest = _opened(model, height, slid, worn)
             off = np.abs(opened - implied)
