@@ -59,6 +59,7 @@ from tribo.core.writing import write_file as write_file
 from tribo.evolution.course import kept_in as kept_in
 from tribo.evolution.course import with_loads as with_loads
 from tribo.evolution.interval import Interval as Interval
+from tribo.evolution.rates import Rates as Rates
 from tribo.evolution.rates import rates_at_each as rates_at_each
 from tribo.evolution.states import Memory as Memory
 from tribo.evolution.states import first_memory as first_memory

@@ -22,7 +22,7 @@ from tribo_inverse.adjoint.parameters import Chain
 from tribo_inverse.adjoint.view import Seeds
 from tribo_inverse.increment.across import held
 from tribo_inverse.increment.carriers import carriers_between, carriers_of
-from tribo_inverse.increment.increment import Before, Increment, increments
+from tribo_inverse.increment.increment import Before, Increment, increment
 from tribo_inverse.recording.local import WatchedLaw
 from tribo_inverse.recording.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
 
@@ -152,25 +152,26 @@ class Backwards:
         looked = np.zeros_like(self.gap) if pressed is None else pressed
         for law in self.laws.values():
             law.seen.clear()
-        parts: Sequence[Increment] = ()
-        if slid is not None:
-            parts = increments(self.model, self.carriers, self.touched, record)
-        if slid is not None and slid.ahead:
-            behind = self._behind(parts)
-            self.pressure = looked + over(self.shares) * sum(each.pressure for each in behind)
+        if slid is None:
+            self._solve(record, looked, yielded, None)
+            return
+        part = increment(self.model, self.carriers, self.touched, record, slid)
+        if slid.ahead:
+            before = part.back(self.worn_before, self.states)
+            self.pressure = looked + over(self.shares) * before.pressure
         else:
-            behind = self._solve(record, looked, yielded, parts)
-        if slid is not None:
-            self._wear(slid, behind)
+            self._solve(record, looked, yielded, part)
+            before = part.back(self.worn_before, self.states)
+        self._wear(slid, part, before)
 
     def _solve(
         self,
         record: Pressed,
         looked: Array,
         yielded: Sequence[int],
-        parts: Sequence[Increment],
-    ) -> list[Before]:
-        """Return the adjoint of one implicit contact solve, before its increments.
+        part: Increment | None,
+    ) -> None:
+        """Carry the adjoint through one implicit contact solve, after its increment.
 
         `looked` are the derivatives of the objective in its pressures.
         """
@@ -189,48 +190,42 @@ class Backwards:
         if yielded and record.overlap is not None:
             fixed = self._gave(record, yielded)[here] * full / weights
         free = (pressure > JUST * np.max(pressure)) & ~full
-        bodies = [(own, steep[here]) for each in parts for own, steep in each.bodies]
-        shared = [each for each in parts if not each.is_pointwise]
-        wear = partial(self._of_wear, shared[0], box) if shared else None
+        bodies = [(own, steep[here]) for own, steep in part.bodies] if part else []
+        whole = part is None or part.is_pointwise
+        wear = None if part is None or whole else partial(self._of_wear, part, box)
         system = StepSystem(operator, box, self.shares, bodies, free, wear)
 
-        def given() -> tuple[list[Before], Array]:
-            behind = self._behind(parts)
-            return behind, (looked / weights + sum(each.pressure for each in behind))[here]
+        def given() -> Array:
+            found = looked / weights
+            if part is not None:
+                found = found + part.back(self.worn_before, self.states).pressure
+            return found[here]
 
-        z = system.solve(given()[1], fixed, self.start[here])
+        z = system.solve(given(), fixed, self.start[here])
         self.start = np.zeros_like(self.start)
         self.start[here] = z
         stiff = operator.apply(z)
         y = over(self.shares) * z
         self._shift(y, box)
         self.stiffness += float(np.sum(over(self.shares) * stiff * pressure))
-        behind, after = given()
-        left = after - stiff
+        left = given() - stiff
         mean = np.sum(left * free, CELLS) / np.maximum(free.sum(CELLS), 1)
         self.cap += float(np.sum(over(self.shares) * (left - over(mean)) * full))
         by_load = self.shares * mean / model.grid.cell_area
         for at, chain in enumerate(self.chains):
             self.sums[at] += chain.by_load(record, by_load)
             self.sums[at] -= chain.by_spread(touching, y, pressure)
-        return behind
 
-    def _behind(self, parts: Sequence[Increment]) -> list[Before]:
-        """Return derivatives before increments from the derivatives after them."""
-        return [each.back(self.worn_before, self.states) for each in parts]
-
-    def _wear(self, slid: Slid, behind: Sequence[Before]) -> None:
+    def _wear(self, slid: Slid, part: Increment, before: Before) -> None:
         """Carry the adjoint through the wear of a step under given contacts."""
         seen = {name: law.seen for name, law in self.laws.items()}
         for at, chain in enumerate(self.chains):
             for weight, other in chain.by_wear(slid, seen, self.carriers):
-                self.sums[at] += weight * sum(each.through(other) for each in behind)
-        for each in behind:
-            for name, factor in each.factor.items():
-                self.wear_rate[name] += factor
-                self.worn_before[name] = each.wear[name]
-            laws = {**self.states.laws, **each.states.laws}
-            self.states = Memory(laws, {**self.states.between, **each.states.between})
+                self.sums[at] += weight * part.through(before, other)
+        for name, factor in before.factor.items():
+            self.wear_rate[name] += factor
+            self.worn_before[name] = before.wear[name]
+        self.states = before.states
 
     def _of_wear(self, increment: Increment, box: Box, z: Array) -> Array:
         """Return the contribution of wear and filling to the adjoint of K."""

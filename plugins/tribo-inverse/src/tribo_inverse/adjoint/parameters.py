@@ -141,8 +141,8 @@ class Chain:
         `seen` has the inputs that each law read, and `carriers` the carriers of the case.
         """
         # A law that the number does not enter need not be evaluated again.
-        asks = {name for name, through in self.wears.items() if through & {LAW, *seen[name]}}
-        wears = asks | {name for name, through in self.wears.items() if SPEED in through}
+        asks = any(through & {LAW, *seen[name]} for name, through in self.wears.items())
+        wears = asks or any(SPEED in through for through in self.wears.values())
         for each in self.variants if wears else ():
             if each.stops is self.stops:
                 # In a one-sided difference, the case itself.
@@ -155,7 +155,7 @@ class Chain:
             )
             slides = 0.0 if own.rests else end - began
             then = replace(slid, interval=Interval(begun, began, ended, slides))
-            yield each.weight, Other(each.model, each.carriers or carriers, then, wears, asks)
+            yield each.weight, Other(each.model, each.carriers or carriers, then, asks)
 
     def by_rest(
         self,

@@ -52,15 +52,15 @@ def moved_breaks(model: Model, base: Model, before: Memory, state: int) -> Array
     return moved
 
 
-def with_breaks(model: Model, base: Model, names: Sequence[str]) -> dict[str, GuardedLaw]:
-    """Return laws of a model, whose rates jump at the breaks of the base.
+def with_breaks(model: Model, base: Model) -> Model:
+    """Return a model whose laws jump at the breaks of the base.
 
     Raises
     ------
     CaseError
         If a number moves the breaks of a law that also depends on the depth between them.
     """
-    laws = {name: model.laws.wear[name] for name in names}
+    laws = dict(model.laws.wear)
     for name, law in laws.items():
         breaks = base.laws.wear[name].breaks
         if law.breaks != breaks:
@@ -71,7 +71,7 @@ def with_breaks(model: Model, base: Model, names: Sequence[str]) -> dict[str, Gu
                     f"bodies.{name}.wear",
                 )
             laws[name] = SidedLaw(law, breaks)
-    return laws
+    return model.with_laws(laws)
 
 
 def unreached(model: Model, base: Model) -> Model:

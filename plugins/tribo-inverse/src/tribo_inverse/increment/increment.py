@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
-from itertools import compress
+from functools import cached_property
 
 import numpy as np
 from tribo import WORN_DEPTH, Array, Box
@@ -28,74 +27,54 @@ from tribo_inverse.increment.breaks import moved_breaks, with_breaks
 from tribo_inverse.increment.carriers import Carrier
 from tribo_inverse.increment.response import ALONE, Arrays, Field
 from tribo_inverse.increment.slopes import Slopes, Sloping
-from tribo_inverse.increment.stages import RateStage, together
+from tribo_inverse.increment.stages import RateStage
 from tribo_inverse.recording.tape import Pressed, Slid
 
-_Seeded = tuple[Slopes, Sequence[Field]]
-"""Rates, and derivatives in them."""
+
+@dataclass(frozen=True)
+class Seeded:
+    """A stage, and derivatives in its rates: in their `means` at points, and at each cell."""
+
+    stage: Slopes
+    means: Sequence[Field]
+    cells: Sequence[Field]
 
 
 @dataclass(frozen=True)
 class Before:
     """The derivatives of an objective in the inputs of an increment.
 
-    In the pressures, shape (positions, nx, ny), by the share of each position; in the depths worn
-    and the states before; and in a factor, 1 here, on the wear rate of each body. `through` returns
-    the change of the objective with an increment of another model.
+    In the pressures, shape (positions, nx, ny), by the share of each position: `by_cell` at a given
+    load, and in all; in the depths worn and the states before; in a factor, 1 here, on the wear
+    rate of each body; in the rates at its stages; and in the breaks of states, by number, at each
+    point.
     """
 
+    by_cell: Array
     pressure: Array
     wear: Mapping[str, Array]
     states: Memory
     factor: Mapping[str, Array]
-    through: Callable[[Other], float]
+    rates: Sequence[Seeded]
+    breaks: Mapping[int, Array]
+
+    @cached_property
+    def by_length(self) -> float:
+        """The derivative in the logarithm of its length at constant rates."""
+        return sum(_dot(each.means, each.stage.means) for each in self.rates)
 
 
 @dataclass(frozen=True)
 class Other:
     """An increment under the same contacts, of a model with another number.
 
-    `wears` are the bodies whose wear may differ, and `asks` the bodies whose rates may differ.
+    Whether it `asks` for the rates anew, since they may differ.
     """
 
     model: Model
     carriers: Mapping[str, Carrier]
     slid: Slid
-    wears: Set[str]
-    asks: Set[str]
-
-
-@dataclass(frozen=True)
-class _Back:
-    """Derivatives of an objective in the inputs of an increment.
-
-    In the pressure of each cell, and separately in the `load` and Σp² of its contact; in factors on
-    the rates of bodies; and in the `states` before.
-    `rates` has derivatives in the `means` of the rates at its stages, and `breaks` derivatives in
-    the breaks of states, by number, at each point.
-    """
-
-    pressure: Field
-    load: Field
-    factors: Sequence[Field]
-    states: Sequence[Field]
-    rates: Sequence[_Seeded]
-    breaks: Mapping[int, Array]
-    stages: Sloping
-
-    @cached_property
-    def by_cell(self) -> Sequence[Sequence[Field]]:
-        """The derivatives in the rates at each cell, by stage."""
-        return [self.stages.seen(*seeded) for seeded in self.rates]
-
-    @property
-    def by_length(self) -> float:
-        """The derivative in the logarithm of its length at constant rates."""
-        return sum(
-            float(np.sum(seed * mean))
-            for stage, seeds in self.rates
-            for seed, mean in zip(seeds, stage.means, strict=True)
-        )
+    asks: bool
 
 
 @dataclass(frozen=True)
@@ -110,21 +89,7 @@ class Increment:
         # The depth worn at the end of the increment counts as wear alone.
         of_laws = [states.laws[name].get(key, 0.0) for name, of in laws.items() for key in of]
         depths = [wear[name] for name in increment.model.laws.wear]
-        found = self._back(depths, [*of_laws, *states.between.values()])
-        before = increment.slid.before.with_values(map(np.asarray, found.states))
-        through = {
-            name: wear[name] + of[WORN_DEPTH.name]
-            for name, of in before.laws.items()
-            if WORN_DEPTH.name in of
-        }
-        factors = zip(increment.model.laws.wear, map(np.asarray, found.factors), strict=True)
-        return Before(
-            increment.embedded(found.pressure + found.load + np.zeros_like(increment.pressure)),
-            {**wear, **through},
-            Memory({name: own(of) for name, of in before.laws.items()}, before.between),
-            dict(factors),
-            partial(self._through, found),
-        )
+        return self._back(depths, [*of_laws, *states.between.values()], wear)
 
     @cached_property
     def is_pointwise(self) -> bool:
@@ -147,56 +112,57 @@ class Increment:
 
         Unless it `is_pointwise`, the derivative at the beginning of the increment, to precondition.
         """
-        increment, window = self.stages, np.ones_like(self.stages.pressure)
-        if not self.is_pointwise:
+        increment = self.stages
+        if not (increment.along and self.is_pointwise):
             parts, slopes = self._retraced
             start, length = slopes[id(parts[0].first)], increment.slid.interval.length
-            return [
-                (carrier, length * carrier.part(increment.box) * by.own * window)
-                for carrier, by in zip(increment.own, start.by_pressure, strict=False)
-            ]
+            each = zip(increment.own, start.by_pressure, strict=False)
+            steep = [(of, length * of.part(increment.box) * by.own) for of, by in each]
+            return [(of, self._in_window(by)) for of, by in steep]
         found = []
         for at, carrier in enumerate(increment.own):
             seeds: list[Field] = [0.0] * len(increment.own)
             seeds[at] = np.ones((carrier.rows, increment.box.window[1]))
-            by = self._back(seeds, [0.0] * len(increment.begin)).pressure
-            found.append((carrier, increment.embedded(by * window)))
+            found.append((carrier, self._back(seeds, [0.0] * len(increment.kept), {}).by_cell))
         return found
 
-    def _through(self, found: _Back, other: Other) -> float:
+    def through(self, found: Before, other: Other) -> float:
         """Return the change of the objective with an increment of another model."""
-        increment, laws = self.stages, self.stages.model.laws.wear
-        if not other.wears & laws.keys():
-            return 0.0
+        increment = self.stages
+        own = increment.slid
+        total = (other.slid.interval.length / own.interval.length - 1) * found.by_length
+        for at, by in found.breaks.items():
+            deeper = moved_breaks(other.model, increment.model, own.before, at)
+            total += sum(float(np.sum(of)) * far for of, far in zip(by, deeper, strict=True))
+        # Rates depend on the length where loads change along it.
+        asks = other.asks or increment.loads_change
+        moves = other.carriers is not increment.carriers
+        if not (asks or moves):
+            return total
         others = replace(
             increment,
-            model=other.model.with_laws(with_breaks(other.model, increment.model, [*laws])),
+            model=with_breaks(other.model, increment.model),
             carriers=other.carriers,
-            slid=replace(other.slid, before=increment.slid.before),
+            slid=replace(other.slid, before=own.before),
         )
-        longer = others.slid.interval.length / increment.slid.interval.length
-        total = (longer - 1) * found.by_length
-        for at, by in found.breaks.items():
-            deeper = moved_breaks(other.model, increment.model, increment.slid.before, at)
-            total += sum(float(np.sum(of)) * far for of, far in zip(by, deeper, strict=True))
-        stages = [stage for stage, _ in found.rates]
-        before = rates = together([stage.rates for stage in stages])
-        # Rates depend on the length where loads change along it.
-        asks, moves = other.asks & laws.keys(), other.carriers is not increment.carriers
-        if not (asks or increment.loads_change or moves):
-            return total
-        if asks or increment.loads_change:
-            rates = others.rates_at(stages)
         shares = over(increment.shares)
-        for i, (stage, seeds) in enumerate(found.rates):
-            by_cell, told = found.by_cell[i], 0
+        for each in found.rates:
+            stage = each.stage
+            rates = stage.rates
+            if asks:
+                rates = others.holding(stage).rates(stage.states, stage.passed)
+            own_frame = len(each.means) if moves else 0
             if moves:
-                told = len(others.counts)
-                means = others.means([rate[i] for rate in rates])
-                total += _dot(seeds, means, stage.means)
-            changes = zip(by_cell[told:], rates[told:], before[told:], strict=True)
-            total += sum(float(np.sum(shares * by * (r[i] - b[i]))) for by, r, b in changes)
+                total += _dot(each.means, others.means(rates)) - _dot(each.means, stage.means)
+            triples = zip(each.cells, rates, stage.rates, strict=True)
+            changes = [(by, new - old) for by, new, old in triples][own_frame:]
+            total += sum(float(np.sum(shares * by * change)) for by, change in changes)
         return total
+
+    def _in_window(self, values: Field) -> Array:
+        """Return values on the box, by position, in a window of zeros."""
+        box = self.stages.box
+        return box.embed(values + np.zeros_like(self.stages.pressure))
 
     @cached_property
     def _retraced(self) -> tuple[Sequence[Part], Mapping[int, Slopes]]:
@@ -213,41 +179,56 @@ class Increment:
         def rates(states: Sequence[Array], passed: float) -> Values:
             return known(increment.at(states, passed))
 
-        first, parts = known(increment.start), increment.slid.plan.parts
+        first, before = known(increment.start), increment.slid.before.values
         if increment.along:
-            done = retraced(
-                rates, increment.begin, first, length, increment.limits, increment.sums, parts
-            )
+            limits, sums, parts = increment.limits, increment.sums, increment.slid.plan.parts
+            done = retraced(rates, before, first, length, limits, sums, parts)
         else:
             spans = dict.fromkeys(increment.model.laws.wear, length)
             done = [Part([], [], [[[Stretch([], first, length, spans, {})]]], [], [])]
-        used = {id(rates): asked[id(rates)][1] for part in done for rates in part.stages}
-        return done, dict(zip(used, increment.sloped([*used.values()]), strict=True))
+        used = {id(rates) for part in done for rates in part.stages}
+        return done, {at: increment.sloped(asked[at][1]) for at in used}
 
-    def _back(self, depth: Sequence[Field], after: Sequence[Field]) -> _Back:
+    def _back(
+        self, depth: Sequence[Field], after: Sequence[Field], wear: Mapping[str, Array]
+    ) -> Before:
         """Return derivatives before it from derivatives in the depths and states after."""
+        increment = self.stages
         total: list[Field] = [0.0] * (3 + len(depth))
-        seeded, count = list[_Seeded](), len(after)
+        seeded, count = list[Seeded](), len(after)
         parts, slopes = self._retraced
 
         def behind(rates: Values, seeds: list[Field]) -> Sequence[Field]:
-            stage = slopes[id(rates)], [*seeds[count:], *seeds[:count]]
-            seeded.append(stage)
-            found, states = self.stages.behind(*stage)
+            stage, means = slopes[id(rates)], [*seeds[count:], *seeds[:count]]
+            seeded.append(Seeded(stage, means, increment.seen(stage, means)))
+            found, states = increment.behind(stage, seeded[-1].cells)
             total[:] = [a + b for a, b in zip(total, found, strict=True)]
             return states
 
-        sums = [*zip(self.stages.sums, depth, strict=True)]
-        before = transposed(parts, after, sums, behind)
+        sums = [*zip(increment.sums, depth, strict=True)]
+        done = transposed(parts, after, sums, behind)
         pressure, load, square, *factors = total
-        load = _summed(load) + _summed(square) * self.stages.pressure
-        return _Back(pressure, load, factors, before.states, seeded, before.breaks, self.stages)
+        load = _summed(load) + _summed(square) * increment.pressure
+        before = increment.slid.before.with_values(map(np.asarray, done.states))
+        through = {
+            name: wear[name] + of[WORN_DEPTH.name]
+            for name, of in before.laws.items()
+            if wear and WORN_DEPTH.name in of
+        }
+        return Before(
+            self._in_window(pressure),
+            self._in_window(pressure + load),
+            {**wear, **through},
+            replace(before, laws={name: own(of) for name, of in before.laws.items()}),
+            dict(zip(increment.model.laws.wear, map(np.asarray, factors), strict=True)),
+            seeded,
+            done.breaks,
+        )
 
 
-def _dot(seeds: Sequence[Field], now: Arrays, before: Arrays) -> float:
-    """Return the change of the objective by changes of fields, from derivatives in them."""
-    changes = zip(seeds, now, before, strict=True)
-    return sum(float(np.sum(seed * (new - old))) for seed, new, old in changes)
+def _dot(seeds: Sequence[Field], values: Arrays) -> float:
+    """Return the sum of the products of derivatives in fields, and fields."""
+    return sum(float(np.sum(by * of)) for by, of in zip(seeds, values, strict=True))
 
 
 def _summed(field: Field) -> Field:
@@ -255,43 +236,18 @@ def _summed(field: Field) -> Field:
     return over(np.sum(field, CELLS)) if np.ndim(field) else field
 
 
-def increments(
-    model: Model, carriers: Mapping[str, Carrier], touched: Box, record: Pressed
-) -> list[Increment]:
-    """Return the increment of a record in independent parts.
-
-    There is one for each body, unless interfacial effects couple them. `touched` holds all contacts
-    of the run.
-    """
-    slid, cells = record.slid, model.grid.cells
-    assert slid is not None
+def increment(
+    model: Model, carriers: Mapping[str, Carrier], touched: Box, record: Pressed, slid: Slid
+) -> Increment:
+    """Return the increment of a record; `touched` holds all contacts of the run."""
+    cells = model.grid.cells
     window, along = record.in_window(record.pressure, cells), bool(slid.before.values)
 
-    def part(box: Box, *names: str) -> Increment:
-        own = {name: slid.before.laws[name] for name in names}
-        its = [body in (None, *names) for body in slid.before.bodies]
-        shares = (
-            replace(share, relaxes=[*compress(share.relaxes or (), its)])
-            for share in slid.plan.parts
-        )
-        return Increment(
-            Sloping(
-                model.with_laws({name: model.laws.wear[name] for name in names}),
-                carriers,
-                box,
-                window[(slice(None), *box.slices)],
-                replace(
-                    slid,
-                    before=replace(slid.before, laws=own),
-                    plan=replace(slid.plan, parts=tuple(shares)),
-                ),
-                along,
-            )
-        )
+    def on(box: Box) -> Increment:
+        here = window[(slice(None), *box.slices)]
+        return Increment(Sloping(model, carriers, box, here, slid, along))
 
-    names = model.laws.wear
     if not (model.laws.effects or model.laws.filling):
-        return [part(Box.of(record.region, cells), name) for name in names]
-    together = part(touched, *names)
+        return on(Box.of(record.region, cells))
     # A state elsewhere may return into the contact.
-    return [together if together.is_pointwise else part(whole(cells), *names)]
+    return near if (near := on(touched)).is_pointwise else on(whole(cells))

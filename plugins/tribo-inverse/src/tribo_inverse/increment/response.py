@@ -34,7 +34,7 @@ ALONE = (0, 0)
 
 @dataclass(frozen=True)
 class Response:
-    """The derivatives of a rate at each cell, of the shape (…, positions, nx, ny) or 0.
+    """The derivatives of a rate at each cell, of the shape (positions, nx, ny) or 0.
 
     In its `own` value, and in the values of cells `beside` it, by their offset; and in the sum of
     all pressures at its position, and in half the sum of their squares.
@@ -51,14 +51,6 @@ class Response:
         for offset, slope in self.beside.items():
             found = found + slope * np.roll(by, (-offset[0], -offset[1]), CELLS)
         return found + self.square * over(np.sum(pressure * by, CELLS))
-
-    def at(self, stage: int) -> Response:
-        """Return the response of one of several stages, which are on the first axis."""
-        own, load, square = (
-            each[stage] if isinstance(each, np.ndarray) else each
-            for each in (self.own, self.load, self.square)
-        )
-        return Response(own, load, square, {o: each[stage] for o, each in self.beside.items()})
 
 
 def back(seeds: Sequence[Field], responses: Sequence[Response]) -> Field:

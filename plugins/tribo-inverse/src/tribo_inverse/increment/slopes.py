@@ -28,7 +28,7 @@ from tribo_inverse.increment.response import (
     near,
     shared,
 )
-from tribo_inverse.increment.stages import RateStage, Stages, together
+from tribo_inverse.increment.stages import RateStage, Stages
 from tribo_inverse.recording.local import localised
 
 
@@ -59,7 +59,7 @@ class Sloping(Stages):
     @cached_property
     def start(self) -> RateStage:
         """The stage with which the increment begins."""
-        return self.at(self.begin, 0.0 if self.along else 1.0)
+        return self.at(self.slid.before.values, 0.0 if self.along else 1.0)
 
     @cached_property
     def reach(self) -> Reach:
@@ -76,7 +76,7 @@ class Sloping(Stages):
         effects = [effect.component for effect in asked]
         declared = [effect.reach for effect in effects]
         cells = [reach for reach in declared if isinstance(reach, tuple)]
-        alone, whole = [ALONE] * len(self.begin), "contact" in declared
+        alone, whole = [ALONE] * len(self.slid.before.values), "contact" in declared
         if silent := [repr(effect.type) for effect in effects if effect.reach is None]:
             raise CaseError(
                 f"{', '.join(silent)} does not declare its reach, which a gradient needs; let its "
@@ -98,15 +98,13 @@ class Sloping(Stages):
             (along, across),
             [
                 ALONE if state.size == 1 else _on(kept, (along, across))
-                for kept, state in zip(self.kept, self.begin, strict=True)
+                for kept, state in zip(self.kept, self.slid.before.values, strict=True)
             ],
         )
 
-    def sloped(self, stages: Sequence[RateStage]) -> list[Slopes]:
-        """Return stages with their derivatives."""
-        if not self.model.laws.effects:
-            return self._sloped(stages, self.reach)
-        return [self.holding(stage)._sloped([stage], self.reach)[0] for stage in stages]
+    def sloped(self, stage: RateStage) -> Slopes:
+        """Return a stage with its derivatives."""
+        return self.holding(stage)._sloped(stage, self.reach)
 
     def seen(self, slopes: Slopes, seeds: Sequence[Field]) -> list[Field]:
         """Return derivatives in the rates of each cell from derivatives in their means over points.
@@ -132,13 +130,12 @@ class Sloping(Stages):
             end -= len(told)
         return found
 
-    def behind(self, slopes: Slopes, seeds: Sequence[Field]) -> tuple[list[Field], list[Field]]:
-        """Return derivatives in the inputs of the rates of depths and states.
+    def behind(self, slopes: Slopes, seen: Sequence[Field]) -> tuple[list[Field], list[Field]]:
+        """Return derivatives in the inputs of rates from derivatives in the rates of each cell.
 
         The first are in the pressure of each cell, the load and Σp²/2 of each position, not yet
         summed over cells, and factors on the bodies' rates; the second in the states.
         """
-        seen = self.seen(slopes, seeds)
 
         def through(slopes: Sequence[Field]) -> Field:
             pairs = zip(seen, slopes, strict=True)
@@ -167,43 +164,33 @@ class Sloping(Stages):
             return found
         return carrier.gathered(over(self.shares) * found, self.box)
 
-    def _sloped(self, stages: Sequence[RateStage], reach: Reach) -> list[Slopes]:
-        """Return stages with their derivatives, all at once, for a reach of points."""
-        states, rates = (together([vars(s)[of] for s in stages]) for of in ("states", "rates"))
-        passed = [stage.passed for stage in stages]
-        by_state = [
-            self._by_state(at, states, nudge, passed, rates, reach.states[at])
-            for at, nudge in enumerate(self.nudges(states, rates, passed))
-        ]
-        by_pressure = self._by_pressure(states, passed, rates, reach.pressure)
-        by_factor = self._by_factor(states, passed, rates, reach.pressure or ALONE)
-        answers = stages[0].answers
-        by_field = [
-            self._by_field(answer, answers, states, passed, rates) for answer in chain(*answers)
-        ]
-        return [
-            Slopes(
-                **vars(stage),
-                by_pressure=_at(i, by_pressure),
-                by_state=[_at(i, responses) for responses in by_state],
-                by_factor=[_at(i, responses) for responses in by_factor],
-                by_field=by_field,
-            )
-            for i, stage in enumerate(stages)
-        ]
+    def _sloped(self, stage: RateStage, reach: Reach) -> Slopes:
+        """Return a stage with its derivatives, for a reach of points."""
+        answers = stage.answers
+        return Slopes(
+            **vars(stage),
+            by_pressure=self._by_pressure(stage, reach.pressure),
+            by_state=[
+                self._by_state(at, stage, nudge, reach.states[at])
+                for at, nudge in enumerate(self.nudges(stage))
+            ],
+            by_factor=self._by_factor(stage, reach.pressure or ALONE),
+            by_field=[self._by_field(answer, stage) for answer in chain(*answers)],
+        )
 
-    def _by_pressure(
-        self, states: Arrays, passed: Sequence[float], found: Arrays, reach: Offset | None
-    ) -> Sequence[Response]:
+    def _by_pressure(self, stage: RateStage, reach: Offset | None) -> Sequence[Response]:
+        if not (self.along or self.model.laws.effects):
+            return [Response(slope) for slope in stage.slopes]
+
         def rates(pressure: Array) -> Arrays:
-            return self.rates(states, passed, self.told(passed, pressure))
+            return self.rates(stage.states, stage.passed, self.told(stage.passed, pressure))
 
         if reach is None:
-            return shared(
-                rates, np.broadcast_to(self.pressure, (len(passed), *self.pressure.shape))
-            )
-        told = self.told(passed)
-        responses = local(lambda told: self.rates(states, passed, told), found, told, reach)
+            return shared(rates, self.pressure)
+        told = self.told(stage.passed)
+        responses = local(
+            lambda told: self.rates(stage.states, stage.passed, told), stage.rates, told, reach
+        )
         if not self.loads_change:
             return responses
         # Along the increment pressures are told in proportion to the load.
@@ -219,22 +206,16 @@ class Sloping(Stages):
         ]
 
     def _by_state(
-        self,
-        at: int,
-        states: Arrays,
-        nudge: Array,
-        passed: Sequence[float],
-        found: Arrays,
-        reach: Offset,
+        self, at: int, stage: RateStage, nudge: Array, reach: Offset
     ) -> Sequence[Response]:
+        states = stage.states
+
         def rates(state: Array) -> Arrays:
-            return self.rates([*states[:at], state, *states[at + 1 :]], passed)
+            return self.rates([*states[:at], state, *states[at + 1 :]], stage.passed)
 
-        return near(rates, found, states[at], nudge, reach, self._seen_by(self.kept[at]))
+        return near(rates, stage.rates, states[at], nudge, reach, self._seen_by(self.kept[at]))
 
-    def _by_factor(
-        self, states: Arrays, passed: Sequence[float], found: Arrays, reach: Offset
-    ) -> Sequence[Sequence[Response]]:
+    def _by_factor(self, stage: RateStage, reach: Offset) -> Sequence[Sequence[Response]]:
         names = list(self.model.laws.wear)
         if not self.slid.before.between:
             laws = self.slid.before.laws.items()
@@ -243,7 +224,7 @@ class Sloping(Stages):
             return [
                 [
                     Response(rate if body == name else 0.0)
-                    for body, rate in zip_longest(bodies, found)
+                    for body, rate in zip_longest(bodies, stage.rates)
                 ]
                 for name in names
             ]
@@ -251,21 +232,16 @@ class Sloping(Stages):
         for name, carrier in zip(names, self.own, strict=True):
 
             def rates(factor: Array, name: str = name) -> Arrays:
-                return self.rates(states, passed, model=localised(self.model, {name: factor[0]}))
+                changed = localised(self.model, {name: factor})
+                return self.rates(stage.states, stage.passed, model=changed)
 
-            ones = np.ones((1, carrier.rows, self.model.grid.cells[1]))
-            seen = self._seen_by(carrier)
-            far = _on(carrier, reach)
-            of_bodies.append(near(rates, found, ones, ASIDE * ones, far, seen))
+            ones = np.ones((carrier.rows, self.model.grid.cells[1]))
+            seen, far = self._seen_by(carrier), _on(carrier, reach)
+            of_bodies.append(near(rates, stage.rates, ones, ASIDE * ones, far, seen))
         return of_bodies
 
     def _by_field(
-        self,
-        answer: EffectFields,
-        answers: Sequence[Sequence[EffectFields]],
-        states: Arrays,
-        passed: Sequence[float],
-        found: Arrays,
+        self, answer: EffectFields, stage: RateStage
     ) -> dict[str, dict[str, Sequence[Response]]]:
         """Return the responses to the fields of an answer, by field and body."""
 
@@ -273,16 +249,16 @@ class Sloping(Stages):
             of_bodies = answer.fields[field.name]
 
             def rates(values: Array) -> Arrays:
-                fields = {**answer.fields, field.name: {**of_bodies, body: values[0]}}
+                fields = {**answer.fields, field.name: {**of_bodies, body: values}}
                 other = replace(answer, fields=fields)
-                given = [[other if each is answer else each for each in of] for of in answers]
-                return self.rates(states, passed, model=held(self.model, given))
+                given = [[other if each is answer else each for each in of] for of in stage.answers]
+                return self.rates(stage.states, stage.passed, model=held(self.model, given))
 
-            values = of_bodies[body][None]
+            values = of_bodies[body]
             step = ASIDE * (float(np.max(np.abs(values))) or 1.0)
             most = np.inf if field.at_most is None else field.at_most
             nudge = np.where(values + step > most, -step, step)
-            return _at(0, near(rates, found, values, nudge, ALONE))
+            return near(rates, stage.rates, values, nudge, ALONE)
 
         return {
             field.name: {body: response(field, body) for body in answer.fields[field.name]}
@@ -296,8 +272,3 @@ class Sloping(Stages):
 def _on(carrier: Carrier, reach: Offset) -> Offset:
     """Return a reach on a body: 0 along the track where it is averaged along it."""
     return reach if carrier.weights is None else (0, reach[1])
-
-
-def _at(stage: int, responses: Sequence[Response]) -> list[Response]:
-    """Return the responses of one of several stages."""
-    return [each.at(stage) for each in responses]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Self
@@ -10,9 +10,9 @@ from typing import Self
 import numpy as np
 from tribo import Array, Box, ContactSolution, Residuals
 from tribo.kernel_api import (
-    CELLS,
     Kept,
     Model,
+    Rates,
     Sum,
     kept_in,
     over,
@@ -34,7 +34,8 @@ class RateStage:
 
     `rates` hold at each cell of each position, and `means` at each point of the depths and states.
     `inside` has, by state, where it was within its limits before. After the rates in `rates` come
-    the inputs of effects for their `answers`.
+    the inputs of effects for their `answers`. `slopes` are the derivatives of the depth rates in
+    pressure, as the laws state them.
     """
 
     passed: float
@@ -42,6 +43,7 @@ class RateStage:
     inside: Sequence[Array]
     rates: Arrays
     means: Arrays
+    slopes: Arrays
     answers: Sequence[Sequence[EffectFields]]
 
 
@@ -83,11 +85,6 @@ class Stages:
         between = carriers_between(self.model, self.carriers).values()
         return [*of_laws, *between]
 
-    @property
-    def begin(self) -> Arrays:
-        """The states at the beginning of the increment."""
-        return self.slid.before.values
-
     @cached_property
     def loads_change(self) -> bool:
         """Whether laws get pressures in proportion to loads that may change along it.
@@ -115,20 +112,17 @@ class Stages:
         """Return states within their limits."""
         return [of.hold(state) for state, of in zip(states, self.limits, strict=True)]
 
-    def nudges(
-        self, states: Sequence[Array], rates: Arrays, passed: Sequence[float], part: float = ASIDE
-    ) -> Arrays:
+    def nudges(self, stage: RateStage) -> Arrays:
         """Return the variation of each state for derivatives in it, past no limit or break.
 
         It is a part of the largest value of the state, now or at these rates after its part of the
         increment; over a whole increment of many parts that value may be far too large.
         """
-        nudges, lengths = [], over(np.array([*map(self.part_after, passed)]))
-        for state, rate, of in zip(states, rates[len(self.own) :], self.limits, strict=False):
-            largest = np.max(np.abs(state), CELLS, keepdims=True)
-            fastest = over(np.max(np.abs(rate), (-3, *CELLS)))
-            most = np.maximum(largest, lengths * fastest)
-            nudges.append(of.aside(state, part * np.where(most > 0, most, 1.0)) - state)
+        nudges, length = [], self.part_after(stage.passed)
+        rates = stage.rates[len(self.own) :]
+        for state, rate, of in zip(stage.states, rates, self.limits, strict=False):
+            most = max(float(np.max(np.abs(state))), length * float(np.max(np.abs(rate))))
+            nudges.append(of.aside(state, ASIDE * (most if most > 0 else 1.0)) - state)
         return nudges
 
     def part_after(self, passed: float) -> float:
@@ -148,66 +142,54 @@ class Stages:
         pairs = zip(self.counts, rates, strict=False)
         return [carrier.gathered(counts * rate, self.box) for (carrier, counts), rate in pairs]
 
-    def embedded(self, values: Array) -> Array:
-        """Return values on the box, by position, in a window of zeros."""
-        full = np.zeros((len(values), *self.box.window))
-        full[(slice(None), *self.box.slices)] = values
-        return full
-
     def at(self, states: Sequence[Array], passed: float) -> RateStage:
         """Return the stage at some states after a part of the increment."""
         within = self.held(states)
         inside = [given == kept for given, kept in zip(states, within, strict=True)]
-        rates = [each[0] for each in self.rates([state[None] for state in within], [passed])]
+        found = self._rates_of(self.model, within, passed, self.told(passed))
+        rates = self._arrays(found)
+        slopes = [[of.wear[name].depth_slope for of in found] for name in self.model.laws.wear]
         answers = [[*effect.noted] for effect in held_effects(self.model)]
-        return RateStage(passed, within, inside, rates, self.means(rates), answers)
+        means = self.means(rates)
+        return RateStage(passed, within, inside, rates, means, self._on_box(slopes), answers)
 
-    def told(self, passed: Sequence[float], pressure: Array | None = None) -> Array:
-        """Return the pressures for laws at some stages, (stages, positions, nx, ny).
+    def told(self, passed: float, pressure: Array | None = None) -> Array:
+        """Return the pressures for laws at a stage, (positions, nx, ny).
 
         They are in proportion to a load that changes along the increment. `pressure` replaces the
-        pressures of the increment, in the same shape.
+        pressures of the increment.
         """
         if pressure is None:
-            pressure = np.broadcast_to(self.pressure, (len(passed), *self.pressure.shape))
+            pressure = self.pressure
         if not self.loads_change:
             return pressure
-        each = (
-            with_loads(self.model, _contacts(own), self.slid.interval, share)
-            for own, share in zip(pressure, passed, strict=True)
-        )
-        return np.stack([[contact.pressure for contact in contacts] for contacts in each])
+        contacts = with_loads(self.model, _contacts(pressure), self.slid.interval, passed)
+        return np.stack([contact.pressure for contact in contacts])
 
     def rates(
         self,
         states: Sequence[Array],
-        passed: Sequence[float],
+        passed: float,
         told: Array | None = None,
         model: Model | None = None,
     ) -> Arrays:
-        """Return the rates at each position at some stages, (stages, positions, nx, ny).
+        """Return the rates at each position at a stage, shape (positions, nx, ny).
 
         After them come the inputs of effects with a `pull_back`.
 
         Parameters
         ----------
-        states : sequence of ndarray, shape (stages, rows, ny)
+        states : sequence of ndarray, shape (rows, ny)
             The states.
-        passed : sequence of float
+        passed : float
             Share of the increment that has passed.
-        told : ndarray, shape (stages, positions, nx, ny), optional
+        told : ndarray, shape (positions, nx, ny), optional
             The pressures; the result of `told` if left out.
         model : Model, optional
             A model with another number.
         """
-        model = model or self.model
-        if told is None:
-            told = self.told(passed)
-        each = [
-            self._at_one(model, [state[i] for state in states], share, told[i])
-            for i, share in enumerate(passed)
-        ]
-        return together(each)
+        told = self.told(passed) if told is None else told
+        return self._arrays(self._rates_of(model or self.model, states, passed, told), model)
 
     def holding(self, stage: RateStage) -> Self:
         """Return the same stages, with effects held at their answers of a stage."""
@@ -215,43 +197,36 @@ class Stages:
             return self
         return replace(self, model=held(self.model, stage.answers))
 
-    def rates_at(self, stages: Sequence[RateStage]) -> Arrays:
-        """Return the rates at stages whose answers are held."""
-        if not self.model.laws.effects:
-            return self.rates(together([s.states for s in stages]), [s.passed for s in stages])
-        each = [
-            self.holding(stage).rates([state[None] for state in stage.states], [stage.passed])
-            for stage in stages
-        ]
-        return [np.concatenate(of_stages) for of_stages in zip(*each, strict=True)]
-
-    def _at_one(self, model: Model, states: Sequence[Array], passed: float, told: Array) -> Arrays:
-        """Return the rates of laws and effects at one stage, with the whole window as input."""
+    def _rates_of(
+        self, model: Model, states: Sequence[Array], passed: float, told: Array
+    ) -> list[Rates]:
+        """Return the rates of laws and effects by position, with the whole window as input."""
         memory = self.slid.before.with_values(iter(states))
-        moment = self.slid.interval.at(passed)
-        shown = told if self.box.is_window else self.embedded(told)
+        shown = told if self.box.is_window else self.box.embed(told)
         for effect in held_effects(model):
             effect.noted.clear()
-        found = rates_at_each(model, _contacts(shown), memory, moment)
-        depths = [[rates.wear[name].depth_rate for rates in found] for name in model.laws.wear]
-        of_laws = [
-            [rates.wear[name].state_rates[key] for rates in found]
-            for name, of in memory.laws.items()
-            for key in of
+        return rates_at_each(model, _contacts(shown), memory, self.slid.interval.at(passed))
+
+    def _arrays(self, found: Sequence[Rates], model: Model | None = None) -> Arrays:
+        """Return the rates on the box, and the inputs of the effects of a model."""
+        wear, memory = self.model.laws.wear, self.slid.before
+        rates = [[of.wear[name].depth_rate for of in found] for name in wear]
+        rates += [
+            [of.wear[name].state_rates[key] for of in found]
+            for name, of_law in memory.laws.items()
+            for key in of_law
         ]
-        between = [
-            [np.broadcast_to(rates.between[key], self.box.window) for rates in found]
+        rates += [
+            [np.broadcast_to(of.between[key], self.box.window) for of in found]
             for key in memory.between
         ]
-        rates = [np.stack(each) for each in (*depths, *of_laws, *between)]
-        answers = (answer for effect in held_effects(model) for answer in effect.noted)
-        rates += [value[None] for answer in answers for value in answer.told.values()]
-        return [each[(slice(None), *self.box.slices)] for each in rates]
+        effects = held_effects(model or self.model)
+        answers = (answer for effect in effects for answer in effect.noted)
+        rates += [[value] for answer in answers for value in answer.told.values()]
+        return self._on_box(rates)
 
-
-def together(states: Sequence[Sequence[Array]]) -> Arrays:
-    """Return the stacked states of several stages, shape (stages, rows, ny)."""
-    return [np.stack(each) for each in zip(*states, strict=True)]
+    def _on_box(self, fields: Iterable[Sequence[Array]]) -> Arrays:
+        return [np.stack([of[self.box.slices] for of in each]) for each in fields]
 
 
 def _contacts(pressures: Array) -> list[ContactSolution]:
