@@ -59,12 +59,6 @@ def changed(**changes):
         ({"body": "bal"}, ".1.body", "'ball'"),
         ({"time": "2 h"}, ".1.time", "3600 s"),
         ({"position": ["1 mm"]}, ".1", "mass has no position"),
-        ({"quantity": "depth_map", "value": "3 um", "uncertainty": "1 um"}, ".1", "depth"),
-        (
-            {"quantity": "crown", "value": "1 um", "pitch": "1 um", "uncertainty": "1 um"},
-            ".1",
-            "crown",
-        ),
         (SCAR | {"body": "disk", "value": "1 mm"}, ".1.quantity", "'disk'"),
         (SCAR | {"quantity": "scar_across", "value": "3 mm"}, ".1.value", "2 mm"),
         (

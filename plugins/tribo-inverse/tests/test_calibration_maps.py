@@ -135,12 +135,6 @@ def test_a_groove_off_the_middle_of_its_map_has_no_other_coefficient(tmp_path):
     assert found.p_value > 0.01
 
 
-def test_a_length_below_a_cell_is_refused():
-    entry = MapEntry(body="disk", depth="map.npy", uncertainty=NOISE, length="1 um")
-    with pytest.raises(CaseError, match=r"map\.1\.length: 1 µm is less than a cell, 62\.5 µm"):
-        calibrate_maps(CASE, {"map.1": entry})
-
-
 @pytest.mark.slow
 def test_a_dip_of_a_coefficient_is_found_where_the_depth_tells_it(done, truth, depth):
     told, folder = done
@@ -245,17 +239,34 @@ def test_a_cell_of_which_less_than_half_was_measured_is_left_out():
 
 
 @pytest.mark.parametrize(
-    ("data", "words"),
+    ("changes", "place", "words"),
     [
-        ({"map": [{"body": "disk", "depth": "no.npy"}]}, "map.1.uncertainty: "),
-        (
-            {"map": [{"body": "disk", "depth": "a", "uncertainty": 1e-9, "length": 1e-4}]}
-            | {"fit": [{"path": "load.normal"}]},
-            "local coefficients are fitted to maps of one test",
-        ),
+        ({"depth": "no.npy"}, ".depth", "no.npy"),
+        ({"pitch": None}, ".depth", "pixels"),
+        ({"pitch": "0.1 mm"}, ".depth", "62.5 × 62.5 µm"),
+        ({"depth": "beside.npy"}, ".depth", "50 × 50 µm"),
+        ({"depth": "missing.npy"}, ".depth", "missing"),
+        ({"uncertainty": None}, ".uncertainty", "a length .m. is needed"),
+        ({"length": "1 um"}, ".length", "1 µm is less than a cell, 62.5 µm"),
+        ({"body": "ring"}, ".body", "ring"),
     ],
 )
-def test_wrong_maps_are_told(data, words):
-    with pytest.raises(CaseError) as caught:
-        read_measurements(data)
-    assert str(caught.value).startswith(words)
+def test_a_wrong_map_is_refused_by_its_place(changes, place, words, tmp_path):
+    worn = np.full((16, 16), 1e-6)
+    beside = np.full((80, 80), np.nan)
+    beside[0, 0] = 1e-6
+    for name, depth in {"good": worn, "beside": beside, "missing": np.nan * worn}.items():
+        np.save(tmp_path / f"{name}.npy", depth)
+    entry = {"body": "ball", "depth": "good.npy", "pitch": "50 um", "uncertainty": "10 nm"}
+    entry |= {"length": "0.2 mm", **changes}
+    file = tmp_path / "lab.toml"
+    file.write_text(to_toml({"map": [{k: v for k, v in entry.items() if v is not None}]}))
+    with pytest.raises(CaseError, match=words) as caught:
+        calibrate_maps(CASE, {"map.1": read_measurements(file).map[0]})
+    assert str(caught.value).startswith(f"map.1{place}: ")
+
+
+def test_maps_stand_in_a_file_of_their_own():
+    entry = {"body": "disk", "depth": "a", "uncertainty": 1e-9, "length": 1e-4}
+    with pytest.raises(CaseError, match="local coefficients are fitted to maps of one test"):
+        read_measurements({"map": [entry], "fit": [{"path": "load.normal"}]})

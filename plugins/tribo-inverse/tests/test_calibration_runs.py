@@ -124,7 +124,7 @@ def test_the_start_leaves_no_trace_in_the_uncertainties(monkeypatch):
         off = np.array([0.2 * (each.quantity == "crown") for each in wanted])
         crown = 5e-6 * (values[0] / BALL) ** 0.25
         found = [crown if each.quantity == "crown" else mass(values[0]) for each in wanted]
-        return SetupRun(np.array(found), off * found, {}, ())
+        return SetupRun(np.array(found), off * found, ())
 
     monkeypatch.setattr("tribo_inverse.calibration.experiment.make_run", made)
     data, told = [BALL_LOSS, measured("ball", "crown", 6e-6)], []

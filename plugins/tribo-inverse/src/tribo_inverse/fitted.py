@@ -28,7 +28,7 @@ def fit_picture(data: pd.DataFrame) -> Figure:
     Returns
     -------
     Figure
-        The values, and the mean of each profile and map, relative to the measured ones.
+        The values, and the mean of each profile, relative to the measured ones.
 
     Examples
     --------

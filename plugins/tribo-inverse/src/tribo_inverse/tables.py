@@ -7,7 +7,6 @@ from collections.abc import Iterable, Sequence
 from io import StringIO
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from rich.markup import escape
 from tribo.kernel_api import Console, DataTable, Heading, TableRow, digits_of, signed
 
@@ -172,12 +171,8 @@ def _columns(value: str, found: Calibration) -> list[str]:
 
 
 def _name(row: Any) -> str:
-    """Return the name of a row of the data, with the shift of a map's scar."""
-    if row.depths == 1:
-        return row_name(row)
-    shift = np.nan_to_num([getattr(row, f"shift_{axis}_m", 0.0) for axis in "xy"])
-    far = " and ".join(signed(1e6 * each, 1) for each in shift)
-    return f"{row_name(row)}, mean{f', off centre by {far} µm' if any(shift) else ''}"
+    """Return the name of a row of the data."""
+    return f"{row_name(row)}, mean" if row.depths > 1 else row_name(row)
 
 
 def _interval(row: Any, low: str, high: str) -> tuple[str, str]:

@@ -20,19 +20,13 @@ from tribo_inverse.calibration.fit import fit, interval
 from tribo_inverse.calibration.linearised import Linearised, Weights, root_covariance
 from tribo_inverse.calibration.measured import Measurements
 from tribo_inverse.calibration.predictions import predicted
-from tribo_inverse.calibration.quantities import (
-    DEPTH_MAP,
-    FIELDS,
-    plain,
-)
+from tribo_inverse.calibration.quantities import PROFILES, plain
 from tribo_inverse.findings import of_fit
 from tribo_inverse.tables import fit_tables, fit_text
 
 DATA = ["test", "body", "quantity", "time_s", "position_m", "place", "unit"]
 DATA += ["measured", "sigma", "computed", "residual"]
 """Columns of a calibration's data."""
-PLACE = ["x_m", "y_m", "shift_x_m", "shift_y_m"]
-"""Further columns, where a depth map is among the data."""
 AT_BOUND = 1e-6
 """Relative distance below which an estimate counts as on its bound."""
 
@@ -65,9 +59,7 @@ class Calibration:
     """One row per measured value: `test`, empty for the case as it is; `body`, `quantity`,
     `time_s`, `position_m` on a profile, `place`, its entry in the file, `unit`, `measured`,
     `sigma`, its standard deviation including the grid and the scatter from test to test,
-    `computed`, and `residual`, computed less measured in units of `sigma`. A map has one row per
-    block of cells, with its middle, `x_m` and `y_m`, and the shift of the scar from the middle of
-    the map, `shift_x_m` and `shift_y_m`."""
+    `computed`, and `residual`, computed less measured in units of `sigma`."""
     predictions: pd.DataFrame
     """Other quantities of the fitted case at the end of each test: `test`, `body`, `quantity`,
     `unit`, `value`, `lower`, `upper`; these equal where nothing fitted changes it, 0 and infinite
@@ -76,7 +68,7 @@ class Calibration:
     chi_square: float
     """Sum of squared weighted residuals."""
     degrees_of_freedom: int
-    """Values less the parameters that are not held, and the shifts of maps."""
+    """Values less the parameters that are not held."""
     repeatability: float
     """Relative standard deviation of the parameters from test to test."""
     repeatability_estimated: bool
@@ -113,12 +105,12 @@ class Calibration:
 
     @property
     def brief(self) -> pd.DataFrame:
-        """The data, with one row per depth map or profile.
+        """The data, with one row per profile.
 
         It has the number of `depths`, the means of `measured` and `computed`, and the root mean
         squares of `sigma` and `residual`.
         """
-        parts, is_field = [], self.data["quantity"].isin(FIELDS)
+        parts, is_field = [], self.data["quantity"].isin(PROFILES)
         for _, rows in self.data.groupby(self.data["place"].where(is_field, self.data.index)):
             part = rows[:1].assign(depths=len(rows))
             if len(rows) > 1:
@@ -191,11 +183,7 @@ def calibrate(
         raise CaseError(f"the level, {level:g}, must lie between 0 and 1, as 0.95 does")
     experiment = Experiment.of(case, measured)
     for each in experiment.data[experiment.data["measured"].isna()].itertuples():
-        others = {
-            "mass": "value, or before and after",
-            DEPTH_MAP: "depth, the file of a height map",
-        }
-        needed = others.get(each.quantity, "value")
+        needed = "value, or before and after" if each.quantity == "mass" else "value"
         raise CaseError(f"give {needed}; only with --plan it may be left out", each.place)
     if (count := len(experiment.data)) < len(experiment.parameters):
         raise CaseError(
@@ -203,7 +191,6 @@ def calibrate(
             f"value{'' if count == 1 else 's'}: measure more, or leave parameters out of fit"
         )
     try:
-        experiment = experiment.centred()
         first = experiment.run(experiment.start).responses
     except OutOfWindow as error:
         paths = " and ".join(p.path for p in experiment.parameters)
@@ -246,15 +233,14 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
         residual=problem.residuals(computed, Weights.of(sigma)),
         alone=residuals,
     )
-    moved = sum(n > 1 for depth in last.maps.values() for n in depth.shape)
-    freedom = max(len(data) - int(np.sum(~held)) - moved, 0)
+    freedom = max(len(data) - int(np.sum(~held)), 0)
     predictions = predicted(fitted, experiment, estimates, level)
     scatters = problem.repeatability is None
     return Calibration(
         level=level,
         runs=experiment.run_count,
         parameters=estimates,
-        data=data[DATA + PLACE if "x_m" in data else DATA],
+        data=data[DATA],
         predictions=predictions,
         chi_square=float(np.sum(residuals**2)),
         degrees_of_freedom=freedom,

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
-import pandas as pd
 from scipy.ndimage import correlate1d
 from tribo import Array, CaseError, Heights, read_heights
 from tribo.kernel_api import Model, located
@@ -14,8 +11,6 @@ ROUNDING = 1e-6
 """Relative rounding of pixel pitch and cell size."""
 COVERED = 0.5 - 1e-6
 """Part of a cell that must be measured."""
-MOST_BLOCKS = 600
-"""Blocks that a map is averaged over where a few parameters are fitted to it."""
 
 
 def read_map(file: str, pitch: float | None, place: str) -> Heights:
@@ -29,33 +24,6 @@ def surface_shape(model: Model, body: str) -> tuple[int, int]:
     return model.cycle.maps[body].rows, model.grid.cells[1]
 
 
-def block_means(depth: Array, noise: Array, spacing: tuple[float, float]) -> pd.DataFrame:
-    """Return the mean of a map over equal blocks of cells, 600 at most, one row each.
-
-    `measured` is the mean, `x_m` and `y_m` its position, `cells` the flat indices of the cells
-    that were measured, and `noise` its standard deviation; for depths and noise of `on_cells`.
-    """
-    side = 1
-    while np.prod(-(-np.array(depth.shape) // side)) > MOST_BLOCKS:
-        side += 1
-    (rows, ny), cells = depth.shape, np.arange(depth.size)
-    i, j = cells // ny, cells % ny
-    known = pd.DataFrame(
-        {
-            "measured": depth.ravel(),
-            "noise": noise.ravel() ** 2,
-            "x_m": spacing[0] * (i - 0.5 * (rows - 1)),
-            "y_m": spacing[1] * (j - 0.5 * (ny - 1)),
-            "cells": cells,
-            "block": i // side * ny + j // side,
-        }
-    ).dropna()
-    blocks = known.groupby("block")
-    means = blocks[["measured", "noise", "x_m", "y_m"]].mean()
-    means["noise"] = (means["noise"] / blocks.size()) ** 0.5
-    return means.assign(cells=blocks["cells"].agg(tuple)).reset_index(drop=True)
-
-
 def cell_means(depth: Array) -> Array:
     """Return the means over cells of a depth given at their centres.
 
@@ -65,12 +33,6 @@ def cell_means(depth: Array) -> Array:
     for axis in (0, 1):
         found += correlate1d(depth, [1 / 24, -1 / 12, 1 / 24], axis, mode="nearest")
     return found
-
-
-def means_over(depth: Array, cells: Iterable[tuple[int, ...]]) -> Array:
-    """Return the mean of a map over each block of cells of `block_means`."""
-    flat = depth.ravel()
-    return np.array([np.mean(flat[list(each)]) for each in cells])
 
 
 def on_cells(

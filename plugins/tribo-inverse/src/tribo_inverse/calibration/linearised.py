@@ -11,7 +11,7 @@ from tribo import Array
 LONGEST_STEP = np.log(100.0)
 """Largest change of a logarithm between two runs."""
 LONGEST_STEP_OF_DEPTHS = np.log(4.0)
-"""The same where profiles or depth maps, which are linearised, are among the data."""
+"""The same where profiles, which are linearised, are among the data."""
 REPEATABILITY_RANGE = (1e-3, 3.0)
 """Smallest and largest repeatability that is estimated."""
 COLLINEAR = 0.01

@@ -80,5 +80,5 @@ def _check_volume(entry: MapEntry, depth: Array, worn: Array) -> None:
         raise CaseError(
             f"it has {part:.3g} times the volume that the case wears there, which a spread of "
             f"{entry.spread:g} does not allow for: check the map, or first fit the case's k to "
-            "it, as a depth_map in [[measured]]"
+            "its volume, in [[measured]]"
         )

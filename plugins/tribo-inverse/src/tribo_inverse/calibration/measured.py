@@ -19,12 +19,7 @@ from pydantic import (
 from tribo import Array, CaseError, Quantity, Table
 from tribo.kernel_api import case_error, number, read_toml, to_toml
 
-from tribo_inverse.calibration.quantities import (
-    DEPTH_MAP,
-    FIELDS,
-    PROFILES,
-    quantity,
-)
+from tribo_inverse.calibration.quantities import PROFILES, quantity
 
 NOISE = 3.0
 """Standard deviations by which a mean depth below 0 is not noise."""
@@ -32,7 +27,7 @@ NOISE = 3.0
 
 def _parts(text: str, quantity: str, entry: Mapping[str, Any]) -> tuple[float, ...]:
     """Return the parts of the values of an entry that a text in per cent states."""
-    if quantity in FIELDS:
+    if quantity in PROFILES:
         raise CaseError(f"{text!r}: of depths at many places give it with a unit, as '10 nm'")
     try:
         part = number(text[:-1]) / 100
@@ -54,9 +49,9 @@ def _beside(name: str, info: ValidationInfo) -> str:
 BesideFile = Annotated[str, AfterValidator(_beside)]
 """Name of a file; a relative one starts at the folder of the file of measured values."""
 
-NUMBERS = dict.fromkeys(PROFILES, ("value", "position")) | {
+NUMBERS: dict[str, tuple[str, ...]] = {
+    **dict.fromkeys(PROFILES, ("value", "position")),
     "mass": ("value", "before", "after"),
-    DEPTH_MAP: ("depth", "pitch"),
 }
 """Keys of the numbers of a quantity; of those that are left out it is the value alone."""
 LOCAL = "local coefficients are fitted to maps of one test: give [[map]] in a file of its own"
@@ -84,13 +79,9 @@ class MeasuredEntry(Table):
     """The reading after it."""
     position: tuple[Annotated[float, Quantity("m")], ...] | None = None
     """Where a profile's depths were measured, from the centre of the contact."""
-    depth: BesideFile | None = None
-    """File of a depth map, instead of a value."""
-    pitch: Annotated[float, Quantity("m", above=0)] | None = None
-    """Pixel pitch of a depth map."""
     uncertainty: float | tuple[float, ...] | None = None
     """Standard deviation, of each value where it is a part of them, as ``"5 %"``; for each depth of
-    a profile, or each cell of a map."""
+    a profile."""
     resolution: float | None = None
     """Smallest step that the instrument shows."""
     time: Annotated[float, Quantity("s", above=0)] | None = None
@@ -128,7 +119,7 @@ class MeasuredEntry(Table):
     def _has_its_keys(self) -> Self:
         name, found = self.quantity, quantity(self.quantity)
         own = NUMBERS.get(name, ("value",))
-        for key in ("value", "before", "after", "position", "depth", "pitch"):
+        for key in ("value", "before", "after", "position"):
             if key not in own and getattr(self, key) is not None:
                 raise ValueError(f"{name} has no {key}; its numbers are {' and '.join(own)}")
         if found.label and self.time is not None:
@@ -324,7 +315,7 @@ class Measurements(Table):
         }
 
     def table(self) -> pd.DataFrame:
-        """Return the measured numbers in SI, one row each; a depth map has one without a value.
+        """Return the measured numbers in SI, one row each.
 
         `place` is the entry in the file, `test` the name of its test, `of` the index of the test in
         `tests`, `specimen` the number of the single test, `entry` the `MeasuredEntry`, `step` the

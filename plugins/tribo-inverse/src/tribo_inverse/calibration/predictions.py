@@ -20,9 +20,7 @@ def predicted(
     """Return `Calibration.predictions`."""
     held = estimates["held"].to_numpy()
     by_grid = math.sqrt(chdtri(1, 1 - level)) * experiment.run(np.exp(fitted.point)).grid_sigma
-    positive = np.all(
-        [experiment.of_data(made).responses > 0 for made in experiment.runs.values()], axis=0
-    )
+    positive = np.all([made.responses > 0 for made in experiment.runs.values()], axis=0)
     rows = []
     for i, each in enumerate(experiment.predicted.itertuples(), len(experiment.data)):
         if not positive[i]:

@@ -12,7 +12,6 @@ from scipy.interpolate import Akima1DInterpolator
 from scipy.ndimage import binary_dilation, binary_erosion
 from tribo import Array, CaseError, Result
 from tribo.kernel_api import (
-    TRACK,
     Model,
     between_cells,
     crown,
@@ -66,16 +65,13 @@ QUANTITIES = {
     "section": WornQuantity("m^2", "mm²", 1e6, "swept"),
     "profile_along": _DEPTH._replace(of="stationary"),
     "profile_across": _DEPTH,
-    "depth_map": _DEPTH,
 }
 """By the name in a file of measured values; see `quantity` for the quantities of packages."""
 AXES = {"scar_along": 0, "scar_across": 1, "profile_along": 0, "profile_across": 1}
 """Axis of a diameter or a profile."""
 PROFILES = ("profile_along", "profile_across")
-"""Depths at several positions along a line."""
-DEPTH_MAP = "depth_map"
-FIELDS = (*PROFILES, DEPTH_MAP)
-"""Depths at many places, which may be 0; all other quantities are one positive number."""
+"""Depths at several positions along a line, which may be 0; all other quantities are one positive
+number."""
 
 
 def quantity(name: str) -> WornQuantity:
@@ -111,7 +107,7 @@ def _read_off(columns: Sequence[Any]) -> dict[str, WornQuantity]:
 
 
 class Reading(NamedTuple):
-    """One number to compute from a run; for a depth map the largest depth.
+    """One number to compute from a run.
 
     `time_s` is NaN for the end of the run, `position_m` for all but profiles; `body` is empty for
     a quantity of the run.
@@ -167,17 +163,6 @@ def percent(part: float) -> str:
     return f"{100 * part:.0f}" if part >= 0.095 else f"{100 * part:.1f}"
 
 
-def read_all(result: Result, asked: Sequence[Reading]) -> tuple[Array, Array, dict[int, Array]]:
-    """Return computed values, their standard deviations due to the grid, and depth maps."""
-    maps = {
-        i: surface_depth(result, each.body, _save(result, each))
-        for i, each in enumerate(asked)
-        if each.quantity == DEPTH_MAP
-    }
-    values, errors = np.array([read(result, each) for each in asked]).T
-    return values, errors, maps
-
-
 def read(result: Result, asked: Reading) -> tuple[float, float]:
     """Return a computed value, and its standard deviation due to the grid."""
     if label := quantity(asked.quantity).label:
@@ -188,9 +173,6 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
     if name in ("scar_along", "scar_across"):
         axis = AXES[name]
         return diameter(depth, axis, spacing[axis]), DIAMETER_SIGMA * spacing[axis]
-    if name == DEPTH_MAP:
-        value = float(np.max(surface_depth(result, asked.body, save)))
-        return value, DEPTH_SIGMA * value
     if name == "depth":
         value = float(np.max(depth)) + between_cells(depth)
         return value, DEPTH_SIGMA * value
@@ -230,19 +212,6 @@ def _on_line(depth: Array, axis: int, position: float, result: Result) -> tuple[
 
 def _save(result: Result, asked: Reading) -> int:
     return -1 if math.isnan(asked.time_s) else result.save_at(asked.time_s)
-
-
-def surface_depth(result: Result, body: str, save: int) -> Array:
-    """Return the depth on a body's own surface, shape (rows, ny).
-
-    Under a resolved stroke the surface of a track is longer than the window.
-    """
-    depth = result.field("wear_depth", save, body)
-    if TRACK in dir(result):
-        track = result.field(TRACK, save, body)
-        if np.any(known := np.isfinite(track[:, 0])):
-            depth = track[known]
-    return np.asarray(depth)
 
 
 def _crown(result: Result, name: str, save: int) -> tuple[float, float]:

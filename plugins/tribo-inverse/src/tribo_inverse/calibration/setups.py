@@ -25,10 +25,10 @@ from tribo_inverse.calibration.measured import MeasuredEntry, TestEntry
 from tribo_inverse.calibration.parameters import Parameter
 from tribo_inverse.calibration.quantities import (
     AXES,
-    FIELDS,
+    PROFILES,
     QUANTITIES,
     Reading,
-    read_all,
+    read,
     unavailable,
 )
 
@@ -55,8 +55,6 @@ class SetupRun(NamedTuple):
     responses: Array
     grid_sigma: Array
     """Their standard deviations due to the grid."""
-    maps: Mapping[int, Array]
-    """Depths all over a surface, shape (rows, ny), by the index of the reading."""
     findings: tuple[Finding, ...]
 
 
@@ -122,7 +120,7 @@ def unmeasured(setups: Sequence[Setup], data: pd.DataFrame) -> pd.DataFrame:
         for i, setup in enumerate(setups)
         for body in setup.model.case.bodies
         for quantity in QUANTITIES
-        if quantity not in FIELDS
+        if quantity not in PROFILES
         and (i, body, quantity) not in known
         and not unavailable(setup.model, body, quantity)
     ]
@@ -150,7 +148,8 @@ def make_run(
             case = validate_case(apply_settings(tables, settings))
             result = Simulation(case).run()
     with result:
-        return SetupRun(*read_all(result, wanted), result.findings)
+        values, errors = np.array([read(result, each) for each in wanted]).T
+        return SetupRun(values, errors, result.findings)
 
 
 def _check_entry(model: Model, entry: MeasuredEntry, place: str) -> None:

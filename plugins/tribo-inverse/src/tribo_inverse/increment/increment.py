@@ -68,7 +68,7 @@ class Before:
 class Other:
     """An increment under the same contacts, of a model with another number.
 
-    Whether it `asks` for the rates anew, since they may differ.
+    Whether it `asks` for the rates again, since they may differ.
     """
 
     model: Model
