@@ -55,10 +55,8 @@ def lab(loads, tests, scatter, random, stated=False):
         sigma=np.full(len(observed), NOISE),
         specimen=np.tile(np.arange(len(force)), 2),
         repeatability=scatter if stated or tests == 1 else None,
-        small=np.zeros(len(observed)),
         lower=np.full(2, -np.inf),
         upper=np.full(2, np.inf),
-        common=np.zeros((len(observed), 0)),
     )
     found = fit(
         lambda k: np.concatenate([per_k * k[0], per_k * k[1]]), lambda values: problem, TRUE

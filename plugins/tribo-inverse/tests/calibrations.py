@@ -36,16 +36,13 @@ def problem(
     observed,
     sigma,
     *,
-    predictions=0,
-    small=0.0,
     names=("ball", "disk"),
     reach=np.inf,
     start=1.0,
     **data,
 ):
-    """A problem of which the first values are data; the other responses are predictions."""
+    """A problem of which the first responses are data, the others predictions."""
     n = len(observed)
     each = {"specimen": np.arange(n), "repeatability": 0.0} | data
     start = np.log(np.broadcast_to(start, len(names)))
-    whole = np.full(n + predictions, small), start - reach, start + reach, np.zeros((n, 0))
-    return Problem(names, observed, sigma, *each.values(), *whole)
+    return Problem(names, observed, sigma, *each.values(), start - reach, start + reach)

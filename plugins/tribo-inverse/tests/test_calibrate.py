@@ -87,7 +87,7 @@ def test_json_is_finite_and_in_si_units(asked):
     assert list(ball) == estimate.split()
     assert (ball["path"], ball["unit"]) == ("bodies.ball.wear.k", "1/Pa")
     assert ball["value"] == pytest.approx(7.08e-15, rel=1e-3, abs=0)
-    datum = "test body quantity time_s position_m place unit"
+    datum = "test body quantity time_s place unit"
     datum += " measured sigma computed residual"
     assert list(data["data"][0]) == datum.split()
     predicted = "test body quantity unit value lower upper"

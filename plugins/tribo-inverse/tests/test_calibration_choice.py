@@ -55,7 +55,7 @@ def test_what_is_wrong_with_one_case_is_told_before_another_is_run():
 
 def test_the_deviance_is_that_of_the_normal_distribution():
     values = np.array([0.9, 1.05, 1.1])
-    made = problem(values, np.full(3, 0.01), names=("k",), predictions=1)
+    made = problem(values, np.full(3, 0.01), names=("k",))
     found = fit(lambda k: np.repeat(k, 4), lambda k: made, np.ones(1))
     whole = multivariate_normal.logpdf(values, np.full(3, np.mean(values)), 0.01**2)
     assert found.deviance(found.point) == pytest.approx(-2 * whole, rel=1e-4)

@@ -17,7 +17,6 @@ CASE = apply_settings(
     tomllib.loads(template("ball_on_disk")), {"grid.cells": 16, "grid.size": "2 mm"}
 )
 GOOD = {"body": "ball", "quantity": "mass", "value": "2 mg", "uncertainty": "0.1 mg"}
-PROFILE = {"quantity": "profile_along", "uncertainty": "1 um"}
 SCAR = {"quantity": "scar_along", "uncertainty": "1 um"}
 K = "bodies.ball.wear.k"
 POWER = {"type": "power", "k": 3e-16, "p_exponent": 1.5, "reference_pressure": "1 GPa"}
@@ -58,7 +57,6 @@ def changed(**changes):
         ({"quantity": "mas"}, ".1.quantity", "'mass'"),
         ({"body": "bal"}, ".1.body", "'ball'"),
         ({"time": "2 h"}, ".1.time", "3600 s"),
-        ({"position": ["1 mm"]}, ".1", "mass has no position"),
         (SCAR | {"body": "disk", "value": "1 mm"}, ".1.quantity", "'disk'"),
         (SCAR | {"quantity": "scar_across", "value": "3 mm"}, ".1.value", "2 mm"),
         (
@@ -66,10 +64,7 @@ def changed(**changes):
             ".1.quantity",
             "'ball'",
         ),
-        (PROFILE | {"value": ["1 um"], "position": [0], "uncertainty": "5 %"}, ".1.unc", "unit"),
-        (PROFILE | {"value": ["1 um"], "position": ["1 mm", "2 mm"]}, ".1", "1 and 2"),
-        (PROFILE | {"value": ["1 um"], "position": ["1.1 mm"]}, ".1.position", "1 mm"),
-        (PROFILE | {"value": ["-80 um", "-104 um"], "position": ["-0.3 mm", "0 mm"]}, ".1", "sign"),
+        (SCAR | {"value": "1 mm", "before": "27 g"}, ".1", "scar_along has no before"),
     ],
 )
 def test_a_wrong_value_is_told(changes, place, words):
@@ -162,13 +157,8 @@ def test_tests_and_parameters_that_do_not_go_together_are_told(data, words):
         ({"uncertainty": "3 mg", "resolution": "4 mg"}, [1e-6 * (9 + 16 / 6) ** 0.5]),
         ({"value": ["2 mg", "3 mg"], "uncertainty": "5 % "}, [1e-7, 1.5e-7]),
         ({"value": None, "before": "2.5 g", "after": "2.498 g", "uncertainty": "5 %"}, [1e-7]),
-        # One reading of depths, which noise may make negative.
-        (
-            PROFILE
-            | {"value": ["-2 um", "1 um"], "position": ["0 mm", "0.5 mm"]}
-            | {"uncertainty": None, "resolution": "4 um"},
-            [4e-6 / 12**0.5] * 2,
-        ),
+        # One reading of a length.
+        (SCAR | {"value": "1 mm", "uncertainty": None, "resolution": "4 um"}, [4e-6 / 12**0.5]),
     ],
 )
 def test_the_standard_deviation_of_a_value(changes, sigma):

@@ -10,7 +10,6 @@ from tribo.lab.heights import Heights
 from tribo.simulation.run import Simulation
 
 from tribo_inverse.calibration import mapped
-from tribo_inverse.calibration.calibrate import calibrate
 from tribo_inverse.calibration.mapped import calibrate_maps
 from tribo_inverse.calibration.measured import MapEntry
 from tribo_inverse.calibration.scar_shift import find_shift
@@ -26,21 +25,6 @@ def worn():
     fine = apply_settings(CASE, {"grid.cells": PIXELS, "stepping.depth_tolerance": 1e-2})
     with Simulation(validate_case(fine)).run() as result:
         return result.body("ball").wear_depth[-1].copy()
-
-
-def test_a_profile_is_met_on_a_coarse_grid(worn):
-    """To the noise, though its points and the cells lie apart."""
-    at = np.arange(-0.36e-3, 0.37e-3, 30e-6)
-    middle = 0.5 * (worn[PIXELS // 2 - 1] + worn[PIXELS // 2])
-    depths = np.interp(at, PITCH * (np.arange(PIXELS) - 0.5 * (PIXELS - 1)), middle)
-    entry = {"body": "ball", "quantity": "profile_across", "uncertainty": NOISE}
-    entry |= {"position": at.tolist(), "value": depths.tolist()}
-    coarse = apply_settings(CASE, {"grid.cells": 16, "stepping.depth_tolerance": 1e-2})
-    found = calibrate(coarse, {"measured": [entry], "fit": [{"path": K}]})
-    (each,) = found.parameters.itertuples()
-    assert each.lower < TRUE < each.upper
-    assert found.p_value > 0.01
-    assert found.settings[K] == pytest.approx(TRUE, rel=0.005, abs=0)
 
 
 def test_uniform_wear_tells_no_place():

@@ -225,7 +225,7 @@ def test_an_estimate_held_by_its_bound_has_no_interval_and_data_and_model_disagr
     assert "held by its upper bound" in str(estimates_table(held))
     assert (ball.lower, ball.upper) == (0, 1.2 * BALL)
     assert held.chi_square == pytest.approx(64)
-    assert held.brief["residual"].iloc[0] == pytest.approx(-8)
+    assert held.data["residual"].iloc[0] == pytest.approx(-8)
     assert held.degrees_of_freedom == 1
     assert held.p_value < 1e-14
     places = {each.kind: each.place for each in held.findings}

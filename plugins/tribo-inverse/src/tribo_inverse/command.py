@@ -174,7 +174,7 @@ def _write(found: Calibration, cases: Mapping[str, Path], picture: Path) -> None
 
     for name, tables in found.fitted.items():
         write_file(cases[name], to_toml(tables))
-    write_figures({picture.stem: lambda: fit_picture(found.brief)}, picture.parent)
+    write_figures({picture.stem: lambda: fit_picture(found.data)}, picture.parent)
 
 
 def _show(found: Shown, in_words: Callable[[Shown], None], as_json: bool) -> None:

@@ -21,14 +21,14 @@ def fit_picture(data: pd.DataFrame) -> Figure:
     Parameters
     ----------
     data : DataFrame
-        A row for each measured value, as `brief` of a calibration: ``body``,
-        ``quantity``, ``measured``, ``sigma`` and ``computed``; ``test``,
-        ``time_s`` and ``position_m`` where it has them.
+        A row for each measured value, as `data` of a calibration: ``body``,
+        ``quantity``, ``measured``, ``sigma`` and ``computed``; ``test`` and
+        ``time_s`` where it has them.
 
     Returns
     -------
     Figure
-        The values, and the mean of each profile, relative to the measured ones.
+        The values, relative to the measured ones.
 
     Examples
     --------

@@ -125,12 +125,10 @@ def _per_newton_metre(each: Any, digits: int) -> tuple[str, str, str, str]:
 def data_table(found: Calibration) -> DataTable:
     """Return the measured values with their computed values and residuals."""
     rows = []
-    for each in found.brief.itertuples():
+    for each in found.data.itertuples():
         values = (each.measured, each.sigma, each.computed)
         shown = [in_words(each.quantity, value) for value in values]
-        many = each.depths > 1
-        residual = f"rms {each.residual:.1f}" if many else signed(each.residual, 1)
-        rows.append((_name(each), *shown, residual))
+        rows.append((row_name(each), *shown, signed(each.residual, 1)))
     columns = ["value", "uncertainty", "computed", "residual, σ"]
     return _table("Measured values, with standard uncertainties", columns, rows)
 
@@ -168,11 +166,6 @@ def quality_table(found: Calibration) -> DataTable:
 
 def _columns(value: str, found: Calibration) -> list[str]:
     return [value, f"{100 * found.level:g} % interval", "relative"]
-
-
-def _name(row: Any) -> str:
-    """Return the name of a row of the data."""
-    return f"{row_name(row)}, mean" if row.depths > 1 else row_name(row)
 
 
 def _interval(row: Any, low: str, high: str) -> tuple[str, str]:

@@ -70,7 +70,7 @@ def calibration_page(found: Calibration, title: str) -> str:
         tables=fit_tables(found),
         remarks=[],
         notes=found.notes,
-        stills=stills({"fit, relative to the measured values": partial(fit_picture, found.brief)}),
+        stills=stills({"fit, relative to the measured values": partial(fit_picture, found.data)}),
         **made_here(),
         case="\n".join(_cases(found)),
         whose=" as fitted",

@@ -20,11 +20,11 @@ from tribo_inverse.calibration.fit import fit, interval
 from tribo_inverse.calibration.linearised import Linearised, Weights, root_covariance
 from tribo_inverse.calibration.measured import Measurements
 from tribo_inverse.calibration.predictions import predicted
-from tribo_inverse.calibration.quantities import PROFILES, plain
+from tribo_inverse.calibration.quantities import plain
 from tribo_inverse.findings import of_fit
 from tribo_inverse.tables import fit_tables, fit_text
 
-DATA = ["test", "body", "quantity", "time_s", "position_m", "place", "unit"]
+DATA = ["test", "body", "quantity", "time_s", "place", "unit"]
 DATA += ["measured", "sigma", "computed", "residual"]
 """Columns of a calibration's data."""
 AT_BOUND = 1e-6
@@ -57,7 +57,7 @@ class Calibration:
     bounds, which are then `lower` and `upper`."""
     data: pd.DataFrame
     """One row per measured value: `test`, empty for the case as it is; `body`, `quantity`,
-    `time_s`, `position_m` on a profile, `place`, its entry in the file, `unit`, `measured`,
+    `time_s`, `place`, its entry in the file, `unit`, `measured`,
     `sigma`, its standard deviation including the grid and the scatter from test to test,
     `computed`, and `residual`, computed less measured in units of `sigma`."""
     predictions: pd.DataFrame
@@ -102,23 +102,6 @@ class Calibration:
     def notes(self) -> list[str]:
         """The findings in words."""
         return [each.words for each in self.findings]
-
-    @property
-    def brief(self) -> pd.DataFrame:
-        """The data, with one row per profile.
-
-        It has the number of `depths`, the means of `measured` and `computed`, and the root mean
-        squares of `sigma` and `residual`.
-        """
-        parts, is_field = [], self.data["quantity"].isin(PROFILES)
-        for _, rows in self.data.groupby(self.data["place"].where(is_field, self.data.index)):
-            part = rows[:1].assign(depths=len(rows))
-            if len(rows) > 1:
-                means = rows[["measured", "computed"]].mean()
-                squares = (rows[["sigma", "residual"]] ** 2).mean() ** 0.5
-                part = part.assign(**means, **squares, position_m=math.nan)
-            parts.append(part)
-        return pd.concat(parts).sort_index()
 
     @property
     def p_value(self) -> float | None:

@@ -17,7 +17,6 @@ from tribo_inverse.calibration.linearised import Problem
 from tribo_inverse.calibration.measured import Measurements, read_measurements
 from tribo_inverse.calibration.parameters import Parameter, check_set, find_parameters
 from tribo_inverse.calibration.quantities import (
-    PROFILES,
     Reading,
     in_si,
 )
@@ -34,8 +33,6 @@ from tribo_inverse.findings import named, of_run
 REFUSED = 300.0
 """Factor between measured and computed values above which they are refused: a wrong prefix of a
 unit makes 1000."""
-LINEAR_BELOW = 0.1
-"""Part of the largest depth of a profile below which depths are taken as linear."""
 
 
 @dataclass(frozen=True)
@@ -108,9 +105,8 @@ class Experiment:
             for finding in made.findings:
                 names = runs.setdefault(str(finding), (finding, []))[1]
                 names.append(self.setups[i].name or "the case as it is")
-        positive = ~self.data["quantity"].isin(PROFILES).to_numpy()
         none = ~(responses > 0)[: len(self.data)]
-        for each in self.data[positive & none].itertuples():
+        for each in self.data[none].itertuples():
             value, remedy = responses[each.Index], "begin with more wear: give start in fit"
             if np.isnan(value):
                 raise CaseError(f"the case gives no {named(each)}; leave it out", each.place)
@@ -126,10 +122,6 @@ class Experiment:
         """Return the least-squares problem, with the errors of the grid in a run of `values`."""
         data, run = self.data, self.run(values)
         sigma = np.hypot(data["sigma"], run.grid_sigma[: len(data)]).to_numpy()
-        depths = data["measured"].fillna(pd.Series(run.responses[: len(data)])).abs()
-        largest = depths.groupby(data["place"]).transform("max")
-        is_field = data["quantity"].isin(PROFILES)
-        small = np.where(is_field, np.maximum(LINEAR_BELOW * largest, data["sigma"]), 0.0)
         with np.errstate(divide="ignore"):
             lower, upper = np.log([(p.lower, p.upper) for p in self.parameters]).T
         return Problem(
@@ -138,22 +130,9 @@ class Experiment:
             sigma=sigma,
             specimen=data["specimen"].to_numpy(),
             repeatability=self.repeatability,
-            small=np.append(small, np.zeros(len(self.predicted))),
             lower=lower,
             upper=upper,
-            common=self._common(run),
         )
-
-    def _common(self, run: SetupRun) -> Array:
-        """Return `Problem.common`: errors of the grid in a whole profile."""
-        columns = []
-        for _, own in self.data[self.data["quantity"].isin(PROFILES)].groupby("place"):
-            rows = own.index.to_numpy()
-            depth, error = run.responses[rows], np.min(run.grid_sigma[rows])
-            if (largest := np.max(depth)) > 0:
-                columns.append(np.zeros(len(self.data)))
-                columns[-1][rows] = error * depth / largest
-        return np.array(columns).reshape(-1, len(self.data)).T
 
 
 def check_sizes(data: pd.DataFrame, computed: Array, parameters: Sequence[Parameter]) -> None:

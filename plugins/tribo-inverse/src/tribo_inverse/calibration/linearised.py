@@ -10,8 +10,6 @@ from tribo import Array
 
 LONGEST_STEP = np.log(100.0)
 """Largest change of a logarithm between two runs."""
-LONGEST_STEP_OF_DEPTHS = np.log(4.0)
-"""The same where profiles, which are linearised, are among the data."""
 REPEATABILITY_RANGE = (1e-3, 3.0)
 """Smallest and largest repeatability that is estimated."""
 COLLINEAR = 0.01
@@ -81,31 +79,21 @@ class Problem:
     """Number of the test of each value, shape (n,)."""
     repeatability: float | None
     """Relative standard deviation of the parameters from test to test; None to estimate it."""
-    small: Array
-    """Depth below which a response is linear rather than a power law, shape (m,); 0 for a
-    positive response."""
     lower: Array
     """Lower bounds of the logarithms of the parameters, shape (p,); −infinity for none."""
     upper: Array
     """Upper bounds, infinity for none."""
-    common: Array
-    """Correlated errors: the change of the data for one standard deviation of each source, shape
-    (n, k)."""
 
     def weights(self, scatter: Array | None = None) -> Weights:
-        """Return the weights of the data, with more correlated errors, shape (n, j), if given."""
-        parts = [self.common] if scatter is None else [self.common, scatter]
-        return Weights.of(self.sigma, np.concatenate(parts, axis=1))
+        """Return the weights of the data, with correlated errors, shape (n, j), if given."""
+        return Weights.of(self.sigma, scatter)
 
     def scaled(self, responses: Array) -> Array:
-        """Return responses on a scale on which slopes change little: logarithms, linear near 0.
+        """Return responses on a scale on which slopes change little: logarithms.
 
         A prediction of 0 stays 0.
         """
-        found = np.log(responses, out=responses.copy(), where=responses > 0)
-        depth = self.small > 0
-        found[depth] = np.arcsinh(responses[depth] / self.small[depth])
-        return found
+        return np.log(responses, out=responses.copy(), where=responses > 0)
 
     def residuals(self, responses: Array, weights: Weights) -> Array:
         """Return weighted residuals; their sum of squares is −2 ln L but for a constant."""
@@ -119,7 +107,7 @@ class Problem:
 
 @dataclass(frozen=True)
 class Linearised:
-    """The model about a run: power laws of the parameters, and depths linear in the logarithms."""
+    """The model about a run: power laws of the parameters."""
 
     problem: Problem
     point: Array
@@ -135,21 +123,12 @@ class Linearised:
     def at(self, point: Array) -> Array:
         """Return the responses at another point."""
         change = np.sum(self.slopes * (point - self.point), axis=1)
-        moved, power = self.responses + self._steepness * change, self.problem.small == 0
-        moved[power] = np.exp((self.problem.scaled(self.responses) + change)[power])
-        return np.asarray(moved)
-
-    @property
-    def _steepness(self) -> Array:
-        """Derivatives of the responses by `Problem.scaled`, shape (m,)."""
-        return np.asarray(np.hypot(self.responses, self.problem.small))
+        return np.asarray(self.responses * np.exp(change))
 
     def effects(self, point: Array) -> Array:
         """Return the derivatives of the data by the logarithms of the parameters, shape (n, p)."""
         n = len(self.problem.observed)
-        # Depths are linear, so that tests scatter by the same effects at every point.
-        factor = np.where(self.problem.small > 0, self._steepness, self.at(point))[:n]
-        return np.asarray(factor[:, None] * self.slopes[:n])
+        return np.asarray(self.at(point)[:n, None] * self.slopes[:n])
 
     def residuals(self, point: Array) -> Array:
         """Return the weighted residuals of the data; see `Problem.residuals`."""
@@ -169,8 +148,7 @@ class Linearised:
 
         It stays where it is along directions that the data do not determine.
         """
-        has_depths = np.any(self.problem.small > 0)
-        ends = self.bounds(LONGEST_STEP_OF_DEPTHS if has_depths else LONGEST_STEP)
+        ends = self.bounds(LONGEST_STEP)
         size, angles, directions = normalised(self.jacobian())
         stay = _STAY * directions[angles <= COLLINEAR] * size
         found = least_squares(

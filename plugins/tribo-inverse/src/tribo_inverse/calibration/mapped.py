@@ -15,11 +15,13 @@ from tribo.kernel_api import begin, case_tables, located, march, unknown_body, v
 from tribo_inverse.adjoint.view import View
 from tribo_inverse.calibration.cells import on_cells, read_map
 from tribo_inverse.calibration.maps import FittedMaps, fit_maps
-from tribo_inverse.calibration.measured import MapEntry, data_error
+from tribo_inverse.calibration.measured import MapEntry
 from tribo_inverse.calibration.prior import Prior
 from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT, find_shift
 from tribo_inverse.findings import of_run
 
+NOISE = 3.0
+"""Standard deviations by which a mean depth below 0 is not noise."""
 FAR = 2.0
 """Largest offset of the mean coefficient, in standard deviations of the prior."""
 
@@ -56,8 +58,7 @@ def calibrate_maps(
         with located(f"{place}.depth"):
             shift = find_shift(heights, worn, spacing)
             depth, noise = on_cells(heights, worn.shape, spacing, shift)
-            if error := data_error(entry.uncertainty, depth[np.isfinite(depth)]):
-                raise CaseError(error)
+            _check_sign(entry.uncertainty, depth[np.isfinite(depth)])
             _check_volume(entry, depth, worn)
         depths[entry.body] = depth, entry.uncertainty * noise
         placed[entry.body] = [PRIOR_SHIFT * size for size in model.grid.size]
@@ -70,6 +71,16 @@ def calibrate_maps(
             f"uncertainty, and the coefficients of the case; {error}"
         ) from error
     return replace(found, findings=(*found.findings, *map(of_run, last.state.findings)))
+
+
+def _check_sign(sigma: float, depths: Array) -> None:
+    """Refuse depths that are negative in the mean."""
+    mean = float(np.mean(depths))
+    if mean < -NOISE * sigma / np.sqrt(len(depths)):
+        raise CaseError(
+            f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards "
+            "from the unworn surface, positive where it is worn: turn the sign round, or level them"
+        )
 
 
 def _check_volume(entry: MapEntry, depth: Array, worn: Array) -> None:

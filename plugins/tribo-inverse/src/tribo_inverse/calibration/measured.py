@@ -19,16 +19,11 @@ from pydantic import (
 from tribo import Array, CaseError, Quantity, Table
 from tribo.kernel_api import case_error, number, read_toml, to_toml
 
-from tribo_inverse.calibration.quantities import PROFILES, quantity
-
-NOISE = 3.0
-"""Standard deviations by which a mean depth below 0 is not noise."""
+from tribo_inverse.calibration.quantities import quantity
 
 
-def _parts(text: str, quantity: str, entry: Mapping[str, Any]) -> tuple[float, ...]:
+def _parts(text: str, entry: Mapping[str, Any]) -> tuple[float, ...]:
     """Return the parts of the values of an entry that a text in per cent states."""
-    if quantity in PROFILES:
-        raise CaseError(f"{text!r}: of depths at many places give it with a unit, as '10 nm'")
     try:
         part = number(text[:-1]) / 100
     except ValueError:
@@ -49,11 +44,6 @@ def _beside(name: str, info: ValidationInfo) -> str:
 BesideFile = Annotated[str, AfterValidator(_beside)]
 """Name of a file; a relative one starts at the folder of the file of measured values."""
 
-NUMBERS: dict[str, tuple[str, ...]] = {
-    **dict.fromkeys(PROFILES, ("value", "position")),
-    "mass": ("value", "before", "after"),
-}
-"""Keys of the numbers of a quantity; of those that are left out it is the value alone."""
 LOCAL = "local coefficients are fitted to maps of one test: give [[map]] in a file of its own"
 UNSEEN = "half the limit of detection stands for what was not seen, with that uncertainty"
 
@@ -71,17 +61,14 @@ class MeasuredEntry(Table):
     value: float | tuple[float, ...] | None = None
     """The value with its unit; none in a planned test.
 
-    A list of depths for a profile, a list of values for repeated tests.
+    A list of values for repeated tests.
     """
     before: Annotated[float, Quantity("kg", above=0)] | None = None
     """Instead of the value of a mass: the balance's reading before the test."""
     after: Annotated[float, Quantity("kg", above=0)] | None = None
     """The reading after it."""
-    position: tuple[Annotated[float, Quantity("m")], ...] | None = None
-    """Where a profile's depths were measured, from the centre of the contact."""
     uncertainty: float | tuple[float, ...] | None = None
-    """Standard deviation, of each value where it is a part of them, as ``"5 %"``; for each depth of
-    a profile."""
+    """Standard deviation, of each value where it is a part of them, as ``"5 %"``."""
     resolution: float | None = None
     """Smallest step that the instrument shows."""
     time: Annotated[float, Quantity("s", above=0)] | None = None
@@ -101,14 +88,12 @@ class MeasuredEntry(Table):
     def _in_si(cls, value: Any, info: ValidationInfo) -> Any:
         if value is None or (name := info.data.get("quantity")) is None:
             return None
-        is_value, is_profile = info.field_name == "value", name in PROFILES
-        # The depths of a profile may be 0, or below it by noise.
-        above = None if is_value and is_profile else 0
-        mark = Quantity(quantity(name).unit, above=above, remedy=UNSEEN if is_value else None)
+        is_value = info.field_name == "value"
+        mark = Quantity(quantity(name).unit, above=0, remedy=UNSEEN if is_value else None)
 
         try:
             if info.field_name == "uncertainty" and str(value).rstrip().endswith("%"):
-                return _parts(str(value).strip(), name, info.data)
+                return _parts(str(value).strip(), info.data)
             if is_value and isinstance(value, list | tuple):
                 return tuple(map(mark.read, value))
             return mark.read(value)
@@ -118,10 +103,9 @@ class MeasuredEntry(Table):
     @model_validator(mode="after")
     def _has_its_keys(self) -> Self:
         name, found = self.quantity, quantity(self.quantity)
-        own = NUMBERS.get(name, ("value",))
-        for key in ("value", "before", "after", "position"):
-            if key not in own and getattr(self, key) is not None:
-                raise ValueError(f"{name} has no {key}; its numbers are {' and '.join(own)}")
+        for key in ("before", "after"):
+            if name != "mass" and getattr(self, key) is not None:
+                raise ValueError(f"{name} has no {key}; give its value")
         if found.label and self.time is not None:
             raise ValueError(f"{name} belongs to a whole run; leave time out")
         if (found.of == "run") == bool(self.body):
@@ -130,15 +114,6 @@ class MeasuredEntry(Table):
 
     @model_validator(mode="after")
     def _has_its_numbers(self) -> Self:
-        at = self.position or ()
-        depths = self.value if isinstance(self.value, tuple) else ()
-        if self.quantity in PROFILES and not (
-            at and (self.value is None or len(depths) == len(at))
-        ):
-            raise ValueError(
-                f"{self.quantity} needs value and position, two lists of the same length, not "
-                f"{len(depths)} and {len(at)} long"
-            )
         if self.value == ():
             raise ValueError("the list of values is empty; give one for each test")
         if self.before is None and self.after is None:
@@ -159,26 +134,22 @@ class MeasuredEntry(Table):
                 "the uncertainty is missing; give uncertainty (a standard deviation), resolution, "
                 "or both"
             )
-        if error := data_error(self.sigma, self.values):
-            raise ValueError(error)
         return self
 
     @property
     def values(self) -> Array:
-        """Depths of a profile, or one value per test, shape (n,); NaN for none."""
+        """One value per test, shape (n,); NaN for none."""
         given = _given(vars(self))
-        return given if len(given) else np.full(len(self.position or (None,)), np.nan)
+        return given if len(given) else np.array([np.nan])
 
     def rows(self) -> pd.DataFrame:
         """Return one row of `Measurements.table` per value."""
         values = pd.DataFrame({"measured": self.values})
         return values.assign(
-            specimen=0 if self.position else values.index,
+            specimen=values.index,
             body=self.body,
             quantity=self.quantity,
             time_s=math.nan if self.time is None else self.time,
-            position_m=self.position or math.nan,
-            entry=[self] * len(values),
             unit=quantity(self.quantity).unit,
             sigma=self.sigma,
             step=self.resolution or 0.0,
@@ -209,17 +180,6 @@ def _list(value: Any, info: ValidationInfo) -> Any:
     if isinstance(value, Mapping):
         raise ValueError(f"write [[{info.field_name}]] at the beginning of each, also of one")
     return value
-
-
-def data_error(sigma: Array | float, values: Array) -> str:
-    """Return why depths cannot be right: they are negative; else empty."""
-    mean = float(np.mean(values))
-    if not mean < -NOISE * np.max(sigma) / np.sqrt(len(values)):
-        return ""
-    return (
-        f"the depths are negative, {1e6 * mean:.3g} µm in the mean; depths count downwards from "
-        "the unworn surface, positive where it is worn: turn the sign round, or level them"
-    )
 
 
 class FitEntry(Table):
@@ -318,8 +278,7 @@ class Measurements(Table):
         """Return the measured numbers in SI, one row each.
 
         `place` is the entry in the file, `test` the name of its test, `of` the index of the test in
-        `tests`, `specimen` the number of the single test, `entry` the `MeasuredEntry`, `step` the
-        resolution.
+        `tests`, `specimen` the number of the single test, `step` the resolution.
         """
         tables, specimens = [], 0
         for of, (place, test) in enumerate(self.tests.items()):

@@ -53,7 +53,7 @@ class Plan:
     test."""
     readings: pd.DataFrame
     """One row per entry of `measured`: `test`, `body`, `quantity`, `time_s`, the `computed` value
-    of the case, the largest of a profile or map, and the `step` of the instrument, in SI."""
+    of the case, and the `step` of the instrument, in SI."""
     findings: tuple[Finding, ...] = ()
     """Readings that the instrument does not resolve."""
 

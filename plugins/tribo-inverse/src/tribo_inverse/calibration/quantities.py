@@ -8,7 +8,6 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 import pandas as pd
-from scipy.interpolate import Akima1DInterpolator
 from scipy.ndimage import binary_dilation, binary_erosion
 from tribo import Array, CaseError, Result
 from tribo.kernel_api import (
@@ -63,15 +62,10 @@ QUANTITIES = {
     "depth": _DEPTH,
     "crown": _DEPTH._replace(of="stationary"),
     "section": WornQuantity("m^2", "mm²", 1e6, "swept"),
-    "profile_along": _DEPTH._replace(of="stationary"),
-    "profile_across": _DEPTH,
 }
 """By the name in a file of measured values; see `quantity` for the quantities of packages."""
-AXES = {"scar_along": 0, "scar_across": 1, "profile_along": 0, "profile_across": 1}
-"""Axis of a diameter or a profile."""
-PROFILES = ("profile_along", "profile_across")
-"""Depths at several positions along a line, which may be 0; all other quantities are one positive
-number."""
+AXES = {"scar_along": 0, "scar_across": 1}
+"""Axis of a diameter."""
 
 
 def quantity(name: str) -> WornQuantity:
@@ -109,14 +103,12 @@ def _read_off(columns: Sequence[Any]) -> dict[str, WornQuantity]:
 class Reading(NamedTuple):
     """One number to compute from a run.
 
-    `time_s` is NaN for the end of the run, `position_m` for all but profiles; `body` is empty for
-    a quantity of the run.
+    `time_s` is NaN for the end of the run; `body` is empty for a quantity of the run.
     """
 
     body: str
     quantity: str
     time_s: float = math.nan
-    position_m: float = math.nan
 
 
 def plain(found: Any) -> dict[str, Any]:
@@ -138,10 +130,9 @@ def in_words(name: str, value: float, digits: int = 3) -> str:
 def row_name(row: Any) -> str:
     """Return the name of a row of data or predictions, as ``"heavy: ball, mass at 9 s"``."""
     test = f"{row.test}: " if getattr(row, "test", "") else ""
-    time, place = (getattr(row, name, math.nan) for name in ("time_s", "position_m"))
+    time = getattr(row, "time_s", math.nan)
     when = "" if pd.isna(time) else f" at {time:g} s"
-    where = "" if pd.isna(place) else f" at {1e3 * place:g} mm"
-    return f"{test}{', '.join(filter(None, (row.body, row.quantity)))}{when}{where}"
+    return f"{test}{', '.join(filter(None, (row.body, row.quantity)))}{when}"
 
 
 def in_si(value: float, unit: str, digits: int = 3) -> str:
@@ -180,8 +171,6 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
         return _crown(result, asked.body, save)
     if name == "section":
         return track_section(result, body, save) or 0.0, 0.0
-    if name in PROFILES:
-        return _on_line(depth, AXES[name], asked.position_m, result)
     volume = float(result.table("saves")[f"bodies.{body.name}.wear_volume_m3"][save])
     return volume * (body.density or 0.0) if name == "mass" else volume, 0.0
 
@@ -196,18 +185,6 @@ def edge_sigma(depth: Array, part: float) -> Array:
     axes = [axis for axis, n in enumerate(depth.shape) if n > 1]
     steps = [np.max(np.abs(np.diff(depth, axis=axis))) for axis in axes]
     return np.asarray(edge * part * max(steps))
-
-
-def _on_line(depth: Array, axis: int, position: float, result: Result) -> tuple[float, float]:
-    """Return the depth at a position on a middle line, by cubics, and its standard deviation."""
-    centres = result.grid.x, result.grid.y
-    known = centres[axis]
-    line = profile(depth, axis)
-    if depth.shape[1 - axis] > 1:
-        line = Akima1DInterpolator(centres[1 - axis], depth, axis=1 - axis)(0.0)
-    value = float(Akima1DInterpolator(known, line)(np.clip(position, known[0], known[-1])))
-    at_edge = float(np.interp(position, known, edge_sigma(line, DIAMETER_SIGMA)))
-    return value, math.hypot(DEPTH_SIGMA * float(np.max(depth)), at_edge)
 
 
 def _save(result: Result, asked: Reading) -> int:

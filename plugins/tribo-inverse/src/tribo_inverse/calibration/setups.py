@@ -25,7 +25,6 @@ from tribo_inverse.calibration.measured import MeasuredEntry, TestEntry
 from tribo_inverse.calibration.parameters import Parameter
 from tribo_inverse.calibration.quantities import (
     AXES,
-    PROFILES,
     QUANTITIES,
     Reading,
     read,
@@ -116,13 +115,11 @@ def unmeasured(setups: Sequence[Setup], data: pd.DataFrame) -> pd.DataFrame:
     at_end = data[~(data["time_s"] < ends[data["setup"]] * (1 - 1e-12))]
     known = {*at_end[["setup", "body", "quantity"]].itertuples(index=False, name=None)}
     rows = [
-        (i, setup.name, body, quantity, math.nan, math.nan)
+        (i, setup.name, body, quantity, math.nan)
         for i, setup in enumerate(setups)
         for body in setup.model.case.bodies
         for quantity in QUANTITIES
-        if quantity not in PROFILES
-        and (i, body, quantity) not in known
-        and not unavailable(setup.model, body, quantity)
+        if (i, body, quantity) not in known and not unavailable(setup.model, body, quantity)
     ]
     return pd.DataFrame(rows, columns=["setup", "test", *READ])
 
@@ -163,19 +160,11 @@ def _check_entry(model: Model, entry: MeasuredEntry, place: str) -> None:
             f"{entry.time:g} s is not reached: the run ends at {model.end_time:g} s",
             f"{place}.time",
         )
-    if entry.position is None and entry.quantity in AXES:
+    if entry.quantity in AXES:
         width = np.max(entry.values)
         if width > (size := model.grid.size[AXES[entry.quantity]]):
             raise CaseError(
                 f"{1e3 * width:g} mm is wider than the window, {1e3 * size:g} mm: check its unit, "
                 "or make grid.size larger",
                 f"{place}.value",
-            )
-    for position in entry.position or ():
-        half = 0.5 * model.grid.size[AXES[entry.quantity]]
-        if abs(position) > half:
-            raise CaseError(
-                f"{1e3 * position:g} mm lies outside the window, which reaches "
-                f"{1e3 * half:g} mm from the centre",
-                f"{place}.position",
             )
