@@ -8,7 +8,7 @@ from scipy.stats import norm, t
 from tribo.core.errors import CaseError, NumericalError, OutOfWindow
 
 from tribo_inverse.calibration import fit as fitting
-from tribo_inverse.calibration.fit import differenced, interval, steps
+from tribo_inverse.calibration.fit import interval
 from tribo_inverse.calibration.linearised import Weights, root_covariance
 
 TRUE = np.array([7.08e-15, 7.08e-16])
@@ -91,18 +91,6 @@ def test_a_fit_that_errors_of_its_steps_shake_settles():
         deviations = np.sqrt(np.sum(root_covariance(found.jacobian()) ** 2, axis=1))
         off.append((found.point - np.log(truth)) / deviations)
     assert np.std(off) < 1.2
-
-
-@pytest.mark.parametrize(("sigma", "step"), [(1e-3, 0.05), (0.3, 0.12), (3.0, 0.2)])
-def test_differences_are_as_short_as_the_data_are_exact(sigma, step):
-    truth = np.array([5.0, 1.35])
-    given = problem(depths(truth), np.full(100, sigma), names=("k", "n"), start=truth)
-    found = fit(depths, given, truth)
-    assert np.max(steps(found)) == pytest.approx(step, rel=0.5)
-    over = differenced(depths, given, found.point, found.responses, steps(found))
-    exact = differenced(depths, given, found.point, found.responses, 1e-6)
-    error = np.max(np.abs(over.slopes - exact.slopes)) / np.max(np.abs(exact.slopes))
-    assert error < 0.8 * np.max(steps(found))
 
 
 def in_window(k):

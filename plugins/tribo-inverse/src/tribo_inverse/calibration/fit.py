@@ -20,10 +20,6 @@ from tribo_inverse.calibration.linearised import (
 
 STEP = 0.2
 """Change of a logarithm for a finite difference; large, since computed scars are rounded."""
-LEAST_STEP = 0.05
-"""The smallest difference that exceeds errors of the steps of a run."""
-FAR = 20.0
-"""Change of all data together, in standard deviations, beyond which a difference is shortened."""
 TRUST_RADIUS = np.log(2.0)
 """Distance, in logarithms, up to which slopes are kept."""
 PREDICTION_ERROR = 0.3
@@ -90,7 +86,7 @@ def fit(
         elif np.max(np.abs(here.point - origin)) <= TRUST_RADIUS:
             return here
         origin = here.point
-        here = differenced(model, here.problem, origin, here.responses, steps(here))
+        here = differenced(model, here.problem, origin, here.responses)
     if outgrown:
         raise outgrown
     raise NumericalError(
@@ -158,25 +154,18 @@ def interval(here: Linearised, direction: Array, level: float) -> tuple[float, f
     return end(-1.0), end(1.0)
 
 
-def steps(here: Linearised) -> Array:
-    """Return the changes of the logarithms for differences at a run nearby."""
-    size = normalised(here.jacobian())[0]
-    return np.asarray(np.clip(FAR / size, LEAST_STEP, STEP))
-
-
 def differenced(
     model: Callable[[Array], Array],
     problem: Problem,
     point: Array,
     responses: Array,
-    changes: Array | float = STEP,
 ) -> Linearised:
     """Return the model linearised about a run, by one more run for each parameter."""
     columns = []
-    for i, far in enumerate(np.broadcast_to(changes, point.shape)):
+    for i in range(len(point)):
         below, above = point[i] - problem.lower[i], problem.upper[i] - point[i]
         # Where bounds leave no room for a whole step, step to the farther bound.
-        step = min(far, above) if above >= min(far, below) else -min(far, below)
+        step = min(STEP, above) if above >= min(STEP, below) else -min(STEP, below)
         moved = point.copy()
         moved[i] += step
         moved, found, _ = _within(model, point, moved)
