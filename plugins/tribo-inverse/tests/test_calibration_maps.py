@@ -100,25 +100,6 @@ def test_the_prior_is_as_wide_at_the_ends_as_it_says(depth, length):
     assert each == pytest.approx(np.array([waves.adjoint(slope) for slope in np.eye(16)]).T)
 
 
-def test_waves_on_half_the_cells_are_the_long_ones_of_the_whole():
-    """And depths are means of four, known twice as well."""
-    model = Simulation(validate_case(apply_settings(CASE, {"grid.cells": 32}))).model
-    depth = np.random.default_rng(2).standard_normal((32, 32))
-    fine = _Posterior(model, {"ball": (depth, 1e-8)}, {"ball": Prior(0.4, 0.3e-3)}, print, {})
-    coarse = fine.halved()
-    z = np.zeros((16, 16))
-    z[:3, :3] = np.random.default_rng(3).standard_normal((3, 3))
-    logs = fine.logs(fine.raised(coarse, z.ravel())).reshape(16, 2, 16, 2).mean(axis=(1, 3))
-    assert coarse.logs(z.ravel()) == pytest.approx(logs.ravel(), abs=0.02 * np.ptp(logs))
-    means, sigma = coarse.depths["ball"]
-    assert means[3, 5] == pytest.approx(depth[6:8, 10:12].mean())
-    assert sigma == pytest.approx(0.5e-8, abs=0)
-    # Cells are now larger than an eighth of the length, or as few as there may be.
-    assert coarse.halved() is None
-    wide = _Posterior(coarse.model, coarse.depths, {"ball": Prior(0.4, 3e-3)}, print, {})
-    assert wide.halved() is None
-
-
 @pytest.mark.slow
 def test_a_groove_off_the_middle_of_its_map_has_no_other_coefficient(tmp_path):
     clean = worn(np.ones((1, 16)))

@@ -156,12 +156,11 @@ class Backwards:
             self._solve(record, looked, yielded, None)
             return
         part = increment(self.model, self.carriers, self.touched, record, slid)
-        if slid.ahead:
-            before = part.back(self.worn_before, self.states)
-            self.pressure = looked + over(self.shares) * before.pressure
-        else:
+        if not slid.ahead:
             self._solve(record, looked, yielded, part)
-            before = part.back(self.worn_before, self.states)
+        before = part.back(self.worn_before, self.states)
+        if slid.ahead:
+            self.pressure = looked + over(self.shares) * before.pressure
         self._wear(slid, part, before)
 
     def _solve(

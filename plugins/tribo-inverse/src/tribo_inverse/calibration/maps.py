@@ -13,7 +13,7 @@ import numpy as np
 from scipy.fft import dctn, idctn
 from scipy.special import chdtrc, ndtri
 from tribo import Array, Case, CaseError, Finding, Mask, NumericalError, Simulation
-from tribo.kernel_api import Model, assemble, begin, march, varied
+from tribo.kernel_api import Model, begin, march
 
 from tribo_inverse.adjoint.backwards import swept_back
 from tribo_inverse.adjoint.unknowns import FURTHEST, ValueAndGradient
@@ -35,10 +35,6 @@ FIRST_ITERATIONS = 10
 """Steps of L-BFGS before the information is computed."""
 ITERATIONS = 100
 """Largest number of steps after it."""
-FINE = 0.125
-"""Cell size, in correlation lengths, below which the fit starts on a grid of half as many cells."""
-FEWEST = 16
-"""Cells along each axis of such a grid."""
 SILENT = 0.9
 """Posterior standard deviation over the prior's, above which the data give no information."""
 
@@ -127,8 +123,7 @@ def fit_maps(
     projected on a Krylov space (Bui-Thanh et al. 2013, SIAM J. Sci. Comput. 35, A2494-A2523) by at
     most `products` products, each a run and an adjoint pass. Directions beyond keep the prior's
     standard deviation, which is too large rather than too small. The information also
-    preconditions L-BFGS. Where cells are far smaller than the correlation lengths, the fit starts
-    on a coarser grid.
+    preconditions L-BFGS.
 
     `depths` has, by the name of the body, the mean depth of each cell at the end, in m, of the
     shape of `View.wear`, NaN where missing, and their standard deviations, to which `edge_sigma`
@@ -204,51 +199,13 @@ class _Posterior:
         self.weights: dict[str, Weights] = {}
         self.gradient = ValueAndGradient(model, self.misfit, (), list(depths))
 
-    def halved(self) -> _Posterior | None:
-        """Return it on half as many cells along each axis; None if these are too large."""
-        case, grid = self.model.case, self.model.grid
-        cells = (grid.cells[0] // 2, grid.cells[1] // 2)
-        shortest = min(prior.length for prior in self.priors.values())
-        if max(grid.spacing) > FINE * shortest or min(cells) < FEWEST:
-            return None
-        if self.model.rough or case.begin is not None:
-            return None
-        model = assemble(varied(case, grid=grid.model_copy(update={"cells": cells})))
-        depths = {}
-        for name, (depth, sigma) in self.depths.items():
-            shape = surface_shape(model, name)
-            blocks = [n // m for n, m in zip(depth.shape, shape, strict=True)]
-            if depth.shape != (shape[0] * blocks[0], shape[1] * blocks[1]):
-                return None
-            both = np.array([depth, np.broadcast_to(sigma, depth.shape) ** 2])
-            split = both.reshape(2, shape[0], blocks[0], shape[1], blocks[1])
-            means, variances = split.mean(axis=(2, 4))
-            depths[name] = means, (variances / (blocks[0] * blocks[1])) ** 0.5
-        return _Posterior(model, depths, self.priors, self.tell, self.placed)
-
-    def raised(self, coarse: _Posterior, z: Array) -> Array:
-        """Return the amplitudes of a coarser grid on this one; 0 for shorter waves."""
-        found = np.zeros(self.size)
-        for name, part in self.parts.items():
-            rows, columns = coarse.shapes[name]
-            whole = found[part].reshape(self.shapes[name])
-            whole[:rows, :columns] = z[coarse.parts[name]].reshape(rows, columns)
-        return found
-
     def fitted(self, products: int) -> tuple[Array, Array, Array]:
         """Return the most probable amplitudes, and the eigenpairs of the information."""
-        coarse = self.halved()
-        if coarse is None:
-            near, none = np.zeros(self.size), np.zeros((0, self.size))
-            self.weigh(near)
-            near = self.least(near, none, none[:, 0], FIRST_ITERATIONS)
-            self.weigh(near)
-            basis, values = self.information(near, products)
-        else:
-            near, basis, values = coarse.fitted(products)
-            near = self.raised(coarse, near)
-            self.weigh(near)
-            basis = np.array([self.raised(coarse, each) for each in basis])
+        near, none = np.zeros(self.size), np.zeros((0, self.size))
+        self.weigh(near)
+        near = self.least(near, none, none[:, 0], FIRST_ITERATIONS)
+        self.weigh(near)
+        basis, values = self.information(near, products)
         return self.least(near, basis, values, ITERATIONS), basis, values
 
     def least(self, near: Array, basis: Array, values: Array, steps: int) -> Array:
