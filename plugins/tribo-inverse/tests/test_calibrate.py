@@ -3,18 +3,13 @@
 import json
 import tomllib
 from pathlib import Path
-from types import SimpleNamespace
 
-import pandas as pd
 import pytest
 from click.testing import CliRunner
 from command_line import tribo
-from tribo.cli.console import Console
 from tribo.cli.main import tribo as main
 from tribo.config.load import load_case
 from tribo.core.errors import CaseError
-
-from tribo_inverse.tables import estimates_table
 
 QUICK = ["--set", "grid.cells=24", "--set", "contact.type=winkler"]
 COARSE = ["--set", "stepping.depth_tolerance=1e-2", "--set", "stepping.pressure_tolerance=0.3"]
@@ -59,18 +54,6 @@ def test_it_prints_estimates_with_intervals_and_what_to_run(done):
     assert lines[-1].endswith(
         "--set bodies.ball.wear.k=7.077e-15 --set bodies.disk.wear.k=7.077e-16"
     )
-
-
-def test_wide_tables_break_no_value_at_80_columns(capsys):
-    """Intervals are broken around "to"."""
-    estimate = {"path": "bodies.second_ball.wear.factor", "unit": "1/Pa", "value": 1.234e-15}
-    estimate |= {"lower": 1.111e-16, "upper": 1.357e-14, "held": False}
-    found = SimpleNamespace(level=0.95, runs=5, parameters=pd.DataFrame([estimate]))
-    Console(width=80).table(estimates_table(found))
-    text = capsys.readouterr().out
-    assert max(map(len, text.splitlines())) <= 80
-    for whole in (estimate["path"], "1.23e-15 1/Pa", "1.36e-14", "relative"):
-        assert whole in text
 
 
 def test_json_is_finite_and_in_si_units(asked):

@@ -176,13 +176,6 @@ def test_the_weights_are_the_root_of_the_inverse_covariance():
     assert weights.log_determinant == pytest.approx(size, abs=1e-12)
 
 
-def test_a_change_that_many_data_tell_together_is_no_rest():
-    """Of 2500 depths each is off by 0.005 of its uncertainty, their mean by 0.25."""
-    made = problem(np.ones(2500), np.ones(2500), names=("k",), start=np.ones(1))
-    found = fit(lambda k: np.repeat(k, 2500), made, np.array([0.995]))
-    assert np.exp(found.point) == pytest.approx(1, abs=1e-4)
-
-
 def test_scatter_that_the_instrument_explains_is_none():
     values = 1 + 0.01 * np.array([-1.0, 1.0, -1.0, 1.0])
     made = problem(values, np.full(4, 0.05), names=("k",), start=np.ones(1), repeatability=None)

@@ -13,18 +13,20 @@ from scipy.special import kv
 from tribo.cli.main import tribo
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, NumericalError, TriboError
 from tribo.core.toml import to_toml
 from tribo.lab.heights import Heights
 from tribo.simulation.march import begin, march
 from tribo.simulation.run import Simulation
 
 from tribo_inverse.adjoint.view import View
+from tribo_inverse.calibration import mapped
 from tribo_inverse.calibration.cells import on_cells
 from tribo_inverse.calibration.mapped import calibrate_maps
 from tribo_inverse.calibration.maps import _Posterior, fit_maps
 from tribo_inverse.calibration.measured import MapEntry, read_measurements
 from tribo_inverse.calibration.prior import Prior
+from tribo_inverse.calibration.scar_shift import find_shift
 from tribo_inverse.recording.local import localised
 
 CASE = apply_settings(
@@ -245,6 +247,35 @@ def test_a_wrong_map_is_refused_by_its_place(changes, place, words, tmp_path):
     with pytest.raises(CaseError, match=words) as caught:
         calibrate_maps(CASE, {"map.1": read_measurements(file).map[0]})
     assert str(caught.value).startswith(f"map.1{place}: ")
+
+
+@pytest.mark.parametrize(
+    ("scale", "k", "words"),
+    [
+        (-1.0, 9e-15, r"map\.1\.depth: the depths are negative"),
+        (4, 9e-15, r"map\.1\.depth: it has 4 times the"),
+        (0.2, 9e-15, r"map\.1\.depth: it has 0\.2 times the"),
+        (1.0, 9e-15, r"check the maps' pitch, level and uncertainty, .*; no step"),
+        (1.0, 0.0, r"map\.1\.body: 'disk' does not wear in this case"),
+    ],
+)
+def test_a_map_that_is_not_of_the_case_is_refused(tmp_path, monkeypatch, scale, k, words):
+    def failing(*given, **named):
+        raise NumericalError("no step")
+
+    monkeypatch.setattr(mapped, "fit_maps", failing)
+    pixels = np.repeat(worn(np.ones((1, 16))), 16, axis=0)
+    np.save(tmp_path / "map.npy", scale * pixels)
+    entry = {"body": "disk", "depth": str(tmp_path / "map.npy"), "pitch": 1e-3 / 16}
+    entry = MapEntry(**entry, uncertainty=NOISE, length=1e-4)
+    with pytest.raises(TriboError, match=words):
+        calibrate_maps(apply_settings(CASE, {"bodies.disk.wear.k": k}), {"map.1": entry})
+
+
+def test_uniform_wear_tells_no_place():
+    depth = np.full((32, 32), 1e-6)
+    pixels = depth + NOISE * np.random.default_rng(0).standard_normal(depth.shape)
+    assert find_shift(Heights(pixels, (1e-6, 1e-6)), depth, (1e-6, 1e-6)) == (0, 0)
 
 
 def test_maps_stand_in_a_file_of_their_own():
