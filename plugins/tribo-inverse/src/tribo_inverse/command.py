@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import math
 import shlex
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import click
-from tribo import CaseError
+from tribo import CaseError, Finding
 from tribo.kernel_api import (
     JSON,
     PATH,
     PLUGIN,
     SET,
+    DataTable,
     added_files,
     apply_settings,
     check_new,
@@ -31,9 +32,7 @@ from tribo_inverse.calibration.calibrate import calibrate as fit_numbers
 from tribo_inverse.calibration.choice import Choice, choose_case
 from tribo_inverse.calibration.measured import Measurements, read_measurements
 from tribo_inverse.calibration.plan import Plan, plan_tests
-from tribo_inverse.tables import print_choice, print_fit, print_plan
-
-Shown = TypeVar("Shown", Calibration, Choice, Plan)
+from tribo_inverse.tables import choice_tables, fit_tables, plan_tables, print_all
 
 
 @click.command()
@@ -102,12 +101,12 @@ def calibrate(
         )
     if several:
         choice = choose_case(alternatives, measurements, level=level, on_run=_print_run_of_case)
-        _show(choice, print_choice, as_json)
+        _show(choice, choice_tables(choice), (), as_json)
     elif plan is not None:
         tests = plan_tests(
             tables, measurements, plan, level=level, on_run=partial(_print_run, "run")
         )
-        _show(tests, print_plan, as_json)
+        _show(tests, plan_tables(tests), tests.findings, as_json)
     elif measurements.map:
         _fit_local(tables, measurements, level, output, force, as_json)
     else:
@@ -116,7 +115,7 @@ def calibrate(
         found = fit_numbers(tables, measurements, level=level, on_run=progress)
         if files is not None:
             _write(found, *files)
-        _show(found, print_fit, as_json)
+        _show(found, fit_tables(found), found.findings, as_json)
         if as_json:
             return
         if files is not None:
@@ -141,7 +140,7 @@ def _fit_local(
 ) -> None:
     """Fit local coefficients to depth maps."""
     from tribo_inverse.calibration.mapped import calibrate_maps
-    from tribo_inverse.map_tables import check_free, maps_json, print_maps, write_maps
+    from tribo_inverse.map_tables import check_free, maps_json, maps_table, write_maps
 
     check_free(output, force)
     mapped = {f"map.{i}": entry for i, entry in enumerate(measurements.map, 1)}
@@ -149,7 +148,7 @@ def _fit_local(
     if as_json:
         echo_json(maps_json(found, level))
     else:
-        print_maps(found, level)
+        print_all([maps_table(found, level)], found.findings)
     if output is not None:
         write_maps(found, level, output)
 
@@ -177,12 +176,17 @@ def _write(found: Calibration, cases: Mapping[str, Path], picture: Path) -> None
     write_figures({picture.stem: lambda: fit_picture(found.data)}, picture.parent)
 
 
-def _show(found: Shown, in_words: Callable[[Shown], None], as_json: bool) -> None:
-    """Print a result as JSON or in words."""
+def _show(
+    found: Calibration | Choice | Plan,
+    tables: Sequence[DataTable],
+    findings: Sequence[Finding],
+    as_json: bool,
+) -> None:
+    """Print a result as JSON, or its tables and findings."""
     if as_json:
         echo_json(found.as_json())
     else:
-        in_words(found)
+        print_all(tables, findings)
 
 
 def _print_run_of_case(name: str, run: int, misfit: float) -> None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 from tribo import CaseError
-from tribo.kernel_api import Console, DataTable, Heading, TableRow, check_new, write_file
+from tribo.kernel_api import DataTable, Heading, TableRow, check_new, write_file
 
 from tribo_inverse.calibration.maps import SILENT, FittedMaps, LocalMap
 from tribo_inverse.calibration.quantities import p_words
@@ -56,7 +56,7 @@ def _arrays(each: LocalMap, level: float) -> dict[str, Any]:
 
 
 def maps_table(found: FittedMaps, level: float) -> DataTable:
-    """Return the range of the factors, and the number of cells where it differs from 1."""
+    """Return the range of the factors, the cells where it differs from 1, and the fit."""
     title = f"Local coefficients, by {found.gradients + found.products} runs and passes back"
     below = f"cells below 1, at {100 * level:g} %"
     columns, rows = ("map", "known cells", "factor in these", below, "cells above 1"), []
@@ -67,25 +67,12 @@ def maps_table(found: FittedMaps, level: float) -> DataTable:
         cells, *differ = (str(np.sum(count)) for count in counts)
         there = f"{ends.min():.2f} to {ends.max():.2f}"
         rows.append(TableRow((name, f"{cells} of {told.size}", there, *differ)))
-    return DataTable(title, list(map(Heading, columns)), rows)
-
-
-def fit_words(found: FittedMaps) -> str:
-    """Return the goodness of fit in a sentence."""
-    return (
+    fit = (
         f"χ² {found.chi_square:.4g} with {found.degrees_of_freedom:.4g} degrees of freedom, "
         f"{p_words(found.p_value)}. A cell is known where less than {SILENT:g} of the prior's "
         "standard deviation is left."
     )
-
-
-def print_maps(found: FittedMaps, level: float) -> None:
-    """Print fitted maps."""
-    console = Console()
-    console.table(maps_table(found, level))
-    console.print(fit_words(found), markup=False)
-    for note in found.notes:
-        console.print(f"Warning: {note}", markup=False)
+    return DataTable(title, list(map(Heading, columns)), rows, (fit,))
 
 
 def map_pictures(found: FittedMaps, level: float) -> dict[str, Callable[[], Figure]]:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from io import StringIO
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from rich.markup import escape
+from tribo import Finding
 from tribo.kernel_api import Console, DataTable, Heading, TableRow, digits_of, signed
 
 from tribo_inverse.calibration.quantities import in_si, in_words, p_words, percent, row_name
@@ -25,20 +26,15 @@ BROKEN = "interval"
 """End of the headings of columns of intervals."""
 
 
-def print_fit(found: Calibration, console: Console | None = None) -> None:
-    """Print estimates, residuals, predictions, the goodness of fit and warnings."""
+def print_all(
+    tables: Iterable[DataTable], findings: Iterable[Finding] = (), console: Console | None = None
+) -> None:
+    """Print tables, and findings as warnings."""
     console = console or Console()
-    for table in fit_tables(found):
+    for table in tables:
         console.table(table)
-    for note in found.notes:
-        console.print(f"[yellow]Warning:[/] {escape(note)}")
-
-
-def fit_text(found: Calibration) -> str:
-    """Return what `print_fit` prints."""
-    text = StringIO()
-    print_fit(found, Console(file=text))
-    return text.getvalue().rstrip()
+    for each in findings:
+        console.print(f"[yellow]Warning:[/] {escape(each.words)}")
 
 
 def fit_tables(found: Calibration) -> list[DataTable]:
@@ -47,30 +43,29 @@ def fit_tables(found: Calibration) -> list[DataTable]:
     return [table for table in (*tables, quality_table(found)) if table.rows]
 
 
-def print_plan(found: Plan) -> None:
-    """Print the number of tests of each kind, and the intervals expected."""
+def plan_tables(found: Plan) -> list[DataTable]:
+    """Return the number of tests of each kind, the intervals expected, and what a test measures."""
     names = [each or "the case as it is" for each in found.tests["test"]]
     counts = list(map(int, found.tests["count"]))
     level = f"{100 * found.level:g} % interval"
     paths = list(found.parameters["path"])
     ends = [f"±{percent(each)} %" for each in found.parameters["half_width"]]
-    console, count = Console(), sum(counts)
-    part = f"±{percent(found.within)} %"
-    console.print(f"{count} test{'s' * (count != 1)} give intervals within {part}.")
-    console.table(_table("Tests to make", ["number"], zip(names, counts, strict=True)))
-    console.table(_table("Expected intervals", [level], zip(paths, ends, strict=True)))
+    count, part = sum(counts), f"±{percent(found.within)} %"
+    note = f"{count} test{'s' * (count != 1)} give intervals within {part}."
     computed = (
         (row_name(each), in_words(each.quantity, each.computed))
         for each in found.readings.itertuples()
     )
-    console.table(_table("One test measures, by the case", ["computed"], computed))
-    for each in found.findings:
-        console.print(f"[yellow]Warning:[/] {escape(each.words)}")
+    return [
+        _table("Tests to make", ["number"], zip(names, counts, strict=True), note),
+        _table("Expected intervals", [level], zip(paths, ends, strict=True)),
+        _table("One test measures, by the case", ["computed"], computed),
+    ]
 
 
-def print_choice(found: Choice) -> None:
-    """Print the comparison of several cases, and the estimates of each."""
-    console, rows = Console(), []
+def choice_tables(found: Choice) -> list[DataTable]:
+    """Return the comparison of several cases, and the estimates of each."""
+    rows = []
     columns = ["criterion", "weight", "χ²", "d.o.f.", "parameters"]
     for each in found.cases.itertuples():
         own = found.calibrations[each.case]
@@ -80,11 +75,13 @@ def print_choice(found: Choice) -> None:
     note = (
         "criterion: Schwarz's, the lower the better; weight: the probability that follows from it."
     )
-    console.table(_table("Cases", columns, rows, note))
-    for name in found.cases["case"]:
-        console.print(f"\n{escape(name)}")
-        console.table(estimates_table(found.calibrations[name]))
-    console.print(f"In short: {escape(found.verdict)}.")
+    estimates = (
+        replace(table, title=f"{name}: {table.title}")
+        for name in found.cases["case"]
+        for table in [estimates_table(found.calibrations[name])]
+    )
+    verdict = f"In short: {found.verdict}."
+    return [_table("Cases", columns, rows, note, verdict), *estimates]
 
 
 def _table(

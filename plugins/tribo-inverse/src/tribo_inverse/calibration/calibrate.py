@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from html import escape
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import numpy as np
 import pandas as pd
 from scipy.special import chdtrc
 from tribo import Array, Case, CaseError, Finding, NumericalError
-from tribo.kernel_api import OutOfWindow, apply_settings, to_toml
+from tribo.kernel_api import Console, OutOfWindow, apply_settings, to_toml
 
 from tribo_inverse.calibration.experiment import Experiment, check_sizes
 from tribo_inverse.calibration.fit import fit, interval
@@ -22,7 +23,7 @@ from tribo_inverse.calibration.measured import Measurements
 from tribo_inverse.calibration.predictions import predicted
 from tribo_inverse.calibration.quantities import plain
 from tribo_inverse.findings import of_fit
-from tribo_inverse.tables import fit_tables, fit_text
+from tribo_inverse.tables import fit_tables, print_all
 
 DATA = ["test", "body", "quantity", "time_s", "place", "unit"]
 DATA += ["measured", "sigma", "computed", "residual"]
@@ -86,7 +87,9 @@ class Calibration:
 
     def __str__(self) -> str:
         """Return the tables and warnings that `tribo calibrate` prints."""
-        return fit_text(self)
+        text = StringIO()
+        print_all(fit_tables(self), self.findings, Console(file=text))
+        return text.getvalue().rstrip()
 
     def _repr_html_(self) -> str:
         """Show the same in a notebook."""
