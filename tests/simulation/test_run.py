@@ -177,7 +177,7 @@ def test_a_run_stopped_before_its_first_checkpoint_says_so_and_can_start_again(
     path = tmp_path / "run.h5"
     with monkeypatch.context() as disk:
         full = OSError(errno.ENOSPC, "No space left on device")
-        disk.setattr(checkpoint, "_store", Mock(side_effect=full))
+        disk.setattr(checkpoint, "write_sealed", Mock(side_effect=full))
         with (
             pytest.warns(TriboWarning, match="No space left"),
             pytest.raises(OutputError, match="No space left on device; free space or choose"),
