@@ -5,7 +5,6 @@ import pytest
 from paper_models import K, archard, case, flat, last, motion, named, pair, steel
 
 from tribo import (
-    Begin,
     Grid,
     Periodic,
     Pin,
@@ -123,5 +122,5 @@ def test_worn_bodies_go_on_in_the_positions_they_had(tmp_path, positions):
     kinematics = motion(stroke="0.7 mm", duration=None, distance="0.1 m", positions=positions)
     Simulation(case(grid=grid, kinematics=kinematics)).run(tmp_path / "a.h5").close()
     given = left_open("0.7 mm", grid=grid, distance="20 m")
-    given = given.model_copy(update={"begin": Begin(result=str(tmp_path / "a.h5"))})
+    given = given.model_copy(update={"begin": str(tmp_path / "a.h5")})
     assert composed(given).case.kinematics.positions == positions
