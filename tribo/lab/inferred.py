@@ -45,7 +45,7 @@ class InferredVolume(NamedTuple):
     >>> result = tribo.load_case("tribo/templates/ball_on_disk.toml", overrides=coarse).run()
     >>> flat = result.report().inferred[0]
     >>> flat.standard, flat.method, f"{flat.off} %"  # of the worn volume
-    ('ASTM G99', 'flat scar', '+13 %')
+    ('ASTM G99', 'flat scar', '+20 %')
     """
 
     body: str
