@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tribo.core.contact import ContactSolution
+from tribo.core.fields import FRICTION_COEFFICIENT, LOCAL_SLIP
 from tribo.core.state import State
 from tribo.evolution.course import Course, varying_work
 from tribo.evolution.interval import Moment, interval_from
@@ -24,7 +25,8 @@ def friction_force(model: Model, state: State) -> float:
 
     NaN where neither the case nor an effect gives a coefficient of friction.
     """
-    if not model.laws.friction_varies and model.laws.friction_coefficient is None:
+    laws = model.laws
+    if FRICTION_COEFFICIENT.name not in laws.provided and laws.friction_coefficient is None:
         return np.nan
     if state.speed == 0:
         return 0.0
@@ -60,7 +62,7 @@ def with_friction_work(model: Model, before: State, after: State, course: Course
     else:
         interval = interval_from(before, after.distance - before.distance, after.time)
         memory = remembered(model, before)
-        if laws.slips_locally:
+        if LOCAL_SLIP.name in laws.provided:
             work = carried * _mean(model, course.contacts, memory, interval.end)
         else:
             work = varying_work(model, memory, course.contacts, interval)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, LOCAL_SLIP, WORN_DEPTH, Field
+from tribo.core.fields import FRICTION_COEFFICIENT, LOCAL_SLIP, WORN_DEPTH, Field
 from tribo.guards.parts import GuardedEffect, GuardedLaw
 
 
@@ -54,25 +54,11 @@ class Laws:
         return (*own, *carried)
 
     @cached_property
-    def friction_varies(self) -> bool:
-        """Whether an effect provides the coefficient of friction."""
-        return FRICTION_COEFFICIENT.name in self._provided
-
-    @cached_property
-    def slips_locally(self) -> bool:
-        """Whether an effect provides the slip of each point."""
-        return LOCAL_SLIP.name in self._provided
-
-    @cached_property
-    def shares_load(self) -> bool:
-        """Whether effects carry a part of the load."""
-        return LOAD_SHARE.name in self._provided
-
-    @cached_property
-    def _provided(self) -> frozenset[str]:
+    def provided(self) -> frozenset[str]:
+        """Names of the fields that effects provide."""
         return frozenset(field.name for effect in self.effects for field in effect.provides)
 
     @cached_property
     def friction_by_point(self) -> bool:
         """Whether friction differs from point to point, by the coefficient or the slip."""
-        return self.friction_varies or self.slips_locally
+        return not self.provided.isdisjoint((FRICTION_COEFFICIENT.name, LOCAL_SLIP.name))

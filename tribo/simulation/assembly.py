@@ -15,7 +15,7 @@ from tribo.core.arrays import Array, readonly
 from tribo.core.coating import Coating
 from tribo.core.contact import ContactSystem
 from tribo.core.errors import CaseError, located
-from tribo.core.fields import PLACE_X
+from tribo.core.fields import LOCAL_SLIP, PLACE_X
 from tribo.core.grid import Grid, RepeatingGrid
 from tribo.core.loads import Loads
 from tribo.core.material import contact_modulus
@@ -241,7 +241,7 @@ def _varies(height: Array, exposure: Exposure) -> bool:
 
 def _check_steady_cycle(model: Model) -> None:
     """Refuse stages of the load within a cycle whose slip of points an effect states."""
-    if not model.laws.slips_locally:
+    if LOCAL_SLIP.name not in model.laws.provided:
         return
     loads, cycle = model.contact.loads, 2 * model.case.kinematics.track_extent
     ends = [0.0, *(edge for edge in loads.edges if edge < model.end_time)]

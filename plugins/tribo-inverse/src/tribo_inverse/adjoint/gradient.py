@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from tribo import Array, Case, CaseError, Explicit, Simulation, State
+from tribo import LOAD_SHARE, LOCAL_SLIP, Array, Case, CaseError, Explicit, Simulation, State
 from tribo.kernel_api import (
     DEPTH_ACCURACY,
     Model,
@@ -214,7 +214,7 @@ def covered(model: Model) -> Model:
         for field in (*effect.provides, *effect.state_fields)
     }
     laws = model.laws.wear.values()
-    followed = model.laws.shares_load or model.laws.slips_locally
+    followed = not model.laws.provided.isdisjoint((LOAD_SHARE.name, LOCAL_SLIP.name))
     followed = followed or any(set(law.requires) & given for law in laws)
     followed = followed or any(field.fills for f in model.laws.effects for field in f.state_fields)
     if loading := [each for each in model.laws.effects if each.changes_load]:
