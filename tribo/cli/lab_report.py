@@ -31,7 +31,7 @@ def print_report(result: Result, console: Console | None = None, *, warned: bool
     if words := status_words(result):
         console.print(f"[yellow]{escape(words)}[/]")
     told = [each for each in result.findings if warned and each.is_warning]
-    for finding in lab.findings:
+    for finding in result.findings:
         if finding not in told:
             console.print(f"[yellow]Note:[/] {escape(str(finding))}")
 

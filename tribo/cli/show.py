@@ -30,7 +30,7 @@ def show(output: Path, as_json: bool) -> None:
         if as_json:
             printed = summary(result)
             lab = lab_report(result)
-            found = [asdict(each) for each in lab.findings]
+            found = [asdict(each) for each in result.findings]
             echo_json({**printed, "findings": found, "lab": lab.as_json()})
         else:
             print_report(result)

@@ -216,12 +216,6 @@ def trial_failed(error: object, *, on_any_cells: bool) -> Finding:
     return Finding("trial", f"a trial run on a coarse grid failed{may}: {error}")
 
 
-def beyond(label: str, value: float, limit: float, unit: str) -> Finding:
-    """Word a value of a finished run beyond the limit of a model."""
-    words = f"{label} is {value:.4g}, beyond {limit:g} {unit}".rstrip()
-    return Finding("validity", words, value=value, limit=limit)
-
-
 def other_grid(labels: Sequence[str], reference: str) -> Finding:
     """Word results on another grid than the reference result."""
     return Finding(

@@ -12,7 +12,6 @@ import numpy as np
 
 from tribo.closed_forms.hertz import first_yield_pressure
 from tribo.core.errors import warn
-from tribo.core.findings import Finding
 from tribo.core.measures import reaches_border
 from tribo.core.words import readable, said, signed
 from tribo.lab.against_hertz import (
@@ -95,8 +94,7 @@ class LabReport:
 
     `first_contact_words` compare it with Hertz and the onset of yield.
     `inferred` are the volumes by a lab's formulas, with their errors; ``rows``
-    are from the plugins of its models. `findings` are from the run, and from rows
-    beyond their limit.
+    are from the plugins of its models.
 
     Examples
     --------
@@ -112,7 +110,6 @@ class LabReport:
     first_contact: FirstContact
     first_contact_words: str
     rows: tuple[LabRow, ...] = ()
-    findings: tuple[Finding, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
         """Return the report as plain data."""
@@ -128,14 +125,12 @@ def lab_report(result: Result) -> LabReport:
     """Return the laboratory report of `result` at its last save."""
     first, words = _first_contact(result)
     rows: list[LabRow] = [*quantity_rows(result), *from_plugins_of(result, "tribo_lab_rows")]
-    beyond = (row.finding for row in rows)
     return LabReport(
         bodies={name: _body(result, name) for name in result.body_names},
         inferred=tuple(inferred_volumes(result)),
         first_contact=first,
         first_contact_words=words,
         rows=tuple(rows),
-        findings=(*result.findings, *(each for each in beyond if each)),
     )
 
 

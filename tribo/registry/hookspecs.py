@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import pluggy
 
 from tribo.core.column import Column
-from tribo.core.findings import Finding, beyond
+from tribo.core.findings import Finding
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -34,31 +34,21 @@ hookimpl = pluggy.HookimplMarker(PROJECT)
 class LabRow(NamedTuple):
     """A row of the table after a run: its label, its value and the unit of the value.
 
-    A model that holds up to a `limit` is reported to be beyond it. The value of a quantity has a
-    `key` in tables and JSON.
+    The value of a quantity has a `key` in tables and JSON.
 
     Examples
     --------
-    >>> row = tribo.LabRow("wear depth over approach", 1.3, "", limit=1.0)
-    >>> print(row.finding)
-    validity: wear depth over approach is 1.3, beyond 1
+    >>> print(tribo.LabRow("depth of the film", 1.3e-7, "m"))
+    depth of the film: 1.3e-07 m
     """
 
     label: str
     value: float
     unit: str
-    limit: float | None = None
     key: str = ""
 
     def __str__(self) -> str:
         return f"{self.label}: {self.value:.4g} {self.unit}".rstrip()
-
-    @property
-    def finding(self) -> Finding | None:
-        """A finding on a value beyond its limit; None within."""
-        if self.limit is None or self.value <= self.limit:
-            return None
-        return beyond(self.label, self.value, self.limit, self.unit)
 
 
 class ExportFormat(NamedTuple):

