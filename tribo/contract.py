@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from types import MappingProxyType
 
 from tribo.component import Component
 from tribo.core.fields import FRICTION_COEFFICIENT, LOAD_SHARE, LOCAL_SLIP, Field
@@ -58,57 +57,51 @@ class Answer(Field):
         return f"{allowed}; compute it from {self.like}" if shape and self.like else allowed
 
 
-def _table(*answers: Answer) -> Mapping[str, Answer]:
-    return MappingProxyType({answer.name: answer for answer in answers})
-
-
 _WINDOW = "(nx, ny)"
 _CYCLE = "(positions, nx, ny)"
 _OWN = "(rows, ny)"
 _OF_LAW = Answer("", "1", "", shape=_CYCLE, spreads=True, like="local.pressure")
 _OF_EFFECT = Answer("", "1", "", shape=_WINDOW, spreads=True, like="contact.pressure")
 
-ANSWERS: Mapping[str, Mapping[str, Answer]] = MappingProxyType(
-    {
-        "surface": _table(
-            Answer("height", "m", "Height outward from the body.", shape=_WINDOW, like="grid.mesh"),
-            Answer("curvature", "1/m", "Curvature along x and y, or None.", shape="(2,)"),
-        ),
-        "wear_law": _table(
-            replace(_OF_LAW, name="depth_rate", description="Depth per metre.", at_least=0.0),
-            replace(_OF_LAW, name="depth_slope", unit="1/Pa", description="Its slope, or None."),
-        ),
-        "effect": _table(Answer("load_factor", "1", "Of the normal load.", above=0.0)),
-        "contact_solver": _table(
-            Answer("pressure", "Pa", "Contact pressure.", 0.0, shape=_WINDOW, like="problem.gap"),
-            Answer("overlap", "m", "Plastic displacement.", 0.0, shape=_WINDOW, like="problem.gap"),
-            Answer("approach", "m", "Rigid approach."),
-            Answer("iterations", "1", "Iterations on the full grid."),
-            Answer("residuals", "1", "Errors in the conditions of contact.", shape="(3,)"),
-            Answer("smallest_compliance", "m/Pa", "Of K, or None.", above=0.0),
-        ),
-        "kinematics": _table(
-            Answer("end_time", "s", "When the motion ends.", above=0.0),
-            Answer("distance_at", "m", "Sliding distance at a time."),
-            Answer("time_at", "s", "Time at a distance: the inverse of `distance_at`."),
-            Answer("edges", "s", "Each time at which the speed jumps."),
-            Answer("share", "1", "Part of the path at a position of the cycle.", 0.0),
-            Answer("speeds", "m/s", "Speeds there, with shares; or None.", 0.0, shape="(n, 2)"),
-            Answer("rest", "s/m", "Time at rest there, per metre of the path.", 0.0),
-            Answer("reach", "1", "Relative distance, or None.", shape=_WINDOW, above=0.0),
-            Answer("heading", "1", "Which way the body that passes moves there.", shape="(2,)"),
-            Answer("starts", "1", "First row of the window on the body there, or None."),
-            Answer("across", "1", "First column of the window on the body there, or None."),
-            Answer("length", "m", "Length of a track.", above=0.0),
-            Answer("average", "m", "Depth that each point of a body sees.", 0.0, shape=_OWN),
-            Answer("envelope", "m", "Largest depth that each point meets.", shape=_OWN),
-            Answer("volume", "m^3", "Volume of a depth on the body."),
-            Answer("local", "1/Pa", "Depth per metre and pressure.", 0.0, shape=_WINDOW),
-            Answer("swept", "1/(Pa m)", "Depth per metre and line load.", 0.0, shape="(ny,)"),
-        ),
-    }
-)
-"""The values that components answer with, by kind and name."""
+ANSWERS: Mapping[str, Sequence[Answer]] = {
+    "surface": (
+        Answer("height", "m", "Height outward from the body.", shape=_WINDOW, like="grid.mesh"),
+        Answer("curvature", "1/m", "Curvature along x and y, or None.", shape="(2,)"),
+    ),
+    "wear_law": (
+        replace(_OF_LAW, name="depth_rate", description="Depth per metre.", at_least=0.0),
+        replace(_OF_LAW, name="depth_slope", unit="1/Pa", description="Its slope, or None."),
+    ),
+    "effect": (Answer("load_factor", "1", "Of the normal load.", above=0.0),),
+    "contact_solver": (
+        Answer("pressure", "Pa", "Contact pressure.", 0.0, shape=_WINDOW, like="problem.gap"),
+        Answer("overlap", "m", "Plastic displacement.", 0.0, shape=_WINDOW, like="problem.gap"),
+        Answer("approach", "m", "Rigid approach."),
+        Answer("iterations", "1", "Iterations on the full grid."),
+        Answer("residuals", "1", "Errors in the conditions of contact.", shape="(3,)"),
+        Answer("smallest_compliance", "m/Pa", "Of K, or None.", above=0.0),
+    ),
+    "kinematics": (
+        Answer("end_time", "s", "When the motion ends.", above=0.0),
+        Answer("distance_at", "m", "Sliding distance at a time."),
+        Answer("time_at", "s", "Time at a distance: the inverse of `distance_at`."),
+        Answer("edges", "s", "Each time at which the speed jumps."),
+        Answer("share", "1", "Part of the path at a position of the cycle.", 0.0),
+        Answer("speeds", "m/s", "Speeds there, with shares; or None.", 0.0, shape="(n, 2)"),
+        Answer("rest", "s/m", "Time at rest there, per metre of the path.", 0.0),
+        Answer("reach", "1", "Relative distance, or None.", shape=_WINDOW, above=0.0),
+        Answer("heading", "1", "Which way the body that passes moves there.", shape="(2,)"),
+        Answer("starts", "1", "First row of the window on the body there, or None."),
+        Answer("across", "1", "First column of the window on the body there, or None."),
+        Answer("length", "m", "Length of a track.", above=0.0),
+        Answer("average", "m", "Depth that each point of a body sees.", 0.0, shape=_OWN),
+        Answer("envelope", "m", "Largest depth that each point meets.", shape=_OWN),
+        Answer("volume", "m^3", "Volume of a depth on the body."),
+        Answer("local", "1/Pa", "Depth per metre and pressure.", 0.0, shape=_WINDOW),
+        Answer("swept", "1/(Pa m)", "Depth per metre and line load.", 0.0, shape="(ny,)"),
+    ),
+}
+"""The values that components answer with, by kind."""
 
 LIMITED = {field.name: field for field in (FRICTION_COEFFICIENT, LOAD_SHARE, LOCAL_SLIP)}
 """Fields that a run itself acts on, whose limits are its own."""
@@ -117,7 +110,7 @@ LIMITED = {field.name: field for field in (FRICTION_COEFFICIENT, LOAD_SHARE, LOC
 def answers_of(component: Component) -> dict[str, Answer]:
     """Return the answers of a component by name: its kind's, its fields' and its states'."""
     kind = type(component).kind()
-    found = dict(ANSWERS.get(kind, {}))
+    found = {answer.name: answer for answer in ANSWERS.get(kind, ())}
     spread = _OF_LAW if kind == "wear_law" else _OF_EFFECT
     uniform = replace(spread, shape="(1, 1)", like="")
     for field in getattr(component, "provides", ()):

@@ -190,7 +190,7 @@ def answers_tables() -> Iterator[str]:
     for kind, answers in ANSWERS.items():
         yield f"`{KINDS[kind].__name__}`\n"
         yield "| Answer | Meaning | Unit | Shape | Limits |\n| --- | --- | --- | --- | --- |"
-        for answer in answers.values():
+        for answer in answers:
             shape = f"broadcasts to {answer.shape}" if answer.spreads else answer.shape
             cells = (answer.description, answer.unit, shape or "a number", answer.limits)
             yield f"| `{answer.name}` | {' | '.join(cells)} |"
