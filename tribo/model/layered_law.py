@@ -57,19 +57,13 @@ class LayeredLaw(GuardedLaw):
 
 def _state(laws: Sequence[GuardedLaw]) -> tuple[tuple[Field, ...], dict[str, float]]:
     """Return the state fields of all laws and what they begin with, each name once."""
-    fields: dict[str, Field] = {}
     first: dict[str, float] = {}
     for law in laws:
-        for field in law.state_fields:
-            if field.name == WORN_DEPTH.name:
-                continue
-            fields.setdefault(field.name, field)
-            if (
-                first.setdefault(field.name, law.initial_state[field.name])
-                != (law.initial_state[field.name])
-            ):
+        for name, value in law.own_state.items():
+            if first.setdefault(name, value) != value:
                 raise CaseError(
-                    f"laws of the layers begin with different values of {field.name!r}, which a "
+                    f"laws of the layers begin with different values of {name!r}, which a "
                     "point has once whatever layer it is in; give them the same"
                 )
-    return tuple(fields.values()), first
+    known = {field.name: field for law in reversed(laws) for field in law.state_fields}
+    return tuple(known[name] for name in first), first
