@@ -5,7 +5,6 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 from math import inf
 from operator import itemgetter
@@ -173,24 +172,17 @@ class Loads:
         """The least load at any time, in N."""
         return self.factor * min(load for _, load in self.points)
 
-    @cached_property
-    def _constant(self) -> float | None:
-        """The load where it never changes."""
-        load = self.points[0][1]
-        steady = all(other == load for _, other in self.points)
-        return self.factor * load if steady else None
-
     def before(self, time: float) -> float:
         """Return the load as `time` (s) is reached: at a jump, the load before it."""
-        return self._constant or self._at(time, bisect_left(self.points, time, key=itemgetter(0)))
+        return self._at(time, bisect_left(self.points, time, key=itemgetter(0)))
 
     def after(self, time: float) -> float:
         """Return the load from `time` (s) on: at a jump, the load after it."""
-        return self._constant or self._at(time, bisect_right(self.points, time, key=itemgetter(0)))
+        return self._at(time, bisect_right(self.points, time, key=itemgetter(0)))
 
     def mean(self, begin: float, end: float) -> float:
         """Return the mean load between two times (s) with no edge between them, in N."""
-        return self._constant or 0.5 * (self.after(begin) + self.before(end))
+        return 0.5 * (self.after(begin) + self.before(end))
 
     def _at(self, time: float, index: int) -> float:
         """Return the load at a time on the line that leads to a point."""
