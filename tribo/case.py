@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
@@ -14,7 +14,7 @@ from tribo.contact.solver import ContactSolver
 from tribo.core.errors import CaseError
 from tribo.core.explain import refused
 from tribo.core.grid import Grid
-from tribo.core.loads import Load, Stage
+from tribo.core.loads import Load
 from tribo.core.material import Material, Poisson
 from tribo.core.shorthand import call
 from tribo.core.table import Table, tree
@@ -189,26 +189,6 @@ class Case(Table):
     >>> case.kinematics.end_time, case.bodies["ball"].material.hardness  # in s and Pa
     (3600.0, 4000000000.0)
     """
-
-    if TYPE_CHECKING:
-
-        def __init__(
-            self,
-            *,
-            grid: Grid,
-            load: Load | float | str | Sequence[Stage],
-            bodies: Mapping[str, Body],
-            kinematics: Kinematics,
-            materials: Mapping[str, Material] = ...,
-            begin: str | Path | None = None,
-            contact: ContactSolver = ...,
-            stepping: Implicit | Explicit = ...,
-            friction: Friction | float | None = None,
-            effects: Sequence[Effect] = (),
-            observers: Sequence[Observer] = (),
-            output: Output = ...,
-            stop: Stop = ...,
-        ) -> None: ...
 
     grid: Grid
     load: Load
