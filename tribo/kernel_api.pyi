@@ -42,7 +42,6 @@ from tribo.core.measures import between_cells as between_cells
 from tribo.core.number_tables import check_file as check_file
 from tribo.core.number_tables import check_pixels as check_pixels
 from tribo.core.toml import to_toml as to_toml
-from tribo.core.units import number as number
 from tribo.core.units import parts as parts
 from tribo.core.units import scale as scale
 from tribo.core.words import did_you_mean as did_you_mean

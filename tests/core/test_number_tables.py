@@ -8,10 +8,8 @@ import numpy as np
 import pytest
 
 from tribo.core import number_tables
-from tribo.core.errors import CaseError
 from tribo.core.hdf5 import contained
 from tribo.core.number_tables import read_numbers, table_of_numbers
-from tribo.core.units import Quantity
 
 
 @pytest.mark.parametrize("suffix", [".npy", ".csv"])
@@ -66,15 +64,6 @@ def test_an_array_of_other_than_real_numbers_is_told(values, kind, tmp_path):
     np.save(tmp_path / "a.npy", np.array(values))
     with pytest.raises(ValueError, match=rf"a\.npy has values of type {kind}; save real numbers"):
         read_numbers(tmp_path / "a.npy")
-
-
-@pytest.mark.parametrize("cell", ["1_0e-9", "\uff11"])
-def test_what_python_alone_takes_for_a_number_is_none(cell, tmp_path):
-    (tmp_path / "a.csv").write_text(f"1,2\n3,{cell}\n", encoding="utf-8")
-    with pytest.raises(ValueError, match="line 2 has"):
-        table_of_numbers(tmp_path / "a.csv")
-    with pytest.raises(CaseError):
-        Quantity("m").read(f"{cell} m")
 
 
 def huge_npy(path):

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribo.core.arrays import Array
-from tribo.core.units import number
 
 MOST_PIXELS = 2**26
 """Numbers of the largest table that is read, as a map of 8192²: 0.5 GiB, of which tribo makes a few
@@ -103,7 +102,7 @@ def _table_of_text(lines: Iterable[str]) -> Array:
                 "commas, with decimal points, as 1.5, leave missing ones empty, and keep one "
                 "header line at most"
             )
-        rows.append(np.array([number(cell or "nan") for cell in cells]))
+        rows.append(np.array([float(cell or "nan") for cell in cells]))
         check_pixels(len(rows) * len(cells))
     if not rows:
         raise ValueError("it has no line of numbers, separated by commas, with decimal points")
@@ -112,7 +111,7 @@ def _table_of_text(lines: Iterable[str]) -> Array:
 
 def _is_number(cell: str) -> bool:
     try:
-        number(cell or "nan")
+        float(cell or "nan")
     except ValueError:
         return False
     return True

@@ -166,16 +166,6 @@ def _power(factor: str) -> tuple[Fraction, Dimension, int]:
     raise ValueError(f"unknown unit {name!r}")
 
 
-def number(text: str) -> float:
-    """Return the number that a text without a unit is; ValueError if it is none.
-
-    Python's own 1_000 and digits of other scripts are none: another program reads them otherwise.
-    """
-    if "_" in text or not text.isascii():
-        raise ValueError(f"{text!r} is no number")
-    return float(text)
-
-
 def parse(text: str, unit: str, hint: str = "") -> float:
     """Return a text such as ``"5 mm"`` or ``"2·10⁻⁷ mm³/Nm"`` in an SI unit, rounded once.
 

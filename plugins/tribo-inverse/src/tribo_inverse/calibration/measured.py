@@ -17,7 +17,7 @@ from pydantic import (
     model_validator,
 )
 from tribo import Array, CaseError, Quantity, Table
-from tribo.kernel_api import case_error, number, read_toml, to_toml
+from tribo.kernel_api import case_error, read_toml, to_toml
 
 from tribo_inverse.calibration.quantities import quantity
 
@@ -25,7 +25,7 @@ from tribo_inverse.calibration.quantities import quantity
 def _parts(text: str, entry: Mapping[str, Any]) -> tuple[float, ...]:
     """Return the parts of the values of an entry that a text in per cent states."""
     try:
-        part = number(text[:-1]) / 100
+        part = float(text[:-1]) / 100
     except ValueError:
         raise CaseError(f"{text!r} is no number of per cent; write '5 %'") from None
     if not 0 < part < 1:
