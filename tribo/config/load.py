@@ -17,8 +17,6 @@ from tribo.core.hdf5 import MARK
 from tribo.core.words import shown, similar_file
 from tribo.registry.registry import Registry, default_registry
 
-_LARGEST = 10_000_000
-"""Bytes; a height map of 1000² points, as text, has as many."""
 _WRITING = "quote texts and values with a unit, as '5 mm'; write 0.3, and each key once"
 
 
@@ -106,16 +104,13 @@ def read_toml(
     try:
         if path.is_dir():
             raise CaseError(f"{path} is a directory; give the file of {what} in it")
-        with path.open("rb") as file:
-            content = file.read(_LARGEST + 1)
+        content = path.read_bytes()
     except FileNotFoundError:
         remedy = similar_file(path, ".toml", hint)
         raise CaseError(f"{path}: there is no such file; {remedy}") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise CaseError(f"{path} cannot be read: {reason}") from None
-    if len(content) > _LARGEST:
-        raise CaseError(f"{path} is larger than {_LARGEST // 10**6} MB: no file of {what}")
     if content.startswith(MARK):
         raise CaseError(f"{path} is a result, not {what}; see it with: tribo show {path}")
     if not content.strip():
@@ -126,8 +121,6 @@ def read_toml(
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         raise CaseError(f"{path}, line {line}: not UTF-8 text; save the file as UTF-8") from None
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise CaseError(f"{path} is not TOML: {error}; {_WRITING}") from None
-    except RecursionError:
-        raise CaseError(f"{path}: tables or lists are nested too deeply") from None
     return data
