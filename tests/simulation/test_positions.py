@@ -9,7 +9,6 @@ from tribo import (
     Periodic,
     Pin,
     Simulation,
-    TriboWarning,
 )
 from tribo.simulation.positions import composed
 from tribo.stepping.explicit import Explicit
@@ -56,7 +55,7 @@ WAVY = named("disk", Waves(amplitude="10 nm", wavelength="0.2 mm", along="x"), s
 def test_the_positions_that_are_taken(given, taken):
     model = composed(given)
     assert model.case.kinematics.positions == taken
-    assert (len(model.cycle) == 1) == (taken == "average") == (model.chosen is None)
+    assert (len(model.cycle) == 1) == (taken == "average")
 
 
 def test_the_choice_does_not_follow_the_grid():
@@ -101,19 +100,14 @@ def test_a_contact_without_ends_is_averaged_over_its_own_period_only(stroke, cou
     assert mean == pytest.approx(K * load * distance / edge**2, rel=1e-9, abs=0)
 
 
-def test_the_choice_is_told_once_and_kept():
+def test_the_choice_is_kept():
     # A stroke in which the contact is resolved at a few positions.
     given = left_open("0.3 mm", grid=Grid((0.7e-3, 0.7e-3), (20, 20)), distance="0.03 m")
-    with pytest.warns(TriboWarning, match="positions: "):
-        result = Simulation(given).run()
-    with result:
+    with Simulation(given).run() as result:
         assert result.case_tables["kinematics"]["positions"] == 9
-        (found,) = [each for each in result.findings if each.kind == "positions"]
-        assert (found.value, found.place) == (9, "kinematics.positions")
         # What is composed from the result has nothing left to choose.
         again = Simulation(result.case_tables).model
     assert len(again.cycle) == 9
-    assert again.chosen is None
 
 
 @pytest.mark.parametrize("positions", ["average", 21])

@@ -187,15 +187,6 @@ def ended(time: float, depth: float, limit: float) -> Finding:
     return Finding("stop", words, value=depth, limit=limit, place="stop.depth")
 
 
-def positions_chosen(count: int) -> Finding:
-    """Word the positions that are chosen for a cycle where a case leaves them open."""
-    words = (
-        f"the cycle is resolved at {count} positions, as the case leaves their number open; "
-        'kinematics.positions = "average" is faster and less accurate'
-    )
-    return Finding("positions", words, value=count, place="kinematics.positions")
-
-
 def outgrown(size: tuple[float, float], time: float | None, end: float) -> Finding:
     """Word a window (m) that the contact outgrows at a time before the end, both in s."""
     lx, ly = (1e3 * edge for edge in size)

@@ -11,7 +11,6 @@ from tribo.case import Case
 from tribo.component import components
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
-from tribo.core.findings import Finding
 from tribo.core.grid import Grid
 from tribo.core.loads import Loads
 from tribo.core.measures import reaches_border
@@ -29,8 +28,7 @@ from tribo.model.laws import Laws
 class Model:
     """A case, and the data that a run derives from it once; made by `assemble`.
 
-    The parts of the case are guarded: errors name the part, and its answers are checked. `chosen`
-    states the positions chosen where the case left them open.
+    The parts of the case are guarded: errors name the part, and its answers are checked.
     """
 
     case: Case
@@ -40,7 +38,6 @@ class Model:
     contact: ContactSetup
     laws: Laws
     end_time: float
-    chosen: Finding | None = None
     listener: Listener = field(default_factory=Listener)
 
     @property

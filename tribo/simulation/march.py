@@ -50,8 +50,6 @@ def begin(model: Model) -> State:
         state = hold(None, first_state(model))
         check_stroke(model, state)
         model.case.stepping.check(model, state)
-    if model.chosen is not None:
-        state = state.with_findings(model.chosen)
     if _depth(model, state) >= _limit(model):
         state = _stopped(model, state)
     # The mean over a time in which no stage of the motion ends.

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from tribo.case import Case
 from tribo.core.errors import CaseError, located
-from tribo.core.findings import positions_chosen
 from tribo.core.measures import half_widths
 from tribo.core.words import readable
 from tribo.lab.against_hertz import hertz_half_width
@@ -49,22 +46,18 @@ def composed(case: Case) -> Model:
     try:
         averaged = assemble(_fixed(case, "average"))
     except CaseError:
-        return _resolved(case, "cells")
+        return assemble(_fixed(case, "cells"))
     if isinstance(case.stepping, Explicit) or not averaged.changing:
         return averaged
     if case.contact.periodic:
-        return _resolved(case, "cells")
+        return assemble(_fixed(case, "cells"))
     # By Hertz where the bodies have such a contact, so that it does not depend on the grid.
     half_width = hertz_half_width(averaged.contact.system)
     half_width = half_width or half_widths(first_contact(averaged).contact, averaged.grid)[0]
     if motion.stroke >= LENGTHS * 2 * half_width:
         return averaged
-    return _resolved(case, max(FEWEST, least_positions(motion.stroke, SPARE * half_width)))
-
-
-def _resolved(case: Case, positions: int | str) -> Model:
-    model = assemble(_fixed(case, positions))
-    return replace(model, chosen=positions_chosen(len(model.cycle)))
+    positions = max(FEWEST, least_positions(motion.stroke, SPARE * half_width))
+    return assemble(_fixed(case, positions))
 
 
 def _fixed(case: Case, positions: int | str) -> Case:

@@ -130,9 +130,8 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     for name, body in model.case.bodies.items():
         yield from _material(name, body.material)
     yield from _first_contact(model, prediction)
-    if model.chosen is not None or prediction.positions > 1:
-        resolved = f"the cycle is resolved at {prediction.positions}"
-        yield "positions", model.chosen.words if model.chosen else resolved
+    if prediction.positions > 1:
+        yield "positions", f"the cycle is resolved at {prediction.positions}"
     elif isinstance(model.case.kinematics, Reciprocating):
         half_width = hertz_half_width(model.contact.system) or prediction.first.half_width_x
         lengths = lengths_of(model.case.kinematics.stroke, half_width)
