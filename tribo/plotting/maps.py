@@ -45,13 +45,9 @@ class Layout(NamedTuple):
     """Of a map, in mm."""
 
     @classmethod
-    def of(cls, marked: Mask, grid: Grid, reach: Sequence[float] = (0.0, 0.0)) -> Layout:
-        """Return the layout of maps that is true to scale unless they would be thin.
-
-        They show all marked cells, and a distance `reach` from the centre along x
-        and y, in m.
-        """
-        windows = [limits(marked, grid, axis, reach[axis]) for axis in (0, 1)]
+    def of(cls, marked: Mask, grid: Grid) -> Layout:
+        """Return the layout of maps of all marked cells, true to scale unless they are thin."""
+        windows = [limits(marked, grid, axis) for axis in (0, 1)]
         x, y = (high - low for low, high in windows)
         units = axis_units([max(map(abs, window)) for window in windows])
         shape = y / x
@@ -144,7 +140,6 @@ def field_picture(
     grid: Grid,
     scale: Scale,
     title: str,
-    reach: Sequence[float] = (0.0, 0.0),
     more: Callable[[Axes, Layout], Sequence[Artist]] = lambda axes, shown: (),
     vary: Sequence[int] | None = None,
 ) -> Picture:
@@ -163,7 +158,7 @@ def field_picture(
         raise NothingToDraw(f"{title}: {scale.what.lower()} is uniform, {value}")
     if len(vary) == 1:
         return _profile(field, marked, grid, scale, title, vary[0])
-    shown = Layout.of(marked, grid, reach)
+    shown = Layout.of(marked, grid)
 
     def panel(axes: Axes) -> Sequence[Artist]:
         scale.draw(axes, shown, field, marked)

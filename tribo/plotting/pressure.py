@@ -12,13 +12,11 @@ from typing import Any
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
-from matplotlib.patheffects import withStroke
 
 from tribo.lab.against_hertz import HertzContact, first_hertz
 from tribo.lab.units import fitting, size, time_labels
 from tribo.plotting import style
-from tribo.plotting.maps import Layout, Scale, field_picture
+from tribo.plotting.maps import Scale, field_picture
 from tribo.plotting.picture import NothingToDraw, Picture
 from tribo.plotting.sections import (
     Section,
@@ -38,23 +36,12 @@ fill less than half of its panel."""
 def pressure_map(result: Result, save: int = -1) -> Picture:
     """Draw the pressure at a save from above, or its profile where it varies along one axis.
 
-    The solid line is the edge of the contact, the dashed one Hertz's first contact where the
-    surfaces state their curvature. A long contact is drawn wider.
+    A long contact is drawn wider.
     """
-    hertz = first_hertz(result)
     pressure = result.field("pressure", save)
-    touching = pressure > 0
-
-    def more(axes: Axes, shown: Layout) -> Sequence[Artist]:
-        if touching.any() and not touching.all():
-            edge = touching.T.astype(float)
-            x, y = shown.positions()
-            axes.contour(x, y, edge, levels=[0.5], colors="black", linewidths=0.9)
-        return () if hertz is None else [_draw_first_contact(axes, shown, hertz)]
-
     title = f"t = {time_labels(result.times)[save]}"
-    scale, reach = Scale.of("", float(np.max(pressure))), hertz.reach if hertz else NOWHERE
-    return field_picture(pressure, touching, result.grid, scale, title, reach, more)
+    scale = Scale.of("", float(np.max(pressure)))
+    return field_picture(pressure, pressure > 0, result.grid, scale, title)
 
 
 def pressure_sections(
@@ -115,22 +102,3 @@ def _draw_limits(
         axes.set_ylim(top=1.1 * cap / size(unit))
         drawn.append(axes.axhline(cap / size(unit), **look))
     return drawn
-
-
-def _draw_first_contact(axes: Axes, shown: Layout, hertz: HertzContact) -> Line2D:
-    """Draw the ellipse, or the two lines, inside which Hertz's contact lies."""
-    a, b = hertz.half_width_x / size(shown.units[0]), hertz.half_width_y / size(shown.units[1])
-    look: dict[str, Any] = {
-        "color": "black",
-        "linewidth": 0.8,
-        "linestyle": (0.0, (4.0, 2.5)),
-        "path_effects": [withStroke(linewidth=1.8, foreground="white")],
-        "label": "Hertz, 0 s",
-    }
-    if not hertz.is_line:
-        angle = np.linspace(0.0, 2 * np.pi, 361)
-        (ellipse,) = axes.plot(a * np.cos(angle), b * np.sin(angle), **look)
-        return ellipse
-    draw = axes.axhline if np.isinf(a) else axes.axvline
-    lines = [draw(end, **look) for end in (-min(a, b), min(a, b))]
-    return lines[0]
