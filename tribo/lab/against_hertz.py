@@ -47,12 +47,6 @@ class HertzContact:
         """Whether it is the contact of a cylinder."""
         return inf in (self.half_width_x, self.half_width_y)
 
-    @property
-    def reach(self) -> tuple[float, float]:
-        """Its half-widths along x and y, in m; 0 along a cylinder."""
-        x, y = (0.0 if a == inf else a for a in (self.half_width_x, self.half_width_y))
-        return x, y
-
     def pressure(self, axis: int, position: Array) -> Array:
         """Return the pressure through the centre along an axis, in Pa, at positions in m."""
         inside = 1 - (position / (self.half_width_x, self.half_width_y)[axis]) ** 2

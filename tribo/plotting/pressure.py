@@ -27,10 +27,6 @@ from tribo.plotting.sections import (
 from tribo.result.read import Result
 
 HERTZ: style.Look = {"color": "#909090", "linewidth": 0.7, "zorder": 3}
-NOWHERE = (0.0, 0.0)
-_FADED = 2.0
-"""Ratio of the first pressure to the later ones above which it has panels of its own: they would
-fill less than half of its panel."""
 
 
 def pressure_map(result: Result, save: int = -1) -> Picture:
@@ -50,8 +46,8 @@ def pressure_sections(
     """Draw the pressure along and across the sliding direction at every save.
 
     The sections go through the window's centre; along an axis where the pressure never varies
-    there is none, unless `axis`, 0 or 1, asks for it. Where the first pressure dwarfs the later
-    ones, it has a row of its own.
+    there is none, unless `axis`, 0 or 1, asks for it. The first pressure, which may dwarf the later
+    ones, has a row of its own.
     """
     saves = range(len(result.times)) if saves is None else saves
     grid, hertz, labels = result.grid, first_hertz(result), time_labels(result.times)
@@ -62,17 +58,13 @@ def pressure_sections(
     if not axes:
         value = f"{np.max(fields[saves[-1]]) / size(unit):.4g} {unit}"
         raise NothingToDraw(f"the pressure is uniform, {value} at {labels[saves[-1]]}")
-    first, *later = (float(np.max(field)) for field in fields.values())
-    groups = [list(saves)]
-    if first > _FADED * max(later, default=np.inf):
-        groups = [groups[0][:1], groups[0][1:]]
     looks = dict(zip(saves, style.save_looks(len(saves)), strict=True))
     rows, scale = [], (f"Pressure ({unit})", size(unit))
-    for group in groups:
+    for group in filter(None, ([s for s in saves if s == 0], [s for s in saves if s != 0])):
         shown = hertz if 0 in group else None
         marked = np.any([fields[save] > 0 for save in group], axis=0)
         kept = [(grid, fields[save], marked) for save in group]
-        sections = through_centre(kept, axes, shown.reach if shown else NOWHERE)
+        sections = through_centre(kept, axes)
         highest = max(float(np.max(p)) for part in sections for _, p in part.curves)
         up = (0.0, 1.05 * highest or size(unit))
         own = [looks[save] for save in group], [labels[save] for save in group]
@@ -92,8 +84,7 @@ def _draw_limits(
     """Draw Hertz's pressure, and the hardness where pressures up to the `highest` come near it."""
     drawn: list[Artist] = []
     if hertz is not None:
-        ends = (-hertz.reach[section.axis], hertz.reach[section.axis])
-        x = np.sort(np.append(np.linspace(*section.window, 801), ends))
+        x = np.linspace(*section.window, 801)
         values = hertz.pressure(section.axis, x)
         drawn += axes.plot(x / size(section.unit), values / size(unit), label="Hertz, 0 s", **HERTZ)
         axes.set_ylim(top=1.05 * max(highest, hertz.peak_pressure) / size(unit))

@@ -70,18 +70,15 @@ def _ends(marked: Mask, axis: int) -> tuple[int, int]:
 
 
 def through_centre(
-    fields: Sequence[tuple[Grid, Array, Mask]],
-    axes: Sequence[int] = (0, 1),
-    reach: Sequence[float] = (0.0, 0.0),
+    fields: Sequence[tuple[Grid, Array, Mask]], axes: Sequence[int] = (0, 1)
 ) -> list[Section]:
     """Return sections of fields, each on its grid, and limits around the marked cells of each.
 
-    They run along `axes`: 0 is the sliding direction, and 1 across it. `reach` along both is a
-    distance from the centre to be shown as well, in m.
+    They run along `axes`: 0 is the sliding direction, and 1 across it.
     """
     windows = []
     for axis in axes:
-        lows, highs = zip(*(limits(m, g, axis, reach[axis]) for g, _, m in fields), strict=True)
+        lows, highs = zip(*(limits(m, g, axis) for g, _, m in fields), strict=True)
         windows.append((min(lows), max(highs)))
     units = axis_units([max(map(abs, window)) for window in windows])
     return [
@@ -96,7 +93,7 @@ def _curve(grid: Grid, field: Array, axis: int) -> Curve:
     return np.concatenate([[-edge], x, [edge]]), np.pad(profile(field, axis), 1, mode="edge")
 
 
-def limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:
+def limits(marked: Mask, grid: Grid, axis: int) -> Limits:
     """Return limits in m that show all marked cells, a margin, and no more.
 
     They are the limits of the window if nothing is marked. Where the bodies end at the window and
@@ -105,7 +102,7 @@ def limits(marked: Mask, grid: Grid, axis: int, reach: float = 0.0) -> Limits:
     edge = 0.5 * grid.size[axis]
     first, last = _ends(np.broadcast_to(marked, grid.cells), axis)
     step = grid.spacing[axis]
-    low, high = min(first * step - edge, -reach), max((last + 1) * step - edge, reach)
+    low, high = first * step - edge, (last + 1) * step - edge
     beside = MARGIN * max(0.5 * (high - low), 2.0 * step)
     at_end = first == 0 or last == grid.cells[axis] - 1
     beyond = np.inf if grid.ends_at_window and at_end else edge
