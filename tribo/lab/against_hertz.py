@@ -11,7 +11,6 @@ import numpy as np
 from tribo.closed_forms import hertz
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
-from tribo.core.rounding import ROUND_OFF
 from tribo.core.words import readable
 from tribo.result.read import Result
 
@@ -132,21 +131,13 @@ def in_mpa(pressure: float) -> str:
     return f"{readable(1e-6 * pressure, '.1f')} MPa"
 
 
-def yield_words(pressure: float, by_body: Mapping[str, float | None], contact: HertzContact) -> str:
-    """Say whether the softer body yields under a `computed_pressure`, in Pa.
+def yield_words(pressure: float, cap: float, contact: HertzContact) -> str:
+    """Return a `computed_pressure`, in Pa, relative to the pressure of first yield, in words.
 
-    `by_body` are the bodies' hardnesses, in Pa.
+    `cap` is the hardness of the softer body, in Pa.
     """
-    given = [each for each in by_body.values() if each is not None]
-    if len(given) < len(by_body):
-        name = next(name for name, each in by_body.items() if each is None)
-        return f"not known, as {name} has no hardness: in this model it never yields"
-    hardness, loads = min(given), f"P/P_yield {contact.load_ratio:.2g}"
-    if pressure >= (1 - ROUND_OFF) * hardness:
-        return f"from the start ({loads}): the pressure is the softer body's hardness"
-    first = hertz.first_yield_pressure(hardness, line=contact.is_line)
-    where = "beneath the surface, which this model leaves out" if pressure > first else "none"
+    first = hertz.first_yield_pressure(cap, line=contact.is_line)
     return (
-        f"{where}: the pressure is {100 * pressure / first:.0f} % of the {in_mpa(first)} at which "
-        f"the softer body first yields beneath the surface ({loads})"
+        f"{100 * pressure / first:.0f} % of the {in_mpa(first)} at which the softer body first "
+        f"yields beneath the surface (P/P_yield {contact.load_ratio:.2g})"
     )

@@ -17,7 +17,6 @@ from tribo.core.words import readable, said, signed
 from tribo.lab.against_hertz import (
     computed_pressure,
     first_hertz,
-    hardness_of,
     in_mpa,
     yield_words,
 )
@@ -210,8 +209,7 @@ def _first_contact(result: Result) -> tuple[FirstContact, str]:
     half_space = result.case_tables.get("contact", {}).get("type") == HALF_SPACE
     if half_space and not reaches_border(result.field("pressure", 0)):
         words += f" ({signed(100 * (largest / p0 - 1), 2)} %)"
-    if system.cap is not None:
-        if hertz.load_ratio is not None:
-            ratio = pressure / first_yield_pressure(system.cap, line=hertz.is_line)
-        words += f"; yield: {yield_words(pressure, hardness_of(result), hertz)}"
+    if system.cap is not None and hertz.load_ratio is not None:
+        ratio = pressure / first_yield_pressure(system.cap, line=hertz.is_line)
+        words += f"; yield: {yield_words(pressure, system.cap, hertz)}"
     return FirstContact(p0, largest, ratio, hertz.load_ratio), f"{words}."

@@ -25,7 +25,6 @@ from tribo.lab.against_hertz import (
 )
 from tribo.model.model import Model
 from tribo.motion.reciprocating import Reciprocating
-from tribo.simulation.hardness import at_surface
 from tribo.simulation.positions import lengths_of
 from tribo.simulation.predict import Prediction, predict
 from tribo.simulation.run import Simulation
@@ -170,10 +169,9 @@ def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, 
         )
         yield "Hertz peak pressure p0", f"{in_mpa(p0)}, computed {computed}"
         hardness = model.contact.system.cap
-        if hardness is not None:
-            if hertz.load_ratio is not None:
-                yield "p0/H", f"{p0 / hardness:.3f}"
-            yield "yield", yield_words(pressure, at_surface(model.case.bodies), hertz)
+        if hardness is not None and hertz.load_ratio is not None:
+            yield "p0/H", f"{p0 / hardness:.3f}"
+            yield "yield", yield_words(pressure, hardness, hertz)
         across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
         yield "cells across the contact", " × ".join(across)
 
