@@ -17,7 +17,6 @@ from tribo.plotting.picture import NothingToDraw, Picture
 from tribo.plotting.sections import (
     MOST_CELLS,
     Limits,
-    Section,
     limits,
     section_row,
     through_centre,
@@ -171,16 +170,9 @@ def field_picture(
 def _profile(
     field: Array, marked: Mask, grid: Grid, scale: Scale, title: str, axis: int
 ) -> Picture:
-    """Return a field through the centre along an axis, with its range across as a band."""
+    """Return a field through the centre along an axis."""
     sections = through_centre([(grid, field, marked)], (axis,))
-    low, high = (end(field, axis=1 - axis) / scale.factor for end in (np.min, np.max))
     up = min(0.0, float(np.min(field))), 1.05 * (scale.most or float(np.max(field)))
-
-    def band(section: Section, axes: Axes) -> Sequence[Artist]:
-        x = (grid.x, grid.y)[axis] / size(section.unit)
-        axes.fill_between(x, low, high, color="black", alpha=0.2, linewidth=0.0)
-        return ()
-
     look, shown = {"color": "black"}, (scale.label, scale.factor)
-    row = section_row(sections, [look], [""], shown, up, title, [band])
+    row = section_row(sections, [look], [""], shown, up, title)
     return Picture([row], 55.0, share="")
