@@ -91,7 +91,6 @@ from tribo.lab.report import run_sentences as run_sentences
 from tribo.lab.scar import Scar as Scar
 from tribo.lab.scar import crown as crown
 from tribo.lab.scar import diameter as diameter
-from tribo.lab.scar import layer_ends as layer_ends
 from tribo.lab.scar import removed as removed
 from tribo.lab.scar import scar_mask as scar_mask
 from tribo.lab.tables import doubt_of_depth as doubt_of_depth

@@ -60,17 +60,6 @@ def test_the_unworn_profile_of_each_worn_body_is_drawn_in_sight(worn):
             assert np.all((z > low) & (z < high))
 
 
-def test_a_layer_that_wear_comes_near_ends_at_its_depth_in_both_sections():
-    result = made(layers=[{"thickness": 1e-5}, {"thickness": 1e-3}])
-    figure = worn_section(result).figure()
-    named = {text.get_text() for text in figure.legends[0].get_texts()}
-    # The second ends far below the scar; the ball is the upper body.
-    assert named == {"worn", "ball unworn", "ball: end of layer 1", "disk unworn"}
-    for axes in figure.axes:
-        _, _, unworn, end, _ = (line.get_ydata() for line in axes.lines)
-        np.testing.assert_allclose(end - unworn, 10.0, rtol=1e-9)
-
-
 def test_what_varies_along_one_axis_only_is_drawn_along_it():
     result = made(**SHAPES["line contact"])
     for drawn, factor, field in (

@@ -84,17 +84,6 @@ def removed(result: Result, name: str) -> Array:
     return np.asarray(body.wear_depth + body.plastic_depth)
 
 
-def layer_ends(result: Result, name: str, deepest: float) -> dict[str, float]:
-    """Return the depths at which layers of a body end, in m, down to twice the deepest."""
-    layers = result.case_tables["bodies"][name].get("layers") or ()
-    ends = np.cumsum([float(layer["thickness"]) for layer in layers])
-    return {
-        f"{name}: end of layer {number}": float(end)
-        for number, end in enumerate(ends, start=1)
-        if end <= 2 * deepest
-    }
-
-
 def scar_mask(depth: Array) -> Mask:
     """Return the cells worn deeper than a thousandth of the largest depth."""
     deepest = float(np.max(depth, initial=0.0))

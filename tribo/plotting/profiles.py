@@ -16,7 +16,7 @@ from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
 from tribo.lab.kept import kept_fields
-from tribo.lab.scar import layer_ends, removed, scar_mask
+from tribo.lab.scar import removed, scar_mask
 from tribo.lab.units import height_unit, shown_in, size, time_labels
 from tribo.plotting.maps import Scale, field_picture
 from tribo.plotting.picture import NothingToDraw, Picture
@@ -36,7 +36,6 @@ UNWORN: tuple[Look, Look] = (
     {"color": "#404040", "linewidth": 0.8, "linestyle": (0.0, (5.0, 1.6))},
 )
 """Of the upper and of the lower body."""
-LAYER: Look = {"color": "black", "linewidth": 0.6, "linestyle": (0.0, (6.0, 1.5, 1.0, 1.5))}
 UPPER, LOWER = "#e4e4e4", "#b4b4b4"
 BESIDE: Look = {"color": "#b05a00", "linewidth": 1.2, "linestyle": (0.0, (1.2, 1.2))}
 
@@ -97,8 +96,7 @@ def worn_section(result: Result, save: int = -1, axis: int | None = None) -> Pic
     """Draw both bodies in section at a save, along the axes along which one wears unevenly.
 
     They touch at their closest point, without load; a moving body lies below. The unworn surface of
-    each worn body is drawn where its points were, and a thin line where a layer ends that is worn
-    by half at least. The picture states how deep the scars are.
+    each worn body is drawn where its points were. The picture states how deep the scars are.
     """
     upper, lower = sorted(map(result.body, result.body_names), key=lambda body: body.swept)
     gone = [removed(result, body.name)[save] for body in (upper, lower)]
@@ -122,12 +120,6 @@ def worn_section(result: Result, save: int = -1, axis: int | None = None) -> Pic
             surfaces.append(surface)
             looks.append(look)
             labels.append(f"{body.name} unworn")
-        # Into the body: upwards in the upper one.
-        inwards = 1.0 if body is upper else -1.0
-        for label, end in layer_ends(result, body.name, depth).items():
-            surfaces.append(surface + inwards * end)
-            looks.append(LAYER)
-            labels.append(label)
     fields = [(result.grid, surface, marked) for surface in surfaces]
     sections = through_centre(fields, shown)
     title = f"t = {time_labels(result.times)[save]}, unloaded"

@@ -141,15 +141,11 @@ def test_what_effects_provide_and_models_keep_has_maps_and_curves():
     assert not data["history"]["axes"][0]["panels"][0]["dotted"]
 
 
-def test_a_coating_is_told_and_ends_in_the_sections():
+def test_a_coating_is_told():
     layers = [{"thickness": 1e-5}, {"thickness": 1e-3}]
     with made(layers=layers) as result:
         told = "The coating (2 layers) of the ball is nowhere worn through."
         assert told in sentence(result, result.report(), [])
-        charted = {each["name"]: each["curves"] for each in charts(result)["sections"]}
-    # The second ends far below the scar.
-    assert list(charted["Wear depth"]) == ["ball", "disk", "ball: end of layer 1"]
-    assert set(charted["Wear depth"]["ball: end of layer 1"]["values"][0]) == {10.0}
 
 
 class Bathed(Effect):

@@ -10,7 +10,6 @@ from tribo import Array, Mask, Result
 from tribo.kernel_api import (
     axis_units,
     kept_fields,
-    layer_ends,
     limits,
     profile,
     removed,
@@ -104,11 +103,7 @@ def _depths(results: Results, saves: Mapping[str, list[int]]) -> dict[str, tuple
     }
     if len(results) > 1 or not worn:
         return {f"Wear depth of {name}": ("m", curves) for name, curves in worn.items()}
-    curves = {name: of_body[""] for name, of_body in worn.items()}
-    for name, (_, depths) in list(curves.items()):
-        for label, end in layer_ends(first, name, float(np.max(depths))).items():
-            curves[label] = first, [np.full(first.grid.cells, end)] * len(depths)
-    return {"Wear depth": ("m", curves)}
+    return {"Wear depth": ("m", {name: of_body[""] for name, of_body in worn.items()})}
 
 
 def _windows(results: Results, saves: Mapping[str, list[int]]) -> list[tuple[float, float]]:
