@@ -1,6 +1,7 @@
 """What packages may use of the kernel beside the names of `tribo`; `kernel_api.py` reads it."""
 
 from tribo.cli.console import Console as Console
+from tribo.cli.lab_report import provenance_rows as provenance_rows
 from tribo.cli.lab_report import report_blocks as report_blocks
 from tribo.cli.options import JSON as JSON
 from tribo.cli.options import PATH as PATH

@@ -30,7 +30,7 @@ def command(*arguments):
     ("changes", "shown"),
     [
         ({"findings": [{"kind": EVIL, "words": ""}]}, r"Note: \x1b]0;pwned"),
-        ({"provenance": provenance({}) | MADE_WITH}, r"Made with Python \x1b]0;pwned"),
+        ({"provenance": provenance({}) | MADE_WITH}, r"made with: Python \x1b]0;pwned"),
     ],
     ids=["findings", "provenance"],
 )

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator
 
 from rich.markup import escape
 from rich.text import Text
@@ -53,45 +51,30 @@ def status_words(result: Result) -> str:
 
 
 def print_provenance(result: Result, console: Console | None = None) -> None:
-    """Print where each model of `result` came from, its configuration and what it states."""
+    """Print what made `result`."""
     console = console or Console()
-    made = result.provenance
     console.print()
+    for name, words in provenance_rows(result):
+        console.print(Text(f"{name}: {words}"), soft_wrap=True)
+
+
+def provenance_rows(result: Result) -> Iterator[tuple[str, str]]:
+    """Yield what made a result, by name: versions, where each model came from, what it states."""
+    made = result.provenance
     for again in (made, *made.get("resumed_with", ())):
         packages = ", ".join(f"{name} {version}" for name, version in again["packages"].items())
-        console.print(
-            f"{'Made' if again is made else 'Gone on'} with Python {again['python']}, {packages}; "
-            "models, in SI units:",
-            markup=False,
-        )
+        when = "made with" if again is made else "gone on with"
+        yield when, f"Python {again['python']}, {packages}"
         if begun := again.get("begun_with"):
-            console.print(
-                f"  begun with {begun['result']}, SHA-256 {begun['sha256']}", markup=False
-            )
+            yield "begun with", f"{begun['result']}, SHA-256 {begun['sha256']}"
         for place, origin in again["components"].items():
-            for line in _origin(place, origin):
-                console.print(Text(line), soft_wrap=True)
+            whose = f"{origin['distribution']} {origin['version']}".strip()
+            where = f"{origin['class']} of {whose}" if whose else origin["class"]
+            editable = ", editable" if origin["editable"] else ""
+            code = f"source code {origin['code'][:10] or 'not available'}"
+            facts = "".join(f"; {name}: {text}" for name, text in origin["facts"].items())
+            yield place, f"{origin['type']}, {where}{editable}, {code}{facts}"
         for plugin in again["plugins"]:
             if plugin["status"] not in ("loaded", "available"):
-                console.print(
-                    f"  plugin {plugin['distribution']} {plugin['version']} was "
-                    f"{plugin['status']}: {plugin['reason']}",
-                    markup=False,
-                )
-
-
-def _origin(place: str, origin: Mapping[str, Any]) -> Iterator[str]:
-    whose = f"{origin['distribution']} {origin['version']}".strip()
-    where = f"{origin['class']} of {whose}" if whose else origin["class"]
-    editable = ", editable" if origin["editable"] else ""
-    code = f", source code {origin['code'][:10]}" if origin["code"] else ", source not available"
-    yield f"  {place}: {origin['type']}, {where}{editable}{code}"
-    config = [
-        f"{key} = {json.dumps(value, ensure_ascii=False)}"
-        for key, value in origin["config"].items()
-        if key != "type" and value is not None
-    ]
-    if config:
-        yield f"      {', '.join(config)}"
-    for name, text in origin["facts"].items():
-        yield f"      {name}: {text}"
+                whose = f"plugin {plugin['distribution']} {plugin['version']}"
+                yield whose, f"{plugin['status']}: {plugin['reason']}"

@@ -16,6 +16,7 @@ from tribo.kernel_api import (
     lab_report,
     lab_sentences,
     plus_minus,
+    provenance_rows,
     report_blocks,
     result_pictures,
     run_sentences,
@@ -56,7 +57,7 @@ def result_page(result: Result, verified: Path | None = None) -> str:
         data=charts(result),
         stills=stills(result_pictures(result)),
         held=" ".join([*run_sentences(result), STOPPED]),
-        provenance=_provenance(result),
+        provenance=list(provenance_rows(result)),
         citation=cited(result),
         case=case_text(case),
     )
@@ -116,23 +117,6 @@ def facts(case: Mapping[str, Any]) -> list[tuple[str, str]]:
         found.append(("window", f"{size} mm, {cells} cells"))
     found += [("effect", component_words(effect)) for effect in case.get("effects") or ()]
     return [(name, words) for name, words in found if words]
-
-
-def _provenance(result: Result) -> list[tuple[str, str]]:
-    made = result.provenance
-    rows = [("made with", f"Python {made['python']}, {versions(made['packages'])}")]
-    for again in made.get("resumed_with", ()):
-        words = f"Python {again['python']}, {versions(again['packages'])}"
-        rows.append(("gone on with", words))
-    if begun := made.get("begun_with"):
-        rows.append(("begun with", f"{begun['result']}, SHA-256 {begun['sha256']}"))
-    for place, origin in made["components"].items():
-        code = f", source code {origin['code'][:10]}" if origin["code"] else ""
-        whose = f"{origin['distribution']} {origin['version']}".strip()
-        of = f"{origin['class']} of {whose}" if whose else origin["class"]
-        facts = "".join(f"; {name}: {text}" for name, text in origin["facts"].items())
-        rows.append((place, f"{origin['type']}, {of}{code}{facts}"))
-    return rows
 
 
 def case_text(case: Mapping[str, Any]) -> str:
