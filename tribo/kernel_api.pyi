@@ -143,6 +143,7 @@ from tribo.study.sweeping.summary import cell as cell
 from tribo.study.sweeping.summary import column_heading as column_heading
 from tribo.study.sweeping.summary import is_text as is_text
 from tribo.study.sweeping.summary import labelled as labelled
+from tribo.study.sweeping.summary import runs_table as runs_table
 from tribo.study.sweeping.summary import sweep_pictures as sweep_pictures
 from tribo.study.sweeping.summary import varied_paths as varied_paths
 from tribo.study.variation import unknown_body as unknown_body

@@ -23,7 +23,7 @@ def test_it_ends_with_tables_and_a_folder_of_results(swept):
     folder, (code, out, err) = swept
     assert (code, err.splitlines()[-1]) == (0, "2 of 2 runs")
     table, told = out.split("2 of 2 runs are done.\n")
-    assert "normal load (N)" in table
+    assert "(N)" in table
     pictures = ("ball_depth.png", "disk_depth.png")
     wrote = ("runs.csv", *pictures)
     assert told == "".join(f"Wrote my-sweep/{name}\n" for name in wrote)

@@ -71,10 +71,9 @@ def sweep(
         echo_json(swept.as_json())
     else:
         from tribo.cli.console import Console
-        from tribo.study.sweeping.summary import draw_runs, runs_table
+        from tribo.study.sweeping.summary import draw_runs, measured, runs_table
 
-        if (table := runs_table(swept.table)) is not None:
-            Console().table(table)
+        Console().table(runs_table(swept.table, measured(swept.table)))
         click.echo(f"{total - failed} of {total} runs are done.")
         click.echo(f"Wrote {swept.folder / 'runs.csv'}")
         for path in draw_runs(swept.table, swept.folder):

@@ -14,33 +14,30 @@ from tribo.core.data_table import DataTable, Heading, TableRow
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-MEASURED = (
-    ("max_pressure_Pa", Heading("p max", "MPa", ".3g", whole=True, spare=2), 1e-6),
-    (".max_wear_depth_m", Heading("{}", "µm", ".3g", whole=True), 1e6),
-    (".wear_volume_m3", Heading("{}", "mm³", ".3g", whole=True, spare=1), 1e9),
-)
-"""End of a column's name, heading, and factor to its unit."""
+MEASURED = (".max_wear_depth_m", ".wear_volume_m3")
+"""Ends of the names of the columns of bodies that a terminal shows."""
 
 
-def runs_table(runs: pd.DataFrame) -> DataTable | None:
-    """Return the settings and results of each finished run; None if there is none."""
-    done = runs[runs["status"] == "done"]
-    if done.empty:
-        return None
-    headings = [Heading("run", whole=True)]
-    columns: list[Sequence[float | str]] = [list(done["run"])]
-    for name in varied_paths(runs):
-        headings.append(column_heading(name, done))
-        # The heading has the unit.
-        columns.append([cell(name, done, index) for index in done.index])
-    for end, heading, factor in MEASURED:
-        for name in [column for column in done if _measures(str(column), end)]:
-            body = str(name).removeprefix("bodies.").removesuffix(end)
-            headings.append(heading._replace(label=heading.label.format(body)))
-            columns.append([factor * value for value in done[name]])
-    title = "Runs: what varied; largest pressure, depth and volume of each body at the end"
-    rows = list(map(TableRow, zip(*columns, strict=True)))
-    return DataTable(title, headings, rows)
+def measured(runs: pd.DataFrame) -> list[str]:
+    """Return the columns that a terminal shows: the largest pressure, depths and volumes."""
+    return [name for name in map(str, runs) if name == "max_pressure_Pa" or name.endswith(MEASURED)]
+
+
+def runs_table(runs: pd.DataFrame, measures: Sequence[str]) -> DataTable:
+    """Return what varied and some measures of each run; its status where one is not done.
+
+    A narrow terminal leaves out measures, from the last.
+    """
+    status = ["status"] if (runs["status"] != "done").any() else []
+    known = ["run", *status, *varied_paths(runs)]
+    shown = [*known, *measures]
+    spare = [0] * len(known) + [*range(len(measures), 0, -1)]
+    headings = [
+        column_heading(name, runs)._replace(spare=order)
+        for name, order in zip(shown, spare, strict=True)
+    ]
+    rows = [TableRow(tuple(cell(name, runs, index) for name in shown)) for index in runs.index]
+    return DataTable("Each run at its end", headings, rows, dense=True)
 
 
 def draw_runs(runs: pd.DataFrame, folder: Path) -> list[Path]:
@@ -77,11 +74,6 @@ def varied_paths(runs: pd.DataFrame) -> Sequence[str]:
     """Return the columns of settings that vary, which come before the measures."""
     columns = list(map(str, runs))
     return columns[2 : columns.index("time_s")] if "time_s" in columns else []
-
-
-def _measures(column: str, end: str) -> bool:
-    """Whether a column is the measure of this name, of the run or of a body."""
-    return column == end or (end.startswith(".") and column.endswith(end))
 
 
 def is_text(runs: pd.DataFrame, name: str) -> bool:

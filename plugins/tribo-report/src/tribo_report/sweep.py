@@ -11,12 +11,11 @@ import numpy as np
 import pandas as pd
 from tribo import CaseError, Result
 from tribo.kernel_api import (
-    DataTable,
-    TableRow,
     cell,
     column_heading,
     is_text,
     labelled,
+    runs_table,
     sweep_pictures,
     varied_paths,
 )
@@ -59,7 +58,7 @@ def sweep_page(folder: Path) -> str:
         title=folder.name,
         answers=list(_answers(done, len(runs), names, bodies)),
         tables_title="The runs",
-        tables=[_table(runs, names, measures)],
+        tables=[runs_table(runs, measures)],
         notes=list(_notes(runs)),
         curves_title="What varies, and what comes of it",
         stills=stills({_words(name, done): draw for name, draw in pictures.items()}),
@@ -111,13 +110,6 @@ def _words(name: str, runs: pd.DataFrame) -> str:
 
 def _with_unit(name: str, runs: pd.DataFrame, index: Any) -> str:
     return f"{cell(name, runs, index)} {labelled(name, runs)[1]}".rstrip()
-
-
-def _table(runs: pd.DataFrame, varied: list[str], measures: list[str]) -> DataTable:
-    shown = ["run", *(["status"] if (runs["status"] != "done").any() else []), *varied, *measures]
-    rows = [TableRow(tuple(cell(name, runs, index) for name in shown)) for index in runs.index]
-    headings = [column_heading(name, runs) for name in shown]
-    return DataTable("Each run at its end", headings, rows)
 
 
 def _curves(done: pd.DataFrame, varied: list[str], measures: list[str]) -> dict[str, Any]:
