@@ -21,10 +21,11 @@ Rows = dict[str, Any]
 class Variable:
     """A variable of the dataset.
 
-    A field of a model has a `kind`, the name that it has in the model, and the bodies that have it
-    (NaN for the others): ``"state"`` is kept on a body, ``"track_state"`` along its whole track,
-    ``"effect"`` provided by an effect, ``"between"`` kept by one. A column of a model is of a kind
-    in `SAVED` and, if it is in the history, in `STEPPED`; the second kind is for bodies.
+    A field of bodies has the name that it has in `BodyState`. A field of a model has a `kind`, the
+    name that it has in the model, and the bodies that have it (NaN for the others): ``"state"`` is
+    kept on a body, ``"track_state"`` along its whole track, ``"effect"`` provided by an effect,
+    ``"between"`` kept by one. A column of a model is of a kind in `SAVED` and, if it is in the
+    history, in `STEPPED`; the second kind is for bodies.
     """
 
     dims: tuple[str, ...]
@@ -57,11 +58,13 @@ FIXED = {
     "density": Variable(("body",), "kg/m^3", "Density"),
     "height": Variable(("body", "x", "y"), "m", "Initial height, outward"),
     "pressure": Variable(ON_WINDOW, "Pa", "Contact pressure"),
-    "wear_depth": Variable(ON_BODY, "m", "Depth worn away"),
-    "plastic_depth": Variable(ON_BODY, "m", "Permanent displacement"),
+    "wear_depth": Variable(ON_BODY, "m", "Depth worn away", field="wear"),
+    "plastic_depth": Variable(ON_BODY, "m", "Permanent displacement", field="plastic"),
     "track_x": Variable(("track_x",), "m", "Position along the track"),
-    TRACK: Variable(ON_TRACK, "m", "Depth worn away along the whole track"),
-    TRACK_PLASTIC: Variable(ON_TRACK, "m", "Permanent displacement along the whole track"),
+    TRACK: Variable(ON_TRACK, "m", "Depth worn away along the whole track", field="wear"),
+    TRACK_PLASTIC: Variable(
+        ON_TRACK, "m", "Permanent displacement along the whole track", field="plastic"
+    ),
 } | {
     prefix + column.name: Variable(dims, column.unit, column.description)
     for prefix, dims, columns in (

@@ -17,6 +17,7 @@ from tribo.result.layout import (
     EFFECT,
     FIXED,
     HISTORY,
+    ON_BODY,
     ON_TRACK,
     ON_WINDOW,
     SAVED,
@@ -108,33 +109,29 @@ def step_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
 
 def save_row(snapshot: Snapshot, table: Mapping[str, Variable]) -> Rows:
     """Return the row of a save."""
-    state, shape = snapshot.state, snapshot.state.contact.pressure.shape
+    state = snapshot.state
     row: Rows = {**_scalars(snapshot), "pressure": state.contact.pressure}
     row |= _of_models(snapshot, table, SAVED)
-    wear = {name: body.wear for name, body in state.bodies.items()}
-    plastic = {name: body.plastic for name, body in state.bodies.items()}
-    own = {"wear_depth": wear, "plastic_depth": plastic, TRACK: wear, TRACK_PLASTIC: plastic}
     for name, variable in table.items():
-        if variable.kind in (*SAVED, *STEPPED):
-            continue
         if variable.kind == BETWEEN:
             kept = state.between[variable.field]
             row[name] = kept if variable.dims == ON_WINDOW else float(kept[0, 0])
-            continue
-        if variable.kind == EFFECT:
-            # An effect that has failed leaves none.
-            of_bodies = dict(snapshot.effects.get(variable.field, {}))
-        elif variable.kind:
-            of_bodies = {n: state.remembered(n, variable.field) for n in variable.bodies}
-        elif name in own:
-            of_bodies = own[name]
-        else:
-            continue
-        on_track = variable.dims == ON_TRACK
-        row[name] = (
-            _on_track(state, of_bodies) if on_track else _stacked(shape, of_bodies, state.bodies)
-        )
+        elif variable.dims == ON_BODY:
+            row[name] = _on_window(state, _on_bodies(snapshot, variable))
+        elif variable.dims == ON_TRACK:
+            row[name] = _on_track(state, _on_bodies(snapshot, variable))
     return row
+
+
+def _on_bodies(snapshot: Snapshot, variable: Variable) -> Mapping[str, Array]:
+    """Return a field of bodies, by body, each on its own surface."""
+    state, field = snapshot.state, variable.field
+    if variable.kind == EFFECT:
+        # An effect that has failed leaves none.
+        return snapshot.effects.get(field, {})
+    if variable.kind:
+        return {name: state.remembered(name, field) for name in variable.bodies}
+    return {name: getattr(body, field) for name, body in state.bodies.items()}
 
 
 def part_of(rows: Iterable[Rows]) -> Rows:
@@ -149,11 +146,10 @@ def part_of(rows: Iterable[Rows]) -> Rows:
     }
 
 
-def _stacked(
-    shape: tuple[int, ...], of_bodies: Mapping[str, Array], bodies: Iterable[str]
-) -> Array:
-    missing = np.full((1, 1), np.nan)
-    fields = (middle_rows(of_bodies.get(name, missing), shape[0]) for name in bodies)
+def _on_window(state: State, of_bodies: Mapping[str, Array]) -> Array:
+    """Return fields in the window, NaN for bodies that have none."""
+    shape, missing = state.contact.pressure.shape, np.full((1, 1), np.nan)
+    fields = (middle_rows(of_bodies.get(name, missing), shape[0]) for name in state.bodies)
     return np.stack([np.broadcast_to(field, shape) for field in fields])
 
 
