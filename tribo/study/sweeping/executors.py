@@ -34,7 +34,8 @@ THREADS = (
 @contextmanager
 def processes(count: int | None = None) -> Iterator[Executor]:
     """Run calls in single-threaded processes, by default one per core; they end with this one."""
-    with _environment(), _Processes(count or _cores()) as executor:
+    cores = len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count()
+    with _environment(), _Processes(count or cores or 1) as executor:
         yield executor
 
 
@@ -65,12 +66,6 @@ class _Processes(ThreadPoolExecutor):
         except BrokenProcessPool:
             self._mine.pool = None
             raise
-
-
-def _cores() -> int:
-    if sys.platform == "linux":
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 @contextmanager
