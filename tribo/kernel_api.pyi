@@ -31,6 +31,7 @@ from tribo.core.data_table import TableRow as TableRow
 from tribo.core.errors import OutOfWindow as OutOfWindow
 from tribo.core.errors import about as about
 from tribo.core.errors import located as located
+from tribo.core.errors import unknown_body as unknown_body
 from tribo.core.explain import case_error as case_error
 from tribo.core.fields import PLACE_X as PLACE_X
 from tribo.core.fields import PLACE_Y as PLACE_Y
@@ -146,7 +147,6 @@ from tribo.study.sweeping.summary import labelled as labelled
 from tribo.study.sweeping.summary import runs_table as runs_table
 from tribo.study.sweeping.summary import sweep_pictures as sweep_pictures
 from tribo.study.sweeping.summary import varied_paths as varied_paths
-from tribo.study.variation import unknown_body as unknown_body
 from tribo.study.variation import valid_case as valid_case
 from tribo.wear.modified import times as times
 

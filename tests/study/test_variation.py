@@ -78,7 +78,10 @@ def test_values_alone_are_the_labels_where_the_paths_are_the_same():
         (["load.normal=['1 N,2 N']"], "with load.normal=1 N,2 N: load.normal: '1 N,2 N': "),
         (["load.normal=1 N,2 Pa"], "with load.normal=2 Pa: load.normal: '2 Pa'"),
         # It is only when the parts are joined that this one is found.
-        (["kinematics.swept=disk,dsk"], "with kinematics.swept=dsk: kinematics.swept: no body"),
+        (
+            ["kinematics.swept=disk,dsk"],
+            "with kinematics.swept=dsk: kinematics.swept: there is no",
+        ),
     ],
 )
 def test_what_is_wrong_is_said_before_anything_runs(axes, message):

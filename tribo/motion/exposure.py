@@ -9,7 +9,7 @@ import numpy as np
 
 from tribo.core.arrays import Array, Cell, region
 from tribo.core.contact import WearCompliance
-from tribo.core.errors import CaseError
+from tribo.core.errors import unknown_body
 from tribo.core.grid import Grid
 
 
@@ -303,7 +303,5 @@ def one_swept_body(
     """
     name = bodies[-1] if swept is None else swept
     if name not in bodies:
-        raise CaseError(
-            f"no body is called {name!r}; the bodies are {', '.join(bodies)}", "kinematics.swept"
-        )
+        raise unknown_body(name, bodies, "kinematics.swept")
     return {b: exposure if b == name else Stationary(grid) for b in bodies}

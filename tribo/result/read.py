@@ -15,7 +15,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.column import labelled
 from tribo.core.contact import ContactSystem
-from tribo.core.errors import CaseError
+from tribo.core.errors import CaseError, unknown_body
 from tribo.core.fields import Field
 from tribo.core.findings import Finding
 from tribo.core.grid import Grid
@@ -374,9 +374,7 @@ class Result(AbstractContextManager["Result"]):
 
     def _index(self, body: str) -> int:
         if body not in self.body_names:
-            raise CaseError(
-                f"{self.name} has no body {body!r}; its bodies are {', '.join(self.body_names)}"
-            )
+            raise unknown_body(body, self.body_names, self.name)
         return self.body_names.index(body)
 
 

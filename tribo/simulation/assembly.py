@@ -14,7 +14,7 @@ from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array, readonly
 from tribo.core.coating import Coating
 from tribo.core.contact import ContactSystem
-from tribo.core.errors import CaseError, located
+from tribo.core.errors import CaseError, located, unknown_body
 from tribo.core.fields import LOCAL_SLIP, PLACE_X
 from tribo.core.grid import Grid, RepeatingGrid
 from tribo.core.loads import Loads
@@ -278,7 +278,4 @@ def _check_ends(model: Model) -> None:
         )
     stop = model.case.stop
     if stop.body is not None and stop.body not in model.case.bodies:
-        raise CaseError(
-            f"no body is called {stop.body!r}; the bodies are " + ", ".join(model.case.bodies),
-            "stop.body",
-        )
+        raise unknown_body(stop.body, model.case.bodies, "stop.body")

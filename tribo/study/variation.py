@@ -10,7 +10,6 @@ from tribo.case import Case
 from tribo.config.load import validate_case
 from tribo.config.overrides import apply_settings, parse_value, path_keys
 from tribo.core.errors import CaseError, about, located
-from tribo.core.words import did_you_mean, suggestion
 from tribo.simulation.run import Simulation
 
 Point = dict[str, Any]
@@ -75,12 +74,6 @@ def valid_case(data: Mapping[str, Any], point: Point) -> Case:
     case = validate_case(apply_settings(data, point))
     Simulation(case)
     return case
-
-
-def unknown_body(name: str, bodies: Iterable[str], path: str) -> CaseError:
-    """Return the error of a body that a case does not have."""
-    meant = suggestion(did_you_mean(name, bodies))
-    return CaseError(f"there is no body {name!r}{meant} The bodies are {', '.join(bodies)}", path)
 
 
 def short_labels(points: Sequence[Point]) -> list[str]:
