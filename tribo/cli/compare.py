@@ -100,5 +100,5 @@ def print_comparison(comparison: Comparison, times: Sequence[float]) -> None:
     indices = range(1, len(labels) + 1)
     for start in indices[::BESIDE]:
         console.table(table, (0, *indices[start - 1 : start - 1 + BESIDE]))
-    for note in comparison.notes:
-        console.print(f"[yellow]Note:[/] {escape(note)}")
+    for each in comparison.findings:
+        console.print(f"[yellow]Note:[/] {escape(each.words)}")

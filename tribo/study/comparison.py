@@ -140,11 +140,6 @@ class Comparison:
         return list(dict.fromkeys(path for point in self.settings.values() for path in point))
 
     @property
-    def notes(self) -> list[str]:
-        """The findings in words."""
-        return [each.words for each in self.findings]
-
-    @property
     def findings(self) -> list[Finding]:
         """Findings on other grids, and findings of the runs."""
         first = self.results[self.reference]

@@ -47,7 +47,7 @@ def comparison_page(comparison: Comparison) -> str:
         tables_title="Side by side",
         tables=[replace(table, title="At the first and the last common save")],
         remarks=[*([f"Varied: {', '.join(varied)}."] if varied else []), _how_compared(comparison)],
-        notes=comparison.notes,
+        notes=[each.words for each in comparison.findings],
         has_moments=True,
         curves_title="History",
         stills=stills(
