@@ -7,6 +7,7 @@ import sys
 import time
 from typing import Any
 
+from pydantic import PrivateAttr
 from rich.console import Console
 from rich.progress import BarColumn, TaskID, TextColumn, TimeRemainingColumn
 from rich.progress import Progress as Bar
@@ -51,10 +52,10 @@ class Progress(Observer):
 
     type = "progress"
 
-    _bar: Bar | None = None
-    _task: TaskID = TaskID(0)
-    _run: RunInfo | None = None
-    _begun: float = 0.0
+    _bar: Bar = PrivateAttr()
+    _task: TaskID = PrivateAttr()
+    _run: RunInfo = PrivateAttr()
+    _begun: float = PrivateAttr()
 
     def on_start(self, run: RunInfo) -> None:
         """Start the clock."""
@@ -67,8 +68,6 @@ class Progress(Observer):
 
     def on_step(self, snapshot: Snapshot) -> None:
         """Renew the line."""
-        assert self._run is not None
-        assert self._bar is not None
         if self._bar.disable or time.monotonic() - self._begun < QUIET:
             return
         m = snapshot.measures
@@ -83,8 +82,6 @@ class Progress(Observer):
 
     def on_save(self, snapshot: Snapshot) -> None:
         """Print a plain line where there is no terminal."""
-        assert self._run is not None
-        assert self._bar is not None
         if self._bar.disable and time.monotonic() - self._begun > QUIET:
             print(
                 f"{snapshot.measures.time:g} s of {self._run.end_time:g} s, "
@@ -94,12 +91,11 @@ class Progress(Observer):
 
     def on_finish(self, snapshot: Snapshot | None, reason: str) -> None:
         """Take the line away."""
-        if self._bar is not None and self._bar.live.is_started:
+        if self._bar.live.is_started:
             self._bar.stop()
 
     def _part(self, snapshot: Snapshot) -> float:
         """Return the part of the work that is done, from the distance alone: it never goes back."""
-        assert self._run is not None
         part = min(1.0, snapshot.measures.distance / self._run.end_distance)
         stepping = self._run.case.get("stepping")
         explicit = isinstance(stepping, dict) and stepping.get("type") == "explicit"
