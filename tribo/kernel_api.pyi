@@ -68,8 +68,8 @@ from tribo.evolution.states import own as own
 from tribo.evolution.states import place as place
 from tribo.guards.parts import GuardedEffect as GuardedEffect
 from tribo.guards.parts import GuardedLaw as GuardedLaw
-from tribo.integration.division import Division as Division
 from tribo.integration.integrator import Part as Part
+from tribo.integration.integrator import Share as Share
 from tribo.integration.integrator import retraced as retraced
 from tribo.integration.integrator import transposed as transposed
 from tribo.integration.kept import Kept as Kept

@@ -15,7 +15,8 @@ from tribo.core.fields import WORN_DEPTH, Field, WearRate
 from tribo.evolution.interval import Interval
 from tribo.evolution.rates import CycleRates, friction_of, rates_at_each, wear_rates
 from tribo.evolution.states import Memory, laid, place
-from tribo.integration.division import Division, integrated
+from tribo.integration.division import WHOLE, integrated
+from tribo.integration.integrator import Share
 from tribo.integration.kept import Kept, Sum, Values
 
 if TYPE_CHECKING:
@@ -38,8 +39,8 @@ class Course:
         Mean rates over it, by position and body; without slopes where there are states.
     memory : Memory
         The states at its end.
-    plan : Division
-        Its division for accurate states.
+    plan : sequence of Share
+        The parts it was divided into for accurate states.
     friction_work : float or None
         Work of friction, in J, where it differs from point to point and there are states.
     passed : Mapping[str, Mapping[int, float]]
@@ -49,7 +50,7 @@ class Course:
     contacts: Sequence[ContactSolution]
     rates: CycleRates
     memory: Memory
-    plan: Division = field(default_factory=Division)
+    plan: Sequence[Share] = WHOLE
     friction_work: float | None = None
     passed: Mapping[str, Mapping[int, float]] = field(default_factory=dict)
 
@@ -59,14 +60,15 @@ def course(
     before: Memory,
     contacts: Sequence[ContactSolution],
     interval: Interval,
-    plan: Division | None = None,
+    plan: Sequence[Share] = WHOLE,
     *,
+    adapts: bool = True,
     asked: float = 1.0,
 ) -> Course:
     """Return the mean rates over an interval and the states at its end, from the states before it.
 
-    It is divided as in `plan`, or finer. Without states the rates are constant: the rates at the
-    part `asked` of the interval.
+    It is divided as in `plan`, or finer if it `adapts`. Without states the rates are constant: the
+    rates at the part `asked` of the interval.
     """
     if not before.values:
         return Course(contacts, wear_rates(model, contacts, before, interval.at(asked)), before)
@@ -79,7 +81,7 @@ def course(
     if model.laws.friction_by_point:
         sums.append(Sum())
     kept = kept_in(model, before)
-    found = integrated(rates, before.values, interval.length, kept, sums, plan)
+    found = integrated(rates, before.values, interval.length, kept, sums, plan, adapts=adapts)
     each = iter(found.sums)
     mean = [
         {name: WearRate(np.maximum(next(each), 0.0) / interval.length) for name in model.laws.wear}
@@ -106,23 +108,6 @@ def varying_work(
     return float(integrated(rates, [], interval.length, [], [Sum()]).sums[0])
 
 
-def in_stripes(
-    contacts: Sequence[ContactSolution],
-) -> tuple[list[ContactSolution], list[Array]]:
-    """Return contacts with pressures varied up and down from row to row, and the changes, in Pa.
-
-    It is the mode that grows first, under the same load.
-    """
-    stripes = [NUDGE * contact.pressure for contact in contacts]
-    for stripe in stripes:
-        stripe[:, ::2] *= -1
-    nudged = [
-        replace(contact, pressure=readonly(contact.pressure + stripe))
-        for contact, stripe in zip(contacts, stripes, strict=True)
-    ]
-    return nudged, stripes
-
-
 def sloped(model: Model, before: Memory, interval: Interval, known: Course) -> CycleRates:
     """Return the mean rates of a course with their total slopes in pressure.
 
@@ -130,8 +115,15 @@ def sloped(model: Model, before: Memory, interval: Interval, known: Course) -> C
     """
     if not before.values:
         return known.rates
-    nudged, stripes = in_stripes(known.contacts)
-    other = course(model, before, nudged, interval, replace(known.plan, accuracy=np.inf))
+    # The pressure varies up and down from row to row: the mode that grows first, at the same load.
+    stripes = [NUDGE * contact.pressure for contact in known.contacts]
+    for stripe in stripes:
+        stripe[:, ::2] *= -1
+    nudged = [
+        replace(contact, pressure=readonly(contact.pressure + stripe))
+        for contact, stripe in zip(known.contacts, stripes, strict=True)
+    ]
+    other = course(model, before, nudged, interval, known.plan, adapts=False)
     laws = wear_rates(model, known.contacts, known.memory, interval.end)
     sloped = [dict(rates) for rates in known.rates]
     for at, rates, higher, law, stripe in zip(

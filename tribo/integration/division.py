@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,27 +22,13 @@ JUMP = 0.1
 """Relative difference from a smooth rate at which a rate is taken to jump."""
 FADED = 0.01
 """Part of the largest value of a state, below which its error is relative to that part."""
-
-
-@dataclass(frozen=True)
-class Division:
-    """How an increment is divided to be accurate.
-
-    Parameters
-    ----------
-    parts : tuple of Share
-        Parts of it, whose sizes add up to 1.
-    accuracy : float
-        Of the integration; infinite to take the parts as they are.
-    """
-
-    parts: tuple[Share, ...] = (Share(1.0),)
-    accuracy: float = ACCURACY
+WHOLE = (Share(1.0),)
+"""An increment in one part."""
 
 
 @dataclass(frozen=True)
 class Integral:
-    """States at the end of an increment, the sums over it, and its division.
+    """States at the end of an increment, the sums over it, and the parts it was solved in.
 
     `passed` has by state and break, both by number, the first share of the increment at which a
     point rises to the break.
@@ -50,7 +36,7 @@ class Integral:
 
     values: Values
     sums: Values
-    plan: Division
+    plan: Sequence[Share]
     passed: Mapping[tuple[int, int], float]
 
 
@@ -60,7 +46,9 @@ def integrated(
     length: float,
     kept: Sequence[Kept],
     sums: Sequence[Sum] = (),
-    plan: Division | None = None,
+    plan: Sequence[Share] = WHOLE,
+    *,
+    adapts: bool = True,
 ) -> Integral:
     """Integrate states and sums over an increment.
 
@@ -83,9 +71,11 @@ def integrated(
         One for each state; trial values are clipped to its limits.
     sums : sequence of Sum, optional
         One for each sum.
-    plan : Division, optional
-        Parts to begin with; they are divided, but never joined, so that the answer follows
-        smoothly from the rates.
+    plan : sequence of Share, optional
+        Parts to begin with, whose sizes add up to 1.
+    adapts : bool, optional
+        Whether parts are divided to be accurate. They are never joined; if they are taken as they
+        are, the answer follows smoothly from the rates.
 
     Raises
     ------
@@ -101,12 +91,11 @@ def integrated(
     Solving Ordinary Differential Equations II, section IV.9. Hochbruck, M., Ostermann, A. (2010),
     Exponential integrators, Acta Numerica 19, 209-286.
     """
-    plan = plan or Division()
-    adapts, count = math.isfinite(plan.accuracy), len(start)
+    count, accuracy = len(start), ACCURACY if adapts else math.inf
     first = rates(start, 0.0)
     values = [*start, *(np.zeros_like(rate) for rate in first[count:])]
     peaks, passed, breaks = [*map(np.abs, values)], 0.0, dict[tuple[int, int], float]()
-    waiting, done = list(plan.parts), list[Share]()
+    waiting, done = list(plan), list[Share]()
     while waiting:
         share, part = waiting[0], waiting[0].size
 
@@ -131,14 +120,14 @@ def integrated(
                 ]
                 errors = [apart(*each) for each in zip(taken.end, taken.rough, strict=True)]
                 off = max(map(part_of, errors, sizes), default=0.0)
-            if off > plan.accuracy or left:
+            if off > accuracy or left:
                 continue
             if adapts or len(waiting) > 1:
                 last = along(held, 1.0)
             if adapts:
                 errors = _errors(taken, sums, along, last, part * length)
                 off = max(map(part_of, errors, sizes), default=0.0)
-            if off <= plan.accuracy:
+            if off <= accuracy:
                 # Later parts pass later.
                 later = {at: passed + when * part for at, when in taken.passed().items()}
                 breaks, values, peaks = {**later, **breaks}, held + end[count:], largest
@@ -162,7 +151,7 @@ def integrated(
                     f"states ({names}) change too often to be integrated over {length:g} (m, or s "
                     "of a rest): shorten the steps, or declare the breaks where rates jump"
                 )
-    return Integral(values[:count], values[count:], replace(plan, parts=tuple(done)), breaks)
+    return Integral(values[:count], values[count:], done, breaks)
 
 
 def _errors(

@@ -11,7 +11,7 @@ from tribo.core.contact import ContactSolution
 if TYPE_CHECKING:
     from tribo.evolution.interval import Interval
     from tribo.evolution.states import Memory
-    from tribo.integration.division import Division
+    from tribo.integration.integrator import Share
 
 
 class Listener:
@@ -22,7 +22,7 @@ class Listener:
         contacts: Sequence[ContactSolution],
         interval: Interval,
         before: Memory,
-        plan: Division,
+        plan: Sequence[Share],
         *,
         ahead: bool = False,
     ) -> None:

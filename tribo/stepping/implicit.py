@@ -192,8 +192,7 @@ class Implicit(Scheme):
             implied = beyond + depths(wear, contacts, dx)
             solved, passes = counted(solved, contacts), passes + 1
             # Later passes change the contacts little.
-            plan = slid.plan if passes == 1 else replace(slid.plan, accuracy=np.inf)
-            slid = slide(contacts=contacts, plan=plan)
+            slid = slide(contacts=contacts, plan=slid.plan, adapts=passes == 1)
             worn = worn_depths(model, slid.rates, increment)
             opened, deepest = _opened(model, height, slid, worn)
             off = np.abs(opened - implied)

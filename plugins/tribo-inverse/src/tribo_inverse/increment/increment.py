@@ -181,7 +181,7 @@ class Increment:
 
         first, before = known(increment.start), increment.slid.before.values
         if increment.along:
-            limits, sums, parts = increment.limits, increment.sums, increment.slid.plan.parts
+            limits, sums, parts = increment.limits, increment.sums, increment.slid.plan
             done = retraced(rates, before, first, length, limits, sums, parts)
         else:
             spans = dict.fromkeys(increment.model.laws.wear, length)

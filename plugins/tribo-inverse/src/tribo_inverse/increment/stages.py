@@ -127,7 +127,7 @@ class Stages:
 
     def part_after(self, passed: float) -> float:
         """Return the length (m) of the part of the increment around the share `passed`."""
-        shares = [share.size for share in self.slid.plan.parts]
+        shares = [share.size for share in self.slid.plan]
         at = np.searchsorted(np.cumsum(shares), passed, side="right")
         return self.slid.interval.length * shares[min(int(at), len(shares) - 1)]
 

@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 from tribo import Array, CaseError, ContactSolution, Region, State
 from tribo.kernel_api import (
-    Division,
     Interval,
     Listener,
     Memory,
     Model,
+    Share,
     begin,
     bounds,
     march,
@@ -28,13 +28,13 @@ from tribo.kernel_api import (
 class Slid:
     """The interval that a step slid or rested.
 
-    `before` has the states of laws and effects, and `plan` the division of the step, to be used
-    again; `ahead` is whether it wore under contacts solved before it.
+    `before` has the states of laws and effects, and `plan` the parts of the step, to be used again;
+    `ahead` is whether it wore under contacts solved before it.
     """
 
     interval: Interval
     before: Memory
-    plan: Division
+    plan: Sequence[Share]
     ahead: bool
 
 
@@ -170,13 +170,13 @@ class _Heard(Listener):
         contacts: Sequence[ContactSolution],
         interval: Interval,
         before: Memory,
-        plan: Division,
+        plan: Sequence[Share],
         *,
         ahead: bool = False,
     ) -> None:
         laws = {name: before.laws[name] for name in self._model.laws.wear}
         kept = Memory(laws, before.between if self._model.laws.effects else {})
-        self._press(contacts, Slid(interval, kept, replace(plan, accuracy=np.inf), ahead))
+        self._press(contacts, Slid(interval, kept, plan, ahead))
 
     def solved(self, contacts: Sequence[ContactSolution]) -> None:
         self._press(contacts)
