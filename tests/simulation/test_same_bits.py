@@ -91,7 +91,7 @@ def _words():
 
 
 def test_enough_is_compared(first):
-    assert {"pressure", "wear_depth", "history_chattering", "case"} <= set(first)
+    assert {"pressure", "wear_depth", "history_regrowth", "case"} <= set(first)
     assert len(first) > 40
 
 

@@ -9,13 +9,12 @@ from paper_models import K, archard, flat, last, named, small, sphere, states, s
 from tribo import Result, Simulation
 from tribo.contact.dcfft import DcFft
 from tribo.contact.periodic import Periodic
-from tribo.core.errors import NumericalError
+from tribo.core.errors import CaseError, NumericalError
 from tribo.core.grid import Grid
 from tribo.core.rounding import SAME
 from tribo.result.summary import worst
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
-from tribo.stepping.invariants import CHATTERING, handed_back
 from tribo.surfaces.surface import Surface
 
 
@@ -42,19 +41,6 @@ def time_step(factor):
     return factor * 2 * 0.58069 * model.grid.spacing[0] / (K * model.contact.system.modulus) / 0.1
 
 
-def test_half_of_a_chequerboard_is_handed_back():
-    # From p ± p to p ∓ p and back: half of the load changes places, twice.
-    board = (-1.0) ** np.add.outer(np.arange(6), np.arange(8))
-    assert handed_back(1 + board, 1 - board, 1 + board) == 1.0
-    assert handed_back(1 + 0.1 * board, 1 - 0.1 * board, 1 + 0.1 * board) == pytest.approx(0.1)
-
-
-def test_what_only_grows_or_fades_is_not_handed_back():
-    p = np.random.default_rng(1).random((6, 8))
-    q = np.random.default_rng(2).random((6, 8))
-    assert handed_back(p, 0.7 * p + 0.3 * q, 0.2 * p + 0.8 * q) == pytest.approx(0, abs=1e-15)
-
-
 @pytest.mark.parametrize(
     "changes",
     [
@@ -72,16 +58,15 @@ def test_nothing_is_held_against_a_sound_run(changes):
     assert len(held) > 5
     assert max(each.regrowth for each in held) == 0
     assert max(each.volume for each in held) < 1e-3 * SAME
-    assert max(each.chattering for each in held) < 0.6 * CHATTERING
 
 
-def test_chattering_stops_a_run_whose_solver_overstates_its_stability():
-    class Overstates(DcFft):
+def test_explicit_steps_need_a_solver_that_states_its_stability():
+    class Silent(DcFft):
         def smallest_compliance(self, system):
-            return 1.0
+            return None
 
-    model = one_body(contact=Overstates(), stepping=Explicit(time_step=time_step(1.5)))
-    with pytest.raises(NumericalError, match=r"^step \d+, at .* s .*pressure chatters, by .*'im"):
+    model = one_body(contact=Silent(), stepping=Explicit(time_step=time_step(0.5)))
+    with pytest.raises(CaseError, match=r"smallest compliance.*implicit"):
         last(model)
 
 
@@ -89,7 +74,7 @@ def test_chattering_stops_a_run_whose_solver_overstates_its_stability():
     ("exposure", "words"),
     [
         (lambda e: setattr(e, "volume", lambda depth: 0.99 * type(e).volume(e, depth)), "0.01"),
-        (lambda e: setattr(e, "volume", lambda depth: np.nan), "wear depth is not finite"),
+        (lambda e: setattr(e, "volume", lambda depth: np.nan), "nan of it"),
         (
             lambda e: setattr(e, "average", lambda rate: rate - 0.01 * rate.max()),
             "grows back by",

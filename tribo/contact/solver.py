@@ -130,7 +130,7 @@ class ContactSolver(Component):
     def smallest_compliance(self, system: ContactSystem) -> float | None:
         """Return the smallest eigenvalue of K, in m/Pa, or None when unknown.
 
-        It limits explicit steps: Δs · d(rate)/dp < 2 · smallest compliance.
+        Explicit steps need it: Δs · d(rate)/dp < 2 · smallest compliance.
         """
         return None
 

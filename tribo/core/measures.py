@@ -44,18 +44,15 @@ class Invariants:
         relative to the latter; the worst body's.
     regrowth : float
         Depth by which a point has grown back, in m.
-    chattering : float
-        Share of the load that the step hands back to the cells from which the step before took it.
 
     Examples
     --------
-    >>> tribo.Invariants(chattering=0.6).chattering > 0.5  # a run stops
+    >>> tribo.Invariants(regrowth=1e-9).regrowth > 0  # a run stops
     True
     """
 
     volume: float = 0.0
     regrowth: float = 0.0
-    chattering: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -81,7 +81,7 @@ class State:
     invariants : Invariants
         Their errors in the step that led here.
     previous : tuple of ndarray, shape (nx, ny)
-        Pressure at each position a step ago, in Pa, to detect chattering and to start the next
+        Pressure at each position a step ago, in Pa, to start the next
         solve; empty before the first.
     speed : float
         Mean sliding speed of the last step, in m/s, 0 at rest; at first the speed of the motion

@@ -178,7 +178,7 @@ def run_sentences(result: Result) -> Iterator[str]:
     yield (
         f"At worst: load off by {off['force_error']:.0e}, worn volume by "
         f"{off['volume_error']:.0e}, gap under pressure {off['complementarity_error']:.0e}, "
-        f"overlap {off['penetration_error']:.0e}, chattering {off['chattering']:.0e}."
+        f"overlap {off['penetration_error']:.0e}."
     )
 
 

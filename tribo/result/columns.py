@@ -40,12 +40,6 @@ INVARIANTS = (
         "invariants.volume",
     ),
     _measured("regrowth", "m", "Depth that grew back in the step", "invariants.regrowth"),
-    _measured(
-        "chattering",
-        "1",
-        "Share of the load that moves back and forth between steps",
-        "invariants.chattering",
-    ),
 )
 """Errors of the invariants of a run."""
 

@@ -131,12 +131,17 @@ def largest_stable_increment(model: Model, state: State, moment: Moment) -> floa
 
     Δs λ < 2, with λ bounded from above by the largest derivative of the wear
     rate (local, plus the derivative of a swept body times the part of the track
-    in contact) over the smallest compliance. Infinity where nothing wears, or
-    where the contact solver does not state its smallest compliance.
+    in contact) over the smallest compliance. Infinity where nothing wears.
+    `CaseError` where the contact solver does not state its smallest compliance.
     """
-    smallest = model.contact.solver.smallest_compliance(model.contact.system)
+    solver = model.contact.solver
+    smallest = solver.smallest_compliance(model.contact.system)
     if smallest is None:
-        return np.inf
+        raise CaseError(
+            f"{solver} states no smallest compliance, so that no explicit step is known to be "
+            "stable; use stepping.type = 'implicit'",
+            "stepping.type",
+        )
     rates = rated(model, state, moment).rates
     slope = max(map(partial(_steepest, model), rates, state.contacts))
     return 2 * smallest / slope if slope > 0 else np.inf

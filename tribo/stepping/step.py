@@ -22,12 +22,14 @@ from tribo.evolution.rates import CycleRates
 from tribo.evolution.states import own, remembered
 from tribo.evolution.yielding import caps
 from tribo.stepping.contacts import solved_anew
-from tribo.stepping.invariants import ONE_LOAD, wear_balance
+from tribo.stepping.invariants import wear_balance
 from tribo.stepping.plastic_groove import settled, yielded, yields
 
 if TYPE_CHECKING:
     from tribo.model.model import Model
 
+ONE_LOAD = 1e-3
+"""Relative change of the load above which the load, not the wear, moves the pressure."""
 SMALLEST = 1e-12
 """Shortest step over the distance until the next stop: rounding dominates shorter steps."""
 
