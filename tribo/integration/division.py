@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,7 +22,7 @@ JUMP = 0.1
 """Relative difference from a smooth rate at which a rate is taken to jump."""
 FADED = 0.01
 """Part of the largest value of a state, below which its error is relative to that part."""
-WHOLE = (Share(1.0),)
+WHOLE = (Share(),)
 """An increment in one part."""
 
 
@@ -94,19 +94,16 @@ def integrated(
     count, accuracy = len(start), ACCURACY if adapts else math.inf
     first = rates(start, 0.0)
     values = [*start, *(np.zeros_like(rate) for rate in first[count:])]
-    peaks, passed, breaks = [*map(np.abs, values)], 0.0, dict[tuple[int, int], float]()
+    peaks, breaks = [*map(np.abs, values)], dict[tuple[int, int], float]()
     waiting, done = list(plan), list[Share]()
+
+    def along(states: Sequence[Array], passed: float) -> Values:
+        held = [of.hold(state) for state, of in zip(states, kept, strict=True)]
+        return rates(held, passed)
+
     while waiting:
-        share, part = waiting[0], waiting[0].size
-
-        def along(
-            states: Sequence[Array], at: float, passed: float = passed, part: float = part
-        ) -> Values:
-            held = [of.hold(state) for state, of in zip(states, kept, strict=True)]
-            return rates(held, passed + at * part)
-
-        begun = [0.0] * count + values[count:]
-        for taken in solutions(along, values[:count], first, part * length, kept, sums, share):
+        share, begun = waiting[0], [0.0] * count + values[count:]
+        for taken in solutions(along, values[:count], first, length, kept, sums, share):
             end = [old + new for old, new in zip(begun, taken.end, strict=True)]
             largest = [*map(np.maximum, peaks, map(np.abs, end))]
             beyond = [*map(_beyond, end, largest, kept)]
@@ -123,22 +120,23 @@ def integrated(
             if off > accuracy or left:
                 continue
             if adapts or len(waiting) > 1:
-                last = along(held, 1.0)
+                last = along(held, share.at(1.0))
             if adapts:
-                errors = _errors(taken, sums, along, last, part * length)
+                errors = _errors(taken, share, length, sums, along, last)
                 off = max(map(part_of, errors, sizes), default=0.0)
             if off <= accuracy:
                 # Later parts pass later.
-                later = {at: passed + when * part for at, when in taken.passed().items()}
+                later = {at: share.at(when) for at, when in taken.passed().items()}
                 breaks, values, peaks = {**later, **breaks}, held + end[count:], largest
-                first, passed = last, passed + part
+                first = last
                 waiting.pop(0)
                 relaxes = [np.ndim(slope) > 0 for slope in taken.relaxing]
-                done.append(Share(part, len(taken.rows), relaxes))
+                done.append(replace(share, rows=len(taken.rows), relaxes=relaxes))
                 break
         else:
             if len(waiting) + len(done) < MOST_PARTS:
-                waiting[:1] = [Share(0.5 * part)] * 2
+                half = 0.5 * share.size
+                waiting[:1] = [Share(share.start, half), Share(share.start + half, half)]
             elif left:
                 of = kept[int(np.argmax(beyond))]
                 raise PluginError(
@@ -155,7 +153,7 @@ def integrated(
 
 
 def _errors(
-    part: Part, sums: Sequence[Sum], rates: Rates, last: Values, span: float
+    part: Part, share: Share, length: float, sums: Sequence[Sum], rates: Rates, last: Values
 ) -> list[float]:
     """Return the error of states and sums after a part, summed over the cells.
 
@@ -174,7 +172,7 @@ def _errors(
             begun, stopped = stopped, piece.stopped(part.kept)
             if not passes:
                 continue
-            found = rates(piece.nearly(part.kept, part.relaxing), taken / len(row))
+            found = rates(piece.nearly(part.kept, part.relaxing), share.at(taken / len(row)))
             for at, of in enumerate(every):
                 if of.place in passing:
                     lasts = of.span(piece.spans, 0.0)
@@ -190,7 +188,7 @@ def _errors(
             errors[at] = apart(part.ends[-1][at], part.ends[0][at])
         if of.place not in passing:
             samples = np.array([*(step[0].rates[at] for step in row), last[at]])
-            errors[at] = max(errors[at], span * _jump(samples))
+            errors[at] = max(errors[at], share.size * length * _jump(samples))
     return errors
 
 

@@ -28,17 +28,22 @@ class Share:
 
     Parameters
     ----------
-    size : float
-        Its length over the length of the increment.
+    start, size : float
+        Where it begins, and its length, over the length of the increment.
     rows : int
         The least rows of its extrapolation.
     relaxes : sequence of bool, optional
         Whether the rate of each state may fall with the state; if left out, any may.
     """
 
-    size: float
+    start: float = 0.0
+    size: float = 1.0
     rows: int = 2
     relaxes: Sequence[bool] | None = None
+
+    def at(self, part: float) -> float:
+        """Return the share of the increment that has passed after a part of it."""
+        return self.start + part * self.size
 
 
 @dataclass(frozen=True)
@@ -120,17 +125,18 @@ def solutions(
 ) -> Iterator[Part]:
     """Yield a part of an increment, solved from its first rates on, with ever more rows.
 
-    Rates are evaluated at states that may exceed their limits.
+    Rates are evaluated at states that may exceed their limits, and at shares of the increment.
     """
-    slopes, turned = relaxation(rates, start, first, length, kept, share.relaxes)
+    span = share.size * length
+    slopes, turned = relaxation(rates, start, first, span, kept, share)
     rows, ends = list[Row](), list[Values]()
     for steps in range(1, MOST_ROWS + 1):
-        step, row, states = length / steps, list[list[Stretch]](), list(start)
+        step, row, states = span / steps, list[list[Stretch]](), list(start)
         totals = [np.zeros_like(rate) for rate in first[len(start) :]]
         for taken in range(steps):
 
-            def along(values: Sequence[Array], share: float = taken / steps) -> Values:
-                return rates(values, share)
+            def along(values: Sequence[Array], passed: float = share.at(taken / steps)) -> Values:
+                return rates(values, passed)
 
             found = along(states) if taken else first
             states, more, pieces = stepped(along, states, found, step, slopes, kept, sums)
@@ -151,33 +157,14 @@ def retraced(
     sums: Sequence[Sum],
     shares: Sequence[Share],
 ) -> list[Part]:
-    """Return the parts of an increment as it was divided, for `transposed`.
-
-    Rates are evaluated at shares of the increment.
-    """
-    passed, states, done = 0.0, list(start), list[Part]()
+    """Return the parts of an increment as it was divided, for `transposed`."""
+    states, done = list(start), list[Part]()
     for share in shares:
-
-        def along(
-            values: Sequence[Array], at: float, passed: float = passed, size: float = share.size
-        ) -> Values:
-            return rates(values, passed + at * size)
-
-        if passed:
-            first = along(states, 0.0)
-        span = share.size * length
-        done.append(next(solutions(along, states, first, span, kept, sums, share)))
-        held = zip(done[-1].end, kept, strict=False)
-        passed, states = passed + share.size, [of.hold(state) for state, of in held]
+        if done:
+            first = rates(states, share.start)
+        done.append(next(solutions(rates, states, first, length, kept, sums, share)))
+        states = [of.hold(state) for state, of in zip(done[-1].end, kept, strict=False)]
     return done
-
-
-@dataclass(frozen=True)
-class Transposed:
-    """Derivatives in the states before some parts, and by state in its breaks at each point."""
-
-    states: list[Field]
-    breaks: Mapping[int, Array]
 
 
 def transposed(
@@ -185,8 +172,8 @@ def transposed(
     states: Sequence[Field],
     sums: Sequence[tuple[Sum, Field]],
     behind: Callable[[Values, list[Field]], Sequence[Field]],
-) -> Transposed:
-    """Return derivatives before some parts, from those in states and sums after.
+) -> tuple[list[Field], Mapping[int, Array]]:
+    """Return derivatives in the states before some parts, and by state in its breaks at each point.
 
     Parameters
     ----------
@@ -246,7 +233,7 @@ def transposed(
         for stage, given in starts:
             before = _added(before, behind(stage, given))
         after = before
-    return Transposed(after, breaks)
+    return after, breaks
 
 
 def relaxation(
@@ -255,7 +242,7 @@ def relaxation(
     first: Sequence[Array],
     length: float,
     kept: Sequence[Kept],
-    relaxes: Sequence[bool] | None,
+    share: Share,
 ) -> tuple[list[Field], list[tuple[int, Values, Array]]]:
     """Return the derivative of the rate of each state in the state, where negative.
 
@@ -266,10 +253,10 @@ def relaxation(
     turned = []
     for at, (state, rate, of) in enumerate(zip(states, first, kept, strict=False)):
         largest = max(float(np.max(np.abs(state))), length * float(np.max(np.abs(rate))))
-        if largest == 0 or not (relaxes is None or relaxes[at]):
+        if largest == 0 or not (share.relaxes is None or share.relaxes[at]):
             continue
         other = of.aside(state, NUDGE * largest)
-        asked = rates([*states[:at], other, *states[at + 1 :]], 0.0)
+        asked = rates([*states[:at], other, *states[at + 1 :]], share.start)
         slope = (asked[at] - rate) / (other - state)
         if np.any(slope < 0):
             found[at] = np.minimum(slope, 0.0)

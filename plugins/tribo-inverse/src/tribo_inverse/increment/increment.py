@@ -206,10 +206,10 @@ class Increment:
             return states
 
         sums = [*zip(increment.sums, depth, strict=True)]
-        done = transposed(parts, after, sums, behind)
+        earlier, breaks = transposed(parts, after, sums, behind)
         pressure, load, square, *factors = total
         load = _summed(load) + _summed(square) * increment.pressure
-        before = increment.slid.before.with_values(map(np.asarray, done.states))
+        before = increment.slid.before.with_values(map(np.asarray, earlier))
         through = {
             name: wear[name] + of[WORN_DEPTH.name]
             for name, of in before.laws.items()
@@ -222,7 +222,7 @@ class Increment:
             replace(before, laws={name: own(of) for name, of in before.laws.items()}),
             dict(zip(increment.model.laws.wear, map(np.asarray, factors), strict=True)),
             seeded,
-            done.breaks,
+            breaks,
         )
 
 

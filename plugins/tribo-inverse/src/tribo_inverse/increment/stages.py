@@ -127,9 +127,8 @@ class Stages:
 
     def part_after(self, passed: float) -> float:
         """Return the length (m) of the part of the increment around the share `passed`."""
-        shares = [share.size for share in self.slid.plan]
-        at = np.searchsorted(np.cumsum(shares), passed, side="right")
-        return self.slid.interval.length * shares[min(int(at), len(shares) - 1)]
+        shares = [share for share in self.slid.plan if share.start <= passed]
+        return self.slid.interval.length * shares[-1].size
 
     @cached_property
     def counts(self) -> Sequence[tuple[Carrier, Array]]:
