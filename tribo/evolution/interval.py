@@ -47,19 +47,14 @@ class Interval:
         return self.slides == 0
 
     @property
-    def lasts(self) -> float:
-        """Its duration, in s."""
-        return self.end_time - self.time
-
-    @property
     def speed(self) -> float:
         """Its mean speed, in m/s."""
-        return self.slides / self.lasts
+        return self.slides / (self.end_time - self.time)
 
     @property
     def length(self) -> float:
         """Its length in the unit that rates are per: m, or s at rest."""
-        return self.lasts if self.rests else self.slides
+        return self.end_time - self.time if self.rests else self.slides
 
     @property
     def end(self) -> Moment:

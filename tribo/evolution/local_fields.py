@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from copy import copy
-from functools import reduce
-from operator import mul
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -65,13 +63,6 @@ def local_fields(
                 }
             fields |= found
     return fields
-
-
-def weighed(
-    pressure: Array, fields: Mapping[str, Mapping[str, Array]], names: Iterable[str]
-) -> Array:
-    """Return the pressure times fields that act on both bodies alike."""
-    return reduce(mul, (next(iter(fields[name].values())) for name in names), pressure)
 
 
 def conditions(

@@ -23,7 +23,7 @@ from tribo.core.fields import (
     WearRate,
 )
 from tribo.evolution.interval import Moment
-from tribo.evolution.local_fields import conditions, local_fields, weighed
+from tribo.evolution.local_fields import conditions, local_fields
 from tribo.evolution.states import Memory, under
 from tribo.motion.cycle import Speeds
 
@@ -143,7 +143,12 @@ def _mean_rates(parts: Sequence[tuple[float | Array, float | Array, Rates]]) -> 
     (part, _, first), *others = parts
     if not others and np.ndim(part) == 0 and part == 1:
         return first
-    wear = {name: _mean([(of, each.wear[name]) for of, _, each in parts]) for name in first.wear}
+    weights = [of for of, _, _ in parts]
+
+    def mean(*values: Array) -> Array:
+        return _sum(zip(weights, values, strict=True))
+
+    wear = {name: _mapped(mean, *(each.wear[name] for _, _, each in parts)) for name in first.wear}
     between = {
         key: _sum((time, each.between[key]) for _, time, each in parts) for key in first.between
     }
@@ -171,11 +176,6 @@ def _by_reach(
         for speed, share in speeds
         for node, hat in zip(nodes, hats, strict=True)
     ]
-
-
-def _mean(rates: Sequence[tuple[float | Array, WearRate]]) -> WearRate:
-    weights, each = zip(*rates, strict=True)
-    return _mapped(lambda *values: _sum(zip(weights, values, strict=True)), *each)
 
 
 def _mapped(function: Callable[..., Array], *rates: WearRate) -> WearRate:
@@ -213,7 +213,8 @@ def _rates_of(
         rates, friction = {name: rate.at(position) for name, rate in wear.items()}, None
         if model.laws.friction_by_point and FRICTION_COEFFICIENT.name in fields[position]:
             names = {FRICTION_COEFFICIENT.name, LOCAL_SLIP.name} & fields[position].keys()
-            friction = weighed(contact.pressure, fields[position], sorted(names))
+            alike = (next(iter(fields[position][name].values())) for name in sorted(names))
+            friction = reduce(np.multiply, alike, contact.pressure)
         between: Mapping[str, Array] = {}
         if memory.between:
             depths = {
