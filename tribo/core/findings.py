@@ -19,8 +19,8 @@ DEEP = 0.1
 FAST, IMPOSSIBLE = 1e-9, 1e-5
 """Specific wear rates in 1/Pa: K = kH = 0.1, the most in abrasive wear, at H = 100 MPa, and
 Archard's K ≤ 1 at 0.1 MPa."""
-COARSE, FINE = 0.05, 0.01
-"""Error of the depth by too few positions that is reported, and the error at the number advised."""
+COARSE = 0.05
+"""Error of the depth by an average over the cycle that is reported."""
 
 
 @dataclass(frozen=True)
@@ -138,19 +138,6 @@ def unlike_the_period(body: str, length: float, period: float) -> Finding:
         value=length,
         limit=period,
         place=f"bodies.{body}",
-    )
-
-
-def coarse_cycle(positions: int, apart: float, error: float, advised: int) -> Finding:
-    """Word too few positions, `apart` (m), whose depths have the relative `error`."""
-    return Finding(
-        "quadrature",
-        f"the {positions} positions of the cycle, {1e3 * apart:.3g} mm apart, "
-        f"leave the wear depth uncertain by about {100 * error:.2g} %, weighted with the load; "
-        f"raise kinematics.positions to {advised} for {100 * FINE:g} %",
-        value=error,
-        limit=COARSE,
-        place="kinematics.positions",
     )
 
 

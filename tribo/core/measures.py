@@ -87,7 +87,6 @@ class Measures:
     solver_iterations: int
     bodies: Mapping[str, BodyMeasures]
     invariants: Invariants = field(default_factory=Invariants)
-    cycle_error: float = 0.0
     friction_force: float = math.nan
     friction_energy: float = math.nan
 

@@ -28,9 +28,6 @@ class BodyState:
         (rows, ny) on a moving body of a resolved cycle.
     law : Mapping[str, ndarray]
         State fields of the body's wear law, shaped as `wear`.
-    missed : ndarray or None, optional
-        Estimate of the wear that more positions of the cycle would add to `wear`, in m, of its
-        shape; None without an estimate.
 
     Examples
     --------
@@ -42,7 +39,6 @@ class BodyState:
     wear: Array
     plastic: Array
     law: Mapping[str, Array]
-    missed: Array | None = None
 
 
 @dataclass(frozen=True)

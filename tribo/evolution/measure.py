@@ -82,24 +82,7 @@ def measure(model: Model, state: State) -> Measures:
         solver_iterations=state.solver_iterations,
         bodies=bodies,
         invariants=state.invariants,
-        cycle_error=cycle_error(model, state),
     )
-
-
-def cycle_error(model: Model, state: State) -> float:
-    """Return the estimated error of the depths due to the number of positions of the cycle.
-
-    It is the load-weighted mean over the contact, relative to the body's deepest wear, for the body
-    with the largest error; 0 where the cycle has every cell, or is not resolved.
-    """
-    worst = 0.0
-    for name, body in state.bodies.items():
-        deepest = float(np.max(body.wear))
-        if body.missed is not None and deepest > 0:
-            see, missed = model.cycle.maps[name].see, np.abs(body.missed)
-            each = [see(missed, position) for position in range(len(model.cycle))]
-            worst = max(worst, loaded_mean(model, state.contacts, each) / deepest)
-    return worst
 
 
 def loaded_mean(

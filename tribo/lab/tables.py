@@ -76,8 +76,8 @@ def wear_table(result: Result, bodies: Mapping[str, BodyReport]) -> DataTable:
 
 def doubt_of_depth(result: Result) -> str:
     """Return what to say beside a largest depth that a finding calls wrong; empty if none does."""
-    kinds = {each.kind for each in result.findings} & {"averaging", "quadrature"}
-    return f" (off: see {' and '.join(sorted(kinds))})" if kinds else ""
+    wrong = any(each.kind == "averaging" for each in result.findings)
+    return " (off: see averaging)" if wrong else ""
 
 
 def inferred_table(volumes: Sequence[InferredVolume]) -> DataTable:

@@ -11,7 +11,7 @@ import numpy as np
 from tribo.core.arrays import Array, readonly
 from tribo.core.fields import OF_MOTION
 from tribo.core.grid import Grid
-from tribo.motion.cycle import Position, missed_shares
+from tribo.motion.cycle import Position
 from tribo.motion.exposure import Exposure
 
 
@@ -81,16 +81,6 @@ class Cycle:
     def apart(self) -> float:
         """Largest distance between neighbouring positions, in m; 0 of an average."""
         return float(np.max(np.diff(self.path), initial=0)) * self.grid.spacing[0]
-
-    @cached_property
-    def missed_shares(self) -> Array | None:
-        """Shares by which rates at the positions add up to the estimated wear between them.
-
-        None where the cycle is not resolved, or into every cell.
-        """
-        if self.apart <= self.grid.spacing[0]:
-            return None
-        return missed_shares(self.path, np.array([position.share for position in self]))
 
     @cached_property
     def fields(self) -> list[dict[str, dict[str, Array]]]:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from tribo.core.arrays import Array
 
 Speeds = Sequence[tuple[float, float]]
@@ -45,24 +43,3 @@ class Position:
     reach: Array | None = None
     rest: float = 0.0
     heading: tuple[Array | float, Array | float] = (1.0, 0.0)
-
-
-def missed_shares(nodes: Array, shares: Array) -> Array:
-    """Return the shares by which values at positions add up to the error of their quadrature.
-
-    The sum is compared with the sum over every second position, by Richardson's extrapolation: for
-    smooth values, straight lines over the two gaps h and h' beside a position miss (h³ + h'³) /
-    (3 h h' (h + h')) of their difference from one line over both, a third for equal gaps.
-    Positions lie at `nodes` along the path, with `shares` of it.
-    """
-    order = np.argsort(nodes, kind="stable")
-    missed = np.zeros(len(nodes))
-    for before, at, after in zip(order[:-2:2], order[1:-1:2], order[2::2], strict=True):
-        near, far = nodes[at] - nodes[before], nodes[after] - nodes[at]
-        if near <= 0 or far <= 0:
-            continue
-        added = shares[at] * (near**3 + far**3) / (3 * near * far * (near + far))
-        missed[at] += added
-        missed[before] -= added * far / (near + far)
-        missed[after] -= added * near / (near + far)
-    return missed

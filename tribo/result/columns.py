@@ -58,11 +58,6 @@ COLUMNS = (
     _measured("plastic_area", "m^2", "Area of the cells at the hardness limit"),
     _measured("approach", "m", "Rigid approach of the bodies"),
     *INVARIANTS,
-    _measured(
-        "cycle_error",
-        "1",
-        "Estimated relative error of the wear depth, as it has so many positions",
-    ),
     _measured("contact_solves", "1", "Contact solves so far"),
     _measured("solver_iterations", "1", "Solver iterations so far"),
 )

@@ -15,7 +15,6 @@ from tribo.model.model import Model
 from tribo.simulation.beginning import first_state
 from tribo.simulation.validity import (
     check_stroke,
-    coarse_cycle,
     doubting,
     few_cells,
     hold_wear,
@@ -182,8 +181,6 @@ def _with_findings(model: Model, state: State) -> State:
 
 def _concluded(model: Model, state: State) -> State:
     """Add findings on the end; the one on averaging replaces that at the beginning."""
-    if finding := coarse_cycle(model, state):
-        state = state.with_findings(finding)
     if finding := few_cells(state.contact):
         state = state.from_here(finding)
     finding = limitation(model, state)

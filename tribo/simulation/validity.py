@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -22,7 +21,6 @@ from tribo.core.findings import Finding
 from tribo.core.measures import half_widths
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
-from tribo.evolution.measure import cycle_error
 from tribo.model.model import Model
 from tribo.motion.stroke import least_positions
 from tribo.registry.hookspecs import hookimpl
@@ -169,17 +167,6 @@ def track_average(model: Model, state: State) -> tuple[float, float, float, floa
 def is_endless(model: Model, half_width: float) -> bool:
     """Whether the contact extends into the next period along x."""
     return model.case.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - ROUND_OFF)
-
-
-def coarse_cycle(model: Model, state: State) -> Finding | None:
-    """Return a finding if the positions of the cycle are too few for depths within 5 %."""
-    error = cycle_error(model, state)
-    if error <= findings.COARSE:
-        return None
-    # The error goes with the square of the spacing.
-    gaps = (len(model.cycle) - 1) * math.sqrt(error / findings.FINE)
-    advised = 2 * math.ceil(0.5 * gaps) + 1
-    return findings.coarse_cycle(len(model.cycle), model.cycle.apart, error, advised)
 
 
 def hold_wear(model: Model, state: State) -> State:

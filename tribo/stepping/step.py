@@ -114,17 +114,11 @@ def _too_soft(model: Model, state: State) -> bool:
     )
 
 
-def worn_depths(
-    model: Model, rates: CycleRates, increment: float, shares: Array | None = None
-) -> dict[str, Array]:
-    """Return the depth that each body loses over `increment` (m), on its own surface, in m.
-
-    `shares` replace the positions' own shares of the path.
-    """
+def worn_depths(model: Model, rates: CycleRates, increment: float) -> dict[str, Array]:
+    """Return the depth that each body loses over `increment` (m), on its own surface, in m."""
     worn: dict[str, Array] = {}
     for position, of_bodies in enumerate(rates):
-        share = model.cycle[position].share if shares is None else float(shares[position])
-        slid = increment * share
+        slid = increment * model.cycle[position].share
         for name, rate in of_bodies.items():
             exposure = model.cycle.maps[name]
             worn[name] = exposure.gather(rate.depth_rate, position, slid, worn.get(name))
@@ -142,16 +136,11 @@ def worn_by(
 
     `depths` has the depth that each body loses over it, on its own surface, in m.
     """
-    shares = model.cycle.missed_shares
-    between = {} if shares is None else worn_depths(model, slid.rates, interval.slides, shares)
     bodies = dict(before.bodies)
     for name, depth in depths.items():
-        body = bodies[name] = replace(
+        bodies[name] = replace(
             bodies[name], wear=bodies[name].wear + depth, law=own(slid.memory.laws[name])
         )
-        if name in between:
-            missed = between[name] if body.missed is None else body.missed + between[name]
-            bodies[name] = replace(body, missed=missed)
     mean = model.loads(before).mean(before.time, interval.end_time)
     end = interval.end
     return replace(
