@@ -23,7 +23,6 @@ from tribo.core.contact import ContactSolution
 from tribo.core.grid import Grid
 from tribo.core.measures import centre, half_widths
 from tribo.lab.scar import crown
-from tribo.motion.averaging_error import groove_excess
 from tribo.simulation.march import march
 from tribo.stepping.first_contact import first_contact
 
@@ -72,9 +71,6 @@ def compared(
         "groove_average_um": 1e6 * deep,
         "groove_resolved_um": 1e6 * float(np.max(middle)),
         "too_deep_percent": 100 * (deep / float(np.max(middle)) - 1),
-        # Each body loses k F s.
-        "estimate_percent": 100
-        * groove_excess(length, half_width, deep, state.reference_depth, ball_k / flat_k),
         "groove_over_approach": deep / state.reference_depth,
         **_contact("average", state.contact, state.bodies["ball"].wear, model.contact.gap, grid),
         **_contact("resolved", moved.contact, moved.ball, model.contact.gap, grid),

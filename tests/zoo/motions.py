@@ -49,16 +49,6 @@ for name, words, saved, parts in (
     ZOO.bad(name, Slide, words, saved=saved, **parts)
 
 
-ZOO.bad(
-    "limited_by_7",
-    Slide,
-    "gave a int as its limitation",
-    # Asked where a swept body changes its shape.
-    case={"disk": 'hardness = "2 GPa"'},
-    limitation=lambda *given: 7,
-)
-
-
 def exposed(name, words, **parts):
     """Keep a motion whose first body has an exposure with other parts."""
     wrong = type(name, (Stationary,), parts)

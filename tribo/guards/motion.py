@@ -195,8 +195,3 @@ class GuardedMotion(Guard[Kinematics]):
                     "distance, the first time there"
                 )
             before = distance
-
-    def limitation(self, *seen: Any) -> str | None:
-        """Return why its averaging no longer holds, if so; see `Kinematics.limitation`."""
-        answer = self.ask(self.component.limitation, *seen)
-        return None if answer is None else self.typed(answer, str, "its limitation")

@@ -158,7 +158,7 @@ class Track(Exposure):
     of Andersson, Almqvist & Larsson (2010) with N = L. Fields on the body have shape (1, ny).
 
     Valid on a closed track. Where the contact reverses inside the track it is an approximation, too
-    deep at mid-track (see `tribo.motion.averaging_error.groove_excess`).
+    deep at mid-track (see `tribo.Reciprocating`).
 
     Parameters
     ----------

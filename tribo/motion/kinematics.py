@@ -124,23 +124,3 @@ class Kinematics(Component):
         CaseError
             If the motion names a body that the case does not have.
         """
-
-    def limitation(
-        self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
-    ) -> str | None:
-        """Return why the motion's averaging does not hold, or None while it does.
-
-        Parameters
-        ----------
-        half_width_x : float
-            Half the extent of the contact along x, in m.
-        depth : float
-            Largest worn depth of a swept body, in m.
-        approach : float
-            Elastic approach of the first contact, in m.
-        volume_ratio : float
-            Volume lost by the stationary bodies over the volume lost by the swept ones.
-        line : bool
-            Whether the contact spans the window, as for a cylinder on a flat.
-        """
-        return None

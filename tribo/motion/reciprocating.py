@@ -9,12 +9,10 @@ from typing import Annotated, Literal, Self
 import numpy as np
 from pydantic import Field, Tag, field_validator, model_validator
 
-from tribo.core.findings import COARSE
 from tribo.core.grid import Grid
 from tribo.core.loads import NUMBER, ONE_OR_STAGES, STAGES
 from tribo.core.table import Table
 from tribo.core.units import Quantity
-from tribo.motion.averaging_error import groove_excess
 from tribo.motion.cycle import Position, Speeds
 from tribo.motion.exposure import Exposure, Passing, Track, one_swept_body
 from tribo.motion.held import HeldMotion
@@ -56,10 +54,9 @@ class Reciprocating(HeldMotion):
 
     The track average is the paper's model, and makes a groove too deep at mid-stroke. One as deep
     as the elastic approach is 4 % too deep where S is 10 half-widths of the contact and 12 % where
-    it is 4; one several times deeper, twice as much, where both bodies wear alike (see
-    `tribo.motion.averaging_error`). Resolved into `positions`, as a run does by itself where the
-    stroke is shorter than 20 lengths of the first contact, it holds for any stroke, gross slip in
-    fretting among them.
+    it is 4; one several times deeper, twice as much, where both bodies wear alike. Resolved into
+    `positions`, as a run does by itself where the stroke is shorter than 20 lengths of the first
+    contact, it holds for any stroke, gross slip in fretting among them.
 
     Examples
     --------
@@ -179,18 +176,3 @@ class Reciprocating(HeldMotion):
 
     def _stroke(self, grid: Grid) -> Stroke:
         return Stroke(self.stroke, grid.spacing[0], self.positions, grid.period)
-
-    def limitation(
-        self, half_width_x: float, depth: float, approach: float, volume_ratio: float, line: bool
-    ) -> str | None:
-        """Return what the stroke average costs, once that is more than 5 % of the depth."""
-        stroke, widths = self.stroke, self.stroke / half_width_x
-        excess = groove_excess(stroke, half_width_x, depth, approach, volume_ratio, line)
-        if depth <= 0 or excess < COARSE or not self._averages:
-            return None
-        return (
-            f"the groove{f' of {self.swept}' if self.swept else ''} is about {100 * excess:.2g} % "
-            f"too deep at mid-stroke, because tribo averages over the stroke ({1e3 * stroke:.3g} "
-            f"mm, {widths:.2g} half-widths of the {2e3 * half_width_x:.3g} mm contact); resolve "
-            "the stroke by kinematics.positions = 33 or more"
-        )

@@ -171,7 +171,8 @@ def _check_window(model: Model, state: State) -> None:
 
 def _with_findings(model: Model, state: State) -> State:
     """Return the state with the findings that are due and were not given before."""
-    if not state.has_finding("averaging") and (finding := limitation(model, state)):
+    half_width = half_widths(state.contact, model.grid)[0]
+    if not state.has_finding("averaging") and (finding := limitation(model, half_width)):
         state = state.from_here(finding)
     if state.steps == 0:
         few = few_cells(state.contact)
@@ -183,5 +184,5 @@ def _concluded(model: Model, state: State) -> State:
     """Add findings on the end; the one on averaging replaces that at the beginning."""
     if finding := few_cells(state.contact):
         state = state.from_here(finding)
-    finding = limitation(model, state)
+    finding = limitation(model, half_widths(state.contact, model.grid)[0])
     return state.without_findings("averaging").from_here(finding) if finding else state

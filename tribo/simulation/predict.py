@@ -158,14 +158,15 @@ def _trial(model: Model, first: Measures) -> Trial:
         certain = refused or isinstance(error, PluginError)
         code = error.exit_code if certain else 0
         return Trial(failure=trial_failed(error, on_any_cells=certain), exit_code=code)
-    limit = limitation(replace(coarse, motion=model.motion), state)
+    last = measure(coarse, state)
+    limit = limitation(model, last.half_width_x)
     findings = (
         *(finding for finding, _ in implausible(coarse, state)),
         *(replace(each, words=f"at {each.time:.3g} s {each.words}") for each in watch.said),
         *([limit] if limit else []),
     )
     layers = tuple(each for each in state.findings if each.kind == "layer")
-    return Trial(measure(coarse, state), when, layers, findings)
+    return Trial(last, when, layers, findings)
 
 
 def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) -> Model:

@@ -128,45 +128,21 @@ def check_stroke(model: Model, state: State) -> None:
             )
 
 
-def limitation(model: Model, state: State) -> Finding | None:
-    """Return why averaging over a track does not hold for the contact in `state`, if so."""
-    seen = half_width, *_ = track_average(model, state)
-    if is_endless(model, half_width):
-        return _unlike_the_period(model)
-    words = model.motion.limitation(*seen)
-    return findings.averaged(words) if words else None
-
-
-def _unlike_the_period(model: Model) -> Finding | None:
-    """Return a finding if a body of an endless contact is averaged over another length."""
+def limitation(model: Model, half_width: float) -> Finding | None:
+    """Return why averaging over a track does not hold for a contact of a half-width (m), if so."""
     period = model.grid.size[0]
+    endless = model.case.contact.periodic and 2 * half_width > period * (1 - ROUND_OFF)
     for name in model.changing:
         exposure = model.cycle.maps[name]
         length = exposure.track(model.grid)
-        unlike = exposure.averaged and abs(length - period) > ROUND_OFF * period
-        if unlike and name in model.laws.wear:
+        if not exposure.averaged:
+            continue
+        if endless and abs(length - period) > ROUND_OFF * period:
             return findings.unlike_the_period(name, length, period)
+        reverses = model.case.kinematics.turns_back and not endless
+        if reverses and length < findings.SHORT * half_width:
+            return findings.short_stroke(length, half_width)
     return None
-
-
-def track_average(model: Model, state: State) -> tuple[float, float, float, float, bool]:
-    """Return half-width, depth, approach (m), ratio of volumes and line for `limitation`."""
-    depths = [float(np.max(state.bodies[name].wear)) for name in model.changing]
-    contact = state.contact
-    half_width = half_widths(contact, model.grid)[0]
-    # Worn off the bodies that stay over that off those that are swept.
-    lost = {True: 0.0, False: 0.0}
-    for name, body in state.bodies.items():
-        lost[name in model.cycle.swept] += model.cycle.maps[name].volume(body.wear)
-    stays, swept = lost[False], lost[True]
-    ratio = stays / swept if swept else (np.inf if stays else 1.0)
-    across = bool(np.all(np.any(contact.pressure > 0, axis=0)))
-    return half_width, max(depths, default=0.0), state.reference_depth, ratio, across
-
-
-def is_endless(model: Model, half_width: float) -> bool:
-    """Whether the contact extends into the next period along x."""
-    return model.case.contact.periodic and 2 * half_width > model.grid.size[0] * (1 - ROUND_OFF)
 
 
 def hold_wear(model: Model, state: State) -> State:

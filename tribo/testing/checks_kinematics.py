@@ -70,8 +70,6 @@ class KinematicsChecks(Checks):
         # The whole of it, and closely over the first hundredth, where cycles are resolved.
         few = _PARTS[::10]
         motion.check_distance(end, sorted([*few, *0.01 * few]))
-        for half_width in (1e-6, 1e-4, 1e-2):
-            motion.limitation(half_width, 1e-5, 1e-6, 1.0, False)
         for grid in (GRID, RepeatingGrid(size=GRID.size, cells=GRID.cells)):
             self._exposures(grid)
 

@@ -108,9 +108,6 @@ class Motion(Kinematics):
     def exposures(self, grid, bodies):
         return {bodies[0]: Stationary(grid), bodies[1]: self.track(grid, self.stroke)}
 
-    def limitation(self, half_width_x, depth, approach, volume_ratio, line):
-        return "the contact is too long" if 4 * half_width_x > self.stroke else None
-
 
 class Ramp(Kinematics):
     """The second body is drawn along a track, ever faster until it has its speed."""
