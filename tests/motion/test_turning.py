@@ -33,20 +33,18 @@ def test_a_body_that_is_swept_without_turning_is_refused():
 
 
 @pytest.mark.parametrize(
-    ("ring", "words"),
+    "ring",
     [
-        (flat(), "a 'flat', is not round"),
-        (Cylinder(radius=RADIUS, axis="x"), "a 'cylinder', is not round"),
-        (
-            Waves(amplitude="1 nm", wavelength="1 mm", along="x", on=Cylinder(radius=RADIUS)),
-            "is not round",
-        ),
-        (Cylinder(radius="25 mm"), r"radius is 25 mm, the track's 20 mm; .* = 0\.025"),
+        flat(),
+        Cylinder(radius=RADIUS, axis="x"),
+        Waves(amplitude="1 nm", wavelength="1 mm", along="x", on=Cylinder(radius=RADIUS)),
+        Cylinder(radius="25 mm"),
     ],
 )
-def test_a_ring_is_round_and_as_large_as_its_track(ring, words):
-    with pytest.raises(CaseError, match=rf"bodies\.ring\.surface: body 'ring' turns.*{words}"):
+def test_a_ring_is_round_and_as_large_as_its_track(ring):
+    with pytest.raises(CaseError, match="20 mm") as refused:
         block_on_ring(1.0, ring=ring)
+    assert refused.value.path == "bodies.ring.surface"
 
 
 def test_a_ring_with_grooves_round_its_rim_stays_as_it_is():

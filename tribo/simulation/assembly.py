@@ -61,8 +61,9 @@ def assemble(case: Case) -> Model:
         with located(f"bodies.{name}.surface"):
             surfaces[name] = GuardedSurface(body.surface, name, exposure.own_grid(grid))
             _check_sliding(surfaces[name], exposure)
-            if isinstance(case.kinematics, Unidirectional) and case.kinematics.turns:
-                _check_ring(surfaces[name], exposure, exposure.track(grid), grid)
+            turns = isinstance(case.kinematics, Unidirectional) and case.kinematics.turns
+            if turns and exposure.swept:
+                _check_ring(surfaces[name], exposure.track(grid), grid)
         if body.wear is not None:
             laws[name] = _law(body, name, grid, exposure)
     loads = Loads(case.load.points)
@@ -206,26 +207,17 @@ def _check_sliding(surface: GuardedSurface, exposure: Exposure) -> None:
         )
 
 
-def _check_ring(surface: GuardedSurface, exposure: Exposure, lap: float, grid: Grid) -> None:
+def _check_ring(surface: GuardedSurface, lap: float, grid: Grid) -> None:
     """Raise `CaseError` if a body that turns is not round, or not of its track's radius."""
-    if not exposure.swept:
-        return
-    form = surface.ask(surface.component.smoothed)
-    curvature = (form.curvature or (0.0, 0.0))[0]
-    radius = lap / (2 * np.pi)
+    form, radius = surface.ask(surface.component.smoothed), lap / (2 * np.pi)
     relief = surface.height - form.height(grid)
     passing = np.max(np.ptp(relief, axis=0)) > ROUND_OFF * np.ptp(surface.height)
-    if curvature <= 0 or passing:
+    curvature = (form.curvature or (0.0, 0.0))[0]
+    if passing or abs(radius * curvature - 1) > SAME_RADIUS:
         raise CaseError(
-            f"body {surface.body!r} turns about an axis along y (kinematics.turns = true), but its "
-            f"surface, a {surface.component.type!r}, is not round and smooth about that; give a "
-            "'cylinder' or a 'sphere', or leave turns out"
-        )
-    if abs(radius * curvature - 1) > SAME_RADIUS:
-        raise CaseError(
-            f"body {surface.body!r} turns, so that its track is its rim: its radius is "
-            f"{1e3 / curvature:.4g} mm, the track's {1e3 * radius:.4g} mm; give "
-            f"kinematics.track_radius = {1 / curvature:.6g}",
+            f"body {surface.body!r} turns about an axis along y (kinematics.turns = true), so its "
+            "surface must be round and smooth about that, with the radius of its track, "
+            f"{1e3 * radius:.4g} mm; give such a 'cylinder' or 'sphere', or leave turns out"
         )
 
 
