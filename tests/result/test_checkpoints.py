@@ -84,9 +84,9 @@ def test_where_the_newest_checkpoint_is_damaged_the_one_before_is_used(
         np.testing.assert_array_equal(result.times, [0, 5])
         assert re.search(rf"{name} is damaged.*before it$", result.warnings[-1])
     with pytest.warns(TriboWarning, match=rf"{name} is .*from the .* before, at 5 s$") as told:
-        go_on = simulation().reopen(killed)
+        resumed = simulation().resume(killed)
     assert len(told) == 1
-    with go_on() as result:
+    with resumed as result:
         assert bits(result) == undisturbed
 
 

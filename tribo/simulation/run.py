@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -147,20 +146,6 @@ class Simulation:
             If the file is not from a stopped run of this case, or a component
             has changed; and the errors of `run`.
         """
-        return self.reopen(output, observers=observers, allow_changed=allow_changed)()
-
-    def reopen(
-        self,
-        output: str | Path,
-        *,
-        observers: Sequence[Observer] = (),
-        allow_changed: bool = False,
-    ) -> Callable[[], Result]:
-        """Read the checkpoint of a stopped run, and return a function that continues it.
-
-        Parameters and errors are as in `resume`; the function raises the errors of
-        the run itself.
-        """
         path = Path(output)
         with Result.open(path) as result:
             status = result.status
@@ -178,7 +163,7 @@ class Simulation:
             # It was killed just as it ended.
             folder.lock()
             folder.remove()
-            return partial(Result.open, path)
+            return Result.open(path)
         if changes and not allow_changed:
             raise CaseError(
                 f"{path} was begun with other components: {listed}. Install those again, or go on "
@@ -190,14 +175,7 @@ class Simulation:
         recorder = Recorder(path=path)
         state, wall_time = recorder.resume(case)
         state = state.without_findings("failed")
-        return partial(
-            self._follow,
-            state,
-            recorder,
-            observers,
-            resumed=True,
-            wall_time=wall_time,
-        )
+        return self._follow(state, recorder, observers, resumed=True, wall_time=wall_time)
 
     def changed_since(self, result: Result) -> list[tuple[str, str, str]]:
         """Return the place of each component that has changed since a result.

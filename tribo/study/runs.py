@@ -42,12 +42,10 @@ def complete(simulation: Simulation, path: Path, observers: Sequence[Observer]) 
         return Result.open(path)
     if os.path.exists(path):
         try:
-            go_on = simulation.reopen(path, observers=observers)
+            return simulation.resume(path, observers=observers)
         except CaseError as error:
             # There is no sound checkpoint, or components have changed.
             warn(f"{path} is started again: {error}")
-        else:
-            return go_on()
     return simulation.run(path, observers=observers, overwrite=True)
 
 
