@@ -15,6 +15,17 @@ from tribo.core.units import Quantity
 from tribo.surfaces.surface import Surface
 
 
+def _arc(r2: Array, radius: float) -> Array:
+    """Return √(R² − r²) − R; `CaseError` if the body is narrower than the window."""
+    if float(np.max(r2)) >= radius**2:
+        raise CaseError(
+            f"a radius of {1e3 * radius:.4g} mm does not reach over the window; make grid.size "
+            "smaller"
+        )
+    # As written here the difference does not cancel.
+    return -r2 / (radius + np.sqrt(radius**2 - r2))
+
+
 class Flat(Surface):
     """z = 0.
 
@@ -54,15 +65,7 @@ class Sphere(Surface):
     def height(self, grid: Grid) -> Array:
         """Return the height of the cap; the window must lie inside the ball."""
         x, y = grid.mesh
-        r2 = x**2 + y**2
-        radius = self.radius
-        if float(np.max(r2)) >= radius**2:
-            raise CaseError(
-                f"a ball of radius {1e3 * radius:.4g} mm does not reach over a window of "
-                f"{1e3 * grid.size[0]:.4g} × {1e3 * grid.size[1]:.4g} mm; make grid.size smaller"
-            )
-        # −r²/(R + √(R² − r²)) is √(R² − r²) − R without its cancellation.
-        return -r2 / (radius + np.sqrt(radius**2 - r2))
+        return _arc(x**2 + y**2, self.radius)
 
     @property
     def curvature(self) -> tuple[float, float]:
@@ -137,14 +140,7 @@ class Cylinder(Surface):
             along = y if self.axis == "y" else -x
             angle = math.radians(self.degrees)
             across = across * math.cos(angle) + along * math.sin(angle)
-        radius = self.radius
-        if float(np.max(np.abs(across))) >= radius:
-            raise CaseError(
-                f"a cylinder of radius {1e3 * radius:.4g} mm does not reach over the window; "
-                "make grid.size smaller"
-            )
-        arc = -(across**2) / (radius + np.sqrt(radius**2 - across**2))
-        return np.broadcast_to(arc, grid.cells).copy()
+        return np.broadcast_to(_arc(across**2, self.radius), grid.cells).copy()
 
     @property
     def curvature(self) -> tuple[float, float] | None:
