@@ -100,10 +100,6 @@ def test_a_run_that_ends_at_a_depth_tells_only_of_layers_passed_by_then():
             r"pin\.layers\.1\.wear: K needs a hardness",
         ),
         (
-            {**coated(thickness="5 mm"), "surface": {"type": "sphere", "radius": "4 mm"}},
-            r"pin\.layers: layers of 0\.005 m in all are as thick as the body, whose radius",
-        ),
-        (
             coated(wear={"type": "smoothing", "roughness": 1e-6, "depth": 1e-6, **FACTOR})
             | {"wear": {"type": "smoothing", "roughness": 2e-6, "depth": 1e-6, **FACTOR}},
             r"pin\.layers: laws of the layers begin with different values of 'roughness'",

@@ -78,7 +78,7 @@ def assemble(case: Case) -> Model:
         if len(known) == len(surfaces)
         else None,
         materials={name: body.material for name, body in bodies.items()},
-        coatings=_coatings(bodies, surfaces, case.contact),
+        coatings=_coatings(bodies, case.contact),
     )
     with located("contact"):
         solver.ask(case.contact.check, replace(system, load=loads.largest))
@@ -142,22 +142,12 @@ def _law(body: Body, name: str, grid: Grid, exposure: Exposure) -> GuardedLaw:
         return LayeredLaw(laws, [layer.thickness for layer in body.layers])
 
 
-def _coatings(
-    bodies: Mapping[str, Body], surfaces: Mapping[str, GuardedSurface], contact: ContactSolver
-) -> dict[str, Coating]:
+def _coatings(bodies: Mapping[str, Body], contact: ContactSolver) -> dict[str, Coating]:
     """Return the elastic layer on each body that has one, by name."""
     coatings = {}
     for name, body in bodies.items():
         *materials, base = body.materials()
         place = f"bodies.{name}.layers"
-        thickness = sum(layer.thickness for layer in body.layers)
-        curvature = max(surfaces[name].curvature or (0.0, 0.0))
-        if thickness * curvature >= 1:
-            raise CaseError(
-                f"layers of {thickness:.4g} m in all are as thick as the body, whose radius is "
-                f"{1 / curvature:.4g} m; make them thinner, or give the body their material",
-                place,
-            )
         elastic = [(each.young, each.poisson) for each in materials]
         while elastic and elastic[-1] == (base.young, base.poisson):
             elastic.pop()
