@@ -54,7 +54,8 @@ def begin(model: Model) -> State:
     # The mean over a time in which no stage of the motion ends.
     soon = 0.5 * _stops(model)[0]
     speed = (distance_until(model, state, soon) or 0.0) / soon
-    return _with_findings(model, replace(state, saves=1, speed=speed))
+    state = _averaged(model, replace(state, saves=1, speed=speed))
+    return state.with_findings(*tribo_findings(model), *few_cells(state.contact))
 
 
 def _stops(model: Model) -> list[float]:
@@ -103,7 +104,7 @@ def _advanced(model: Model, state: State, until: float, limit: float) -> State:
         raise
     after = hold(state, after)
     _check_window(model, after)
-    return _with_findings(model, hold_wear(model, after))
+    return _averaged(model, hold_wear(model, after))
 
 
 def _up_to_depth(model: Model, state: State, after: State, limit: float) -> State:
@@ -169,20 +170,14 @@ def _check_window(model: Model, state: State) -> None:
     )
 
 
-def _with_findings(model: Model, state: State) -> State:
-    """Return the state with the findings that are due and were not given before."""
-    half_width = half_widths(state.contact, model.grid)[0]
-    if not state.has_finding("averaging") and (finding := limitation(model, half_width)):
-        state = state.from_here(finding)
-    if state.steps == 0:
-        few = few_cells(state.contact)
-        state = state.with_findings(*tribo_findings(model), *([few] if few else []))
-    return state
+def _averaged(model: Model, state: State) -> State:
+    """Return the state with the finding on its average, if one is due and was not given before."""
+    finding = limitation(model, half_widths(state.contact, model.grid)[0])
+    return state.from_here(finding) if finding else state
 
 
 def _concluded(model: Model, state: State) -> State:
     """Add findings on the end; the one on averaging replaces that at the beginning."""
-    if finding := few_cells(state.contact):
-        state = state.from_here(finding)
-    finding = limitation(model, half_widths(state.contact, model.grid)[0])
-    return state.without_findings("averaging").from_here(finding) if finding else state
+    for few in few_cells(state.contact):
+        state = state.from_here(few)
+    return _averaged(model, state.without_findings("averaging"))

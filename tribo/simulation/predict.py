@@ -104,11 +104,7 @@ def predict(model: Model) -> Prediction:
     if holds is False:
         failure = outgrown(model.grid.size, trial.outgrown, model.end_time)
         code = NumericalError.exit_code
-    problems = (
-        failure,
-        few_cells(state.contact),
-        *trial.findings,
-    )
+    problems = (failure, *few_cells(state.contact), *trial.findings)
     facts = {place: Guard(c).ask(c.facts) for place, c in components(model.case)}
     stops = (*unusual(model.case), failure) if failure and code else ()
     return Prediction(

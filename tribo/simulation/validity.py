@@ -60,10 +60,10 @@ def doubting(case: Case) -> Iterator[None]:
         raise
 
 
-def few_cells(contact: ContactSolution) -> Finding | None:
+def few_cells(contact: ContactSolution) -> list[Finding]:
     """Return a finding if a contact is only a few cells wide."""
     cells = min(rows.stop - rows.start for rows in contact.extent)
-    return findings.few_cells(cells) if cells < findings.FEW_CELLS else None
+    return [findings.few_cells(cells)] if cells < findings.FEW_CELLS else []
 
 
 @hookimpl(trylast=True)
