@@ -10,13 +10,14 @@ import numpy as np
 
 from tribo.contact.solver import ContactSolver
 from tribo.contract import initial, rate_of
-from tribo.core.arrays import Array, view
+from tribo.core.arrays import Array, readonly
 from tribo.core.contact import (
     ContactProblem,
     ContactSolution,
     ContactSystem,
     CycleCompliance,
     Residuals,
+    WearCompliance,
 )
 from tribo.core.errors import BadValues, CaseError, PluginError
 from tribo.core.fields import (
@@ -203,7 +204,10 @@ class GuardedSolver(Guard[ContactSolver]):
     ) -> list[ContactSolution]:
         """Solve each position of a cycle; as `solve`."""
         asked = [_unwritable(problem) for problem in problems]
-        answers: object = self.ask(self.component.solve_cycle, asked, starts, view(coupling))
+        if coupling is not None:
+            bodies = [(readonly(compliance), cells) for compliance, cells in coupling.bodies]
+            coupling = replace(coupling, shares=readonly(coupling.shares), bodies=bodies)
+        answers: object = self.ask(self.component.solve_cycle, asked, starts, coupling)
         if not isinstance(answers, Sequence) or len(answers) != len(problems):
             raise PluginError(
                 f"{self} gave a {type(answers).__name__} as the solutions of a cycle; it must be a "
@@ -263,5 +267,8 @@ def _rates(
 
 
 def _unwritable(problem: ContactProblem) -> ContactProblem:
-    gap, wear, cap = (view(each) for each in (problem.gap, problem.wear, problem.cap))
-    return replace(problem, gap=gap, wear=wear, cap=cap)
+    wear = problem.wear
+    if wear is not None:
+        wear = WearCompliance(readonly(wear.local), readonly(wear.swept))
+    cap = None if problem.cap is None else readonly(problem.cap)
+    return ContactProblem(problem.system, readonly(problem.gap), problem.load, wear, cap)
