@@ -76,7 +76,7 @@ def solve():
     ("made", "known"),
     [
         (solve, 69),
-        (lambda: step(model()), 448),
+        (lambda: step(model()), 470),
         (lambda: step(model(positions=33)), 4253),
         (lambda: step(model(RUNNING_IN)), 4343),
     ],

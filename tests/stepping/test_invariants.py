@@ -15,6 +15,7 @@ from tribo.core.rounding import SAME
 from tribo.result.summary import worst
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
+from tribo.stepping.invariants import hold
 from tribo.surfaces.surface import Surface
 
 
@@ -119,3 +120,11 @@ def test_the_load_balance_is_measured_and_not_taken_on_trust():
 
     result = Simulation(one_body(contact=Boasts())).run()
     assert worst(result)["force_error"] == pytest.approx(3e-7, rel=1e-3)
+
+
+def test_a_depth_that_is_not_finite_stops_the_run():
+    before, after = states(one_body())[:2]
+    ball = after.bodies["ball"]
+    lost = replace(ball, plastic=np.full_like(ball.plastic, np.inf))
+    with pytest.raises(NumericalError, match=r"^step 1, .* plastic depth of ball is not finite"):
+        hold(before, replace(after, bodies={**after.bodies, "ball": lost}))

@@ -68,6 +68,11 @@ def hold(before: State | None, after: State) -> State:
     """
     if before is not None:
         after = replace(after, previous=tuple(each.pressure for each in before.contacts))
+    when = f"step {after.steps}, at {after.time:.6g} s ({after.distance:.6g} m)"
+    for name, body in after.bodies.items():
+        for what, values in {"plastic depth": body.plastic, **body.law}.items():
+            if not np.isfinite(np.sum(values)):
+                raise NumericalError(f"{when}: the {what} of {name} is not finite; check its rate")
     contact, step = [each.residuals for each in after.contacts], after.invariants
     complementarity = max(each.complementarity for each in contact)
     penetration = max(each.penetration for each in contact)
@@ -81,7 +86,6 @@ def hold(before: State | None, after: State) -> State:
         # Neither is a NaN allowed.
         if not value <= most:
             raise NumericalError(
-                f"step {after.steps}, at {after.time:.6g} s ({after.distance:.6g} m): "
-                f"{words.format(value)}, and {most:g} is allowed; {remedy}"
+                f"{when}: {words.format(value)}, and {most:g} is allowed; {remedy}"
             )
     return after
