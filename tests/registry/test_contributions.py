@@ -16,7 +16,7 @@ from tribo.templates import template
 HOOKS = """
 from matplotlib.figure import Figure
 from pathlib import Path
-from tribo import CaseTemplate, ExportFormat, LabRow
+from tribo import CaseTemplate, Column, ExportFormat
 
 def write(result, folder):
     folder.mkdir()
@@ -24,8 +24,9 @@ def write(result, folder):
     return [folder / "loads.txt"]
 
 @hookimpl
-def tribo_lab_rows(result):
-    return [LabRow("path of {0}", float(result.distances[-1]), "m")]
+def tribo_quantities():
+    read = lambda result: result.distances[-1]
+    return [Column("path_of_{0}", "m", "path of {0}", read)]
 
 @hookimpl
 def tribo_figures(result):

@@ -13,7 +13,7 @@ from tribo.templates import template
 
 LAW = """
 import numpy as np
-from tribo import LabRow, WearLaw, WearRate, hookimpl
+from tribo import Column, WearLaw, WearRate, hookimpl
 
 class Plain(WearLaw):
     k: float = 3e-16
@@ -23,8 +23,8 @@ class Plain(WearLaw):
         return WearRate(self.k * local.pressure, np.full_like(local.pressure, self.k))
 
 @hookimpl
-def tribo_lab_rows(result):
-    return [LabRow("answer", 42.0, "m")]
+def tribo_quantities():
+    return [Column("answer", "m", "answer", lambda result: 42.0)]
 """
 OWN_LAW = Path(__file__).parents[2] / "examples" / "own_law.py"
 STOP = "CALLS.append(1)\n        if len(CALLS) > 5: raise KeyboardInterrupt\n"

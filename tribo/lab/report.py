@@ -123,13 +123,12 @@ class LabReport:
 def lab_report(result: Result) -> LabReport:
     """Return the laboratory report of `result` at its last save."""
     first, words = _first_contact(result)
-    rows: list[LabRow] = [*quantity_rows(result), *from_plugins_of(result, "tribo_lab_rows")]
     return LabReport(
         bodies={name: _body(result, name) for name in result.body_names},
         inferred=tuple(inferred_volumes(result)),
         first_contact=first,
         first_contact_words=words,
-        rows=tuple(rows),
+        rows=tuple(quantity_rows(result)),
     )
 
 

@@ -32,9 +32,7 @@ hookimpl = pluggy.HookimplMarker(PROJECT)
 
 
 class LabRow(NamedTuple):
-    """A row of the table after a run: its label, its value and the unit of the value.
-
-    The value of a quantity has a `key` in tables and JSON.
+    """A quantity below the tables after a run: its label, value, unit, and key in JSON.
 
     Examples
     --------
@@ -121,7 +119,6 @@ class Command(NamedTuple):
 
 
 ITEMS: Mapping[str, type[Any]] = {
-    "tribo_lab_rows": LabRow,
     "tribo_quantities": Column,
     "tribo_export_formats": ExportFormat,
     "tribo_height_formats": HeightFormat,
@@ -136,12 +133,6 @@ ITEMS: Mapping[str, type[Any]] = {
 @hookspec
 def tribo_components() -> Iterable[type[Component]]:
     """Return classes that a case may name; the base of each is its kind."""
-    return ()
-
-
-@hookspec
-def tribo_lab_rows(result: Result) -> Iterable[LabRow]:
-    """Return rows for the lab table of a result that used this plugin."""
     return ()
 
 

@@ -2,6 +2,7 @@
 
 import runpy
 from importlib.resources import files
+from math import isnan
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 from tribo import load_case
 
 from tribo_film.mixed import Mixed
-from tribo_film.plugin import tribo_lab_rows
+from tribo_film.plugin import tribo_quantities
 
 CASE = files("tribo_film") / "cases" / "film_mixed" / "case.toml"
 QUICK = ["contact.type=winkler", "grid.size=0.7 mm", "grid.cells=24", "kinematics.distance=2"]
@@ -28,7 +29,7 @@ def test_without_a_film_it_is_dry_to_the_bit_and_a_thick_one_carries_all(sharing
 @pytest.mark.parametrize(("k", "beyond"), [(1e-16, False), (1e-14, True)])
 def test_the_lab_is_told_where_wear_is_too_deep_for_the_film(k, beyond):
     with load_case(CASE, overrides=[*QUICK, f"bodies.ball.wear.k={k}"]).run() as result:
-        (row,) = tribo_lab_rows(result)
+        (row,) = result.report().rows
         depth = result.body("ball").wear_depth[-1].max()
         assert row.value == pytest.approx(depth / result.saves()[0]["approach_m"])
         found = [each for each in result.findings if each.kind == "validity"]
@@ -38,7 +39,7 @@ def test_the_lab_is_told_where_wear_is_too_deep_for_the_film(k, beyond):
 
 def test_the_lab_is_told_nothing_of_a_film_that_is_not_there():
     with load_case(CASE, overrides=[*QUICK, "effects=[]"]).run() as result:
-        assert tribo_lab_rows(result) == []
+        assert [isnan(each.read(result)) for each in tribo_quantities()] == [True]
 
 
 def test_the_stribeck_curve_of_the_readme():
