@@ -21,6 +21,7 @@ from tribo.config.overrides import apply_settings
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError, TriboError, located
 from tribo.core.explain import case_error
+from tribo.core.table import given
 from tribo.core.words import said
 from tribo.registry.registry import default_registry
 from tribo.result.quantity import quantity
@@ -116,9 +117,7 @@ class ValidationCase:
         with chdir(self.folder):
             case = validate_case(tables)
         for part in [*(part for _, part in components(case)), *case.kinematics.effects()]:
-            defaults = {key: field.default for key, field in type(part).model_fields.items()}
-            own = [key for key, value in part if value != defaults[key]]
-            found |= {part.type, *(f"{part.type}.{key}" for key in own)}
+            found |= {part.type, *(f"{part.type}.{key}" for key in given(part))}
         return found
 
     def run(self) -> Iterator[Row]:
