@@ -83,17 +83,6 @@ def test_a_closed_standard_output_is_one_line_and_exit_code_3(folder, arguments)
     assert b"standard output" in done.stderr
 
 
-@needs_full
-@pytest.mark.slow
-def test_a_run_whose_report_cannot_be_printed_names_its_file(folder, full):
-    run = ["run", "my.toml", "-o", "unprinted.h5", *QUICK]
-    done = tribo(folder, *run, stdout=full, stderr=subprocess.PIPE)
-    assert done.returncode == 3
-    assert b"unprinted.h5" in done.stderr
-    with Result.open(folder / "unprinted.h5") as result:
-        assert result.status == "done"
-
-
 @pytest.mark.skipif(os.name == "nt", reason="a shell of POSIX closes it")
 def test_an_error_is_not_put_on_standard_output_where_standard_error_is_closed(folder):
     closed = ["sh", "-c", 'exec "$@" 2>&-', "sh", sys.executable, "-m", "tribo", "show", "none.h5"]

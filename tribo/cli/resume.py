@@ -27,7 +27,6 @@ def resume(output: Path, allow_changed: bool) -> None:
     be written, 130 interrupted.
     """
     from tribo.cli.lab_report import print_report
-    from tribo.cli.streams import printing
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
     from tribo.result.checkpoint import RunFolder
@@ -47,6 +46,5 @@ def resume(output: Path, allow_changed: bool) -> None:
         makers |= {f"--plugin {each['distribution']}" for each in files}
         listed = ", ".join(sorted(makers - {" "}))
         raise CaseError(f"{error} (the run was begun with {listed})") from error
-    resumed = simulation.resume(output, observers=[Progress()], allow_changed=allow_changed)
-    with resumed as result, printing(output):
+    with simulation.resume(output, observers=[Progress()], allow_changed=allow_changed) as result:
         print_report(result)

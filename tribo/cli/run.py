@@ -27,7 +27,6 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     interrupted.
     """
     from tribo.cli.lab_report import print_report
-    from tribo.cli.streams import printing
     from tribo.config.load import load_case
     from tribo.core.errors import CaseError
     from tribo.observers.progress import Progress
@@ -41,6 +40,6 @@ def run(case: Path, output: Path | None, overrides: tuple[str, ...], force: bool
     path = output or case.with_suffix(".h5")
     if path.resolve() == case.resolve():
         raise CaseError(f"{path} is the case itself; choose another file with -o")
-    with simulation.run(path, observers=[Progress()], overwrite=force) as result, printing(path):
+    with simulation.run(path, observers=[Progress()], overwrite=force) as result:
         print_report(result, warned=True)
         click.echo(f"Saved {path}; see it with: tribo plot {path}")

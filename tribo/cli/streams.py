@@ -6,9 +6,6 @@ import io
 import os
 import re
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
-from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 import click
@@ -39,16 +36,6 @@ class GuardedStream(io.FileIO):
             if isinstance(error, BrokenPipeError):
                 raise ReaderGone("nobody reads standard output any more") from error
             raise OutputError(f"cannot write to standard output: {error.strerror}") from error
-
-
-@contextmanager
-def printing(path: Path) -> Iterator[None]:
-    """Say which file has the result where standard output cannot be written."""
-    try:
-        yield
-    except OutputError as error:
-        error.add_note(f"The run is done: {path} has its result.")
-        raise
 
 
 def harmless(text: str) -> str:
