@@ -9,8 +9,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from tribo.core.errors import CaseError
-from tribo.core.words import did_you_mean, suggestion
 from tribo.lab.units import column_label
 from tribo.plotting.picture import Picture
 from tribo.plotting.style import save_looks
@@ -24,19 +22,8 @@ def sweep_curves(runs: pd.DataFrame, x: str, y: str, by: Sequence[str] = ()) -> 
 
     `runs` has a row for each run, as ``runs.csv``; columns `by` part the runs into curves, one for
     each combination of their values.
-
-    Raises
-    ------
-    CaseError
-        If there is no such column, or no run is done.
     """
-    for name in (x, y, *by):
-        if name not in runs:
-            meant = suggestion(did_you_mean(name, list(runs)))
-            raise CaseError(f"the runs have no column {name!r}{meant}")
     done = runs[runs["status"] == "done"].sort_values(x)
-    if done.empty:
-        raise CaseError("no run is done; there is nothing to draw")
     groups = list(done.groupby(list(by))) if by else [((), done)]
     numbers = done[list(by)].apply(pd.to_numeric, errors="coerce").to_numpy(float)
     named = [column_label(name, column) for name, column in zip(by, numbers.T, strict=True)]
