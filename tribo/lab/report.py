@@ -12,7 +12,6 @@ import numpy as np
 
 from tribo.closed_forms.hertz import first_yield_pressure
 from tribo.core.errors import warn
-from tribo.core.measures import reaches_border
 from tribo.core.words import readable, said, signed
 from tribo.lab.against_hertz import (
     computed_pressure,
@@ -28,8 +27,6 @@ from tribo.registry.registry import from_plugins_of, place, process_kept
 from tribo.result.read import Result
 from tribo.result.summary import worst
 
-HALF_SPACE = "dcfft"
-"""The contact type whose smooth limit is Hertz's theory."""
 MEASURES = (
     ("mass", "mg", "mass_kg", 1e6, ".3g"),
     ("specific wear rate", "mm³/(N·m)", "specific_wear_rate_mm3_per_Nm", 1.0, ".3g"),
@@ -204,10 +201,8 @@ def _first_contact(result: Result) -> tuple[FirstContact, str]:
         words = f"First contact: {words}; Hertz's theory has no solution for it."
         return FirstContact(None, largest, None, None), words
     p0, ratio = hertz.peak_pressure, None
-    words = f"First contact: {words}, Hertz {in_mpa(p0)}"
-    half_space = result.case_tables.get("contact", {}).get("type") == HALF_SPACE
-    if half_space and not reaches_border(result.field("pressure", 0)):
-        words += f" ({signed(100 * (largest / p0 - 1), 2)} %)"
+    off = signed(100 * (pressure / p0 - 1), 2)
+    words = f"First contact: {words}, Hertz {in_mpa(p0)} ({off} %)"
     if system.cap is not None and hertz.load_ratio is not None:
         ratio = pressure / first_yield_pressure(system.cap, line=hertz.is_line)
         words += f"; yield: {yield_words(pressure, system.cap, hertz)}"
