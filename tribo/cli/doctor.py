@@ -36,13 +36,20 @@ def doctor(as_json: bool) -> None:
         "checks": checks,
         "plugins": [record.facts for record in records],
     }
+    lines: list[tuple[str, bool, str]] = [(c["name"], c["ok"], c["detail"]) for c in checks]
+    for record in records:
+        name = f"plugin {record} ({record.facts['entry_point']})"
+        reason = f"{record.status}: {record.reason}".rstrip(": ")
+        lines.append((name, record.usable or record.status == "disabled", reason))
     if as_json:
         echo_json(found)
     else:
-        _print(found)
-    bad = [check["name"] for check in checks if not check["ok"]]
-    bad += [str(r) for r in records if r.status in ("broken", "incompatible")]
-    if bad:
+        versions = ", ".join(f"{name} {version}" for name, version in found["packages"].items())
+        click.echo(f"Python {found['python']} on {found['platform']}, {versions}")
+        for name, well, detail in lines:
+            click.secho("ok    " if well else "FAILS ", fg="green" if well else "red", nl=False)
+            click.echo(f"{name}: {detail}")
+    if bad := [name for name, well, _ in lines if not well]:
         raise NumericalError(f"not well: {', '.join(bad)}")
 
 
@@ -60,20 +67,3 @@ def _self_test() -> list[dict[str, Any]]:
         for case in cases
         for row in case.run()
     ]
-
-
-def _print(found: dict[str, Any]) -> None:
-    versions = ", ".join(f"{name} {version}" for name, version in found["packages"].items())
-    click.echo(f"Python {found['python']} on {found['platform']}")
-    click.echo(versions)
-    for check in found["checks"]:
-        _line(*check.values())
-    for plugin in found["plugins"]:
-        name = f"plugin {plugin['distribution']} {plugin['version']} ({plugin['entry_point']})"
-        well = plugin["status"] in ("available", "disabled")
-        _line(name, well, f"{plugin['status']}: {plugin['reason']}".rstrip(": "))
-
-
-def _line(name: str, well: bool, detail: str) -> None:
-    click.secho("ok    " if well else "FAILS ", fg="green" if well else "red", nl=False)
-    click.echo(f"{name}: {detail}")
