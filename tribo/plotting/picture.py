@@ -30,8 +30,6 @@ class Picture:
     height: float
     share: Literal["x", "y", ""] = "x"
     """The axis that the panels of a column, or of a row, have in common, if any."""
-    columns: int = 3
-    """Most columns of the legend."""
 
     def figure(self) -> Figure:
         """Return the picture in the house style, tied to no display."""
@@ -47,7 +45,7 @@ class Picture:
         shared: Any = {"x": {"sharex": "col"}, "y": {"sharey": "row"}}.get(share, {})
         panels = figure.subplots(*shape, squeeze=False, **shared)
         if named := self._draw(panels.ravel()):
-            legend_below(figure, named, self.columns)
+            legend_below(figure, named)
         inner = {"x": panels[:-1].flat, "y": panels[:, 1:].flat}.get(share, ())
         for axes in inner:
             axes.set(**{f"{share}label": ""})

@@ -70,7 +70,7 @@ def pressure_sections(
         own = [looks[save] for save in group], [labels[save] for save in group]
         beside = partial(_draw_limits, shown, unit, highest, result.system.cap)
         rows.append(section_row(sections, *own, scale, up, more=[beside]))
-    return Picture(rows, 48.0, "y", columns=6)
+    return Picture(rows, 48.0, "y")
 
 
 def _draw_limits(

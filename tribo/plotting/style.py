@@ -88,14 +88,14 @@ def overlay_looks(count: int) -> list[Look]:
     return [{"color": "#a8a8a8", "linewidth": 3.0}, *save_looks(count - 1)][:count]
 
 
-def legend_below(figure: Figure, curves: Sequence[Artist], columns: int = 3) -> None:
+def legend_below(figure: Figure, curves: Sequence[Artist]) -> None:
     """Put a legend under the axes, where it hides nothing, and make the figure as much higher.
 
     Where there are too many curves for it, some are left out evenly.
     """
     longest = max((len(str(curve.get_label())) for curve in curves), default=0)
     room = figure.get_figwidth() * 25.4 / (LETTER * (longest + HANDLE))
-    columns = min(columns, max(1, int(room)))
+    columns = max(1, int(room))
     most = min(len(curves), LEGEND_ROWS * columns)
     chosen = np.linspace(0, len(curves) - 1, most).round().astype(int)
     entries = [curves[i] for i in chosen]

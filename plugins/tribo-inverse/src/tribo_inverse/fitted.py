@@ -62,5 +62,5 @@ def fit_picture(data: pd.DataFrame) -> Figure:
         axes.set_ylim(-0.7, len(data) - 0.3)
         axes.set_xlabel("Relative to the measured value")
         axes.xaxis.set_major_locator(ticks(5))
-        legend_below(figure, axes.get_legend_handles_labels()[0], columns=2)
+        legend_below(figure, axes.get_legend_handles_labels()[0])
     return figure
