@@ -126,7 +126,7 @@ def _progress(total: int) -> Iterator[Callable[[str], None]]:
 
 
 def _tables(rows: Sequence[Row]) -> Iterator[DataTable]:
-    from tribo.lab.units import shown_in
+    from tribo.lab.units import row_name
 
     forms = {"quantity": "", "expected": ".5g", "got": ".5g", "error": ".1e"}
     forms |= {"order": "", "verdict": ""}
@@ -136,15 +136,15 @@ def _tables(rows: Sequence[Row]) -> Iterator[DataTable]:
         for row in group:
             order = None if row.order is None else f"{row.order:.2f} ({row.theory:g})"
             numbers = np.array([row.expected, row.got], float)
-            unit, size = shown_in(row.unit, numbers)
-            name = _named(row.quantity, unit) + (f", {row.solver}" if row.solver else "")
+            name, size = row_name(row.quantity, row.unit, numbers)
+            name += f", {row.solver}" if row.solver else ""
             lines.append(TableRow((name, *numbers / size, row.error, order, row.verdict)))
         yield DataTable(title, headings, lines, dense=True)
 
 
 def _study_table(study: Refinement) -> DataTable:
     """Return a row for each estimate, with the uncertainty to quote and where it is from."""
-    from tribo.lab.units import shown_in
+    from tribo.lab.units import row_name
 
     forms = {"quantity": "", "value": ".5g", "±": "", "%": ".2f"}
     forms |= {"grid": ".2f", "GCI %": ".2f", "steps": ".2f"}
@@ -153,10 +153,10 @@ def _study_table(study: Refinement) -> DataTable:
     for each in study.estimates:
         gci = None if each.grid.gci is None else 100 * each.grid.gci
         percent = 100 * each.uncertainty / abs(each.value) if each.value else None
-        unit, size = shown_in(each.unit, np.array(each.value))
+        name, size = row_name(each.name, each.unit, each.value)
         shown = plus_minus(each.value / size, each.uncertainty / size)
         orders = each.grid.order, gci, each.steps.order
-        rows.append(TableRow((_named(each.name, unit), *shown, percent, *orders)))
+        rows.append(TableRow((name, *shown, percent, *orders)))
     cells = ", ".join(str(level.cells[0]) for level in study.grids)
     steps = ", ".join(str(level.steps) for level in study.steps)
     notes = [
@@ -166,7 +166,3 @@ def _study_table(study: Refinement) -> DataTable:
         "has three times their range."
     ]
     return DataTable("", headings, rows, notes, dense=True)
-
-
-def _named(name: str, unit: str) -> str:
-    return f"{name}, {unit}" if unit else name

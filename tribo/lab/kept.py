@@ -10,7 +10,7 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.data_table import DataTable, Heading, TableRow
 from tribo.core.rounding import ROUND_OFF
-from tribo.lab.units import shown_in
+from tribo.lab.units import row_name
 from tribo.result.layout import BETWEEN, EFFECT, STATE
 from tribo.result.read import Result
 
@@ -61,8 +61,7 @@ def fields_table(result: Result) -> DataTable | None:
     rows = []
     for field in kept_fields(result):
         last = field.values[-1]
-        unit, factor = shown_in(field.unit, last)
-        name = f"{field.name}, {unit}" if unit else field.name
+        name, factor = row_name(field.name, field.unit, last)
         values = float(np.min(last)), field.mean(result, -1), float(np.max(last))
         rows.append(TableRow((name, *(value / factor for value in values)), ".4g"))
     headings = list(map(Heading, ("", "least", "mean in the contact", "largest")))

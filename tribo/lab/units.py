@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from tribo.core.arrays import Array
 from tribo.core.column import labelled
@@ -73,6 +74,12 @@ def shown_in(unit: str, values: Array) -> tuple[str, float]:
         # Matplotlib would put the power far from the unit.
         return f"10{str(power).translate(_RAISED)} {shown}", factor * 10.0**power
     return ("" if unit == "1" else unit.replace("^2", "²").replace("^3", "³")), 1.0
+
+
+def row_name(name: str, unit: str, values: ArrayLike) -> tuple[str, float]:
+    """Return a name with the unit in which values in an SI unit are shown, and its size in SI."""
+    shown, size = shown_in(unit, np.asarray(values, dtype=float))
+    return f"{name}, {shown}".removesuffix(", "), size
 
 
 def time_unit(times: Array) -> str:

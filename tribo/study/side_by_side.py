@@ -7,13 +7,11 @@ from collections.abc import Iterator, Sequence
 from math import isnan, nan
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from tribo.core.column import labelled
 from tribo.core.data_table import DataTable, Heading, TableRow
 from tribo.core.words import readable, signed
 from tribo.lab.report import quantity_rows
-from tribo.lab.units import shown_in
+from tribo.lab.units import row_name
 from tribo.result.layout import SAVED
 from tribo.study.differences import differences
 
@@ -45,7 +43,7 @@ def comparison_table(comparison: Comparison, times: Sequence[float]) -> DataTabl
     found = [{row.key: row for row in quantity_rows(each)} for each in comparison.results.values()]
     for key, row in dict(ChainMap(*found)).items():
         values = [of[key].value if key in of else nan for of in found]
-        name, size = _unit(row.label, row.unit, values)
+        name, size = row_name(row.label, row.unit, values)
         rows.append(TableRow((name, *(value / size for value in values)), ".4g"))
     for time in times:
         rows += [TableRow((f"at {time:g} s",)), *_at(comparison, time)]
@@ -65,7 +63,7 @@ def _at(comparison: Comparison, time: float) -> Iterator[TableRow]:
         for name, key, unit, multiple, form in (*(_OF_BODIES if whose else _SCALARS), *own):
             values = [multiple * float(table.get(key, nan)) for table in tables]
             if any(values) and not isnan(sum(values)):
-                row, size = _unit(f"{whose} {name}".lstrip(), unit, values)
+                row, size = row_name(f"{whose} {name}".lstrip(), unit, values)
                 cells = (
                     readable(value / size, form) + (_off(value, values[0]) if i else "")
                     for i, value in enumerate(values)
@@ -78,12 +76,6 @@ def _at(comparison: Comparison, time: float) -> Iterator[TableRow]:
             cell = f"{_percent(each.l2)} %, {_percent(each.largest)} %"
             off.setdefault(f"{name} map", [None] * len(labels))[i] = cell
     yield from (TableRow((name, *shown)) for name, shown in off.items())
-
-
-def _unit(name: str, unit: str, values: Sequence[float]) -> tuple[str, float]:
-    """Return a name with the unit that fits values in SI, and the size of this unit."""
-    shown, size = shown_in(unit, np.array(values))
-    return f"{name}, {shown}".removesuffix(", "), size
 
 
 def _off(value: float, reference: float) -> str:
