@@ -113,16 +113,6 @@ def test_a_run_may_end_at_a_distance():
     assert result.times[-1] == pytest.approx(70, rel=1e-12)
 
 
-@pytest.mark.parametrize("stepping", [{}, {"stepping": Explicit(time_step=2)}])
-@pytest.mark.parametrize("body", ["ball", "disk"])
-def test_a_run_may_end_at_a_depth(stepping, body):
-    result = Simulation(case(stop=Stop(depth="0.4 um", body=body), **stepping)).run()
-    depth = result.saves()[-1]["bodies"][body]["max_wear_depth_m"]
-    assert depth == pytest.approx(0.4e-6, rel=2e-6, abs=0)
-    assert result.status == "done"
-    assert result.warnings[-1].startswith("stop: ended at ")
-
-
 def test_a_run_says_that_it_has_not_worn_to_the_depth_at_which_it_is_to_end():
     result = Simulation(case(stop=Stop(depth="300 um"), kinematics=motion(duration=20))).run()
     found, body = result.findings[-1], result.saves()[-1]["bodies"]["ball"]

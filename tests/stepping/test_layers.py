@@ -4,14 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from coated_pins import COATING, FAST, PRESSURE, SLOW, STEEL, THROUGH, K, coated, flat
+from coated_pins import COATING, PRESSURE, SLOW, THROUGH, K, coated, flat
 from paper_models import goes_on
-from scipy.optimize import brentq
 
 from tribo import WORN_DEPTH, Archard, Case, CaseError, Simulation, WearLaw, WearRate
 
-SHARE = 0.1
-"""Of the track, what is under the pin."""
 FACTOR = {"factor": 2, "law": SLOW}
 
 
@@ -26,32 +23,6 @@ def passed(case):
         return result.saves()[-1], [f.distance for f in result.findings if f.kind == "layer"]
 
 
-EXPLICIT = {"type": "explicit", "time_step": "170 s"}
-SHORTER = {"type": "explicit", "time_step": "75 s"}
-
-
-@pytest.mark.parametrize("stepping", [{"type": "implicit"}, EXPLICIT])
-@pytest.mark.parametrize(("name", "share"), [("pin", 1.0), ("disk", SHARE)])
-def test_an_even_pressure_wears_through_at_the_exact_distance(stepping, name, share):
-    distance = 1.5 * THROUGH / share
-    last, notices, _ = ended(flat(**{name: coated()}, distance=distance, stepping=stepping))
-    exact = COATING + 10 * K * PRESSURE * share * (distance - THROUGH / share)
-    assert last["bodies"][name]["max_wear_depth_m"] == pytest.approx(exact, rel=1e-9, abs=0)
-    (told,) = notices
-    assert told.startswith(f"layer: at {10 * THROUGH / share:g} s ({THROUGH / share:g} m) layer 1 ")
-    assert told.endswith(f"layer 1 of {name}, down to 2 µm, is worn through at its deepest point")
-
-
-def test_the_hardness_of_a_layer_is_that_of_its_law():
-    hard = coated(hardness="10 GPa")
-    hard["material"] = {**STEEL, "hardness": "1 GPa"}
-    hard["layers"][0]["wear"] = None
-    hard["wear"] = {"type": "archard", "K": 10 * K * 1e9}
-    last, _, _ = ended(flat(pin=hard, distance=2 * THROUGH))
-    exact = COATING + 10 * K * PRESSURE * THROUGH
-    assert last["bodies"]["pin"]["max_wear_depth_m"] == pytest.approx(exact, rel=1e-9, abs=0)
-
-
 def ball(cells, distance):
     sphere = {**coated(), "surface": {"type": "sphere", "radius": "5 mm"}}
     case = flat(pin=sphere)
@@ -62,18 +33,6 @@ def ball(cells, distance):
         "load": "20 N",
         "contact": {"type": "dcfft", "plasticity": False},
     }
-
-
-def test_the_elasticity_of_a_layer_reaches_the_contact():
-    case = ball(40, "1 mm")
-    peaks = []
-    for young in ("207 GPa", "1000 GPa"):
-        layer = {"thickness": "50 um", "young": young}
-        case["bodies"]["pin"]["layers"] = [layer]
-        with Simulation(case).run() as result:
-            peaks.append(result.saves()[0]["max_pressure_Pa"])
-            assert result.report().first_contact.hertz_peak_pressure_Pa is None
-    assert 1.1 * peaks[0] < peaks[1] < 2 * peaks[0]
 
 
 def test_a_run_resumed_has_the_same_bits(tmp_path):
@@ -114,39 +73,6 @@ def test_a_run_that_ends_at_a_depth_tells_only_of_layers_passed_by_then():
 def test_layers_that_cannot_be_are_refused(body, words):
     with pytest.raises(CaseError, match=rf"^bodies\.{words}"):
         Simulation(flat(pin=body))
-
-
-@pytest.mark.parametrize("stepping", [{"type": "implicit"}, SHORTER])
-def test_what_laws_of_layers_remember_goes_on_from_one_to_the_next(stepping):
-    over, factor, distance = 100e6, 4.0, 30.0
-    slow, fast = ({"type": "running_in", "factor": 4, "over": over, "law": k} for k in (SLOW, FAST))
-    pin = {**coated(thickness="0.35 um"), "wear": fast}
-    pin["layers"][0]["wear"] = slow
-
-    def depth(s):
-        return K * PRESSURE * s + (factor - 1) * K * over * (1 - np.exp(-PRESSURE * s / over))
-
-    through = brentq(lambda s: depth(s) - 0.35e-6, 0, distance)
-    last, found = passed(flat(pin=pin, distance=distance, stepping=stepping))
-    exact = 0.35e-6 + 10 * (depth(distance) - 0.35e-6)
-    assert last["bodies"]["pin"]["max_wear_depth_m"] == pytest.approx(exact, rel=1e-4, abs=0)
-    assert found == [pytest.approx(through, rel=1e-4)]
-
-
-@pytest.mark.parametrize("over", [1e6, 100e6])
-@pytest.mark.parametrize("part", [0.5, 0.9])
-def test_what_is_under_a_layer_runs_in_however_late_in_a_step_that_is_passed(part, over):
-    # By up to 67 %, as the state of what was passed to last counted for nothing.
-    thick, factor = 0.35e-6, 4.0
-    pin = coated(thickness=thick)
-    pin |= {"wear": {"type": "running_in", "factor": factor, "over": over, "law": FAST}}
-    through = thick / (K * PRESSURE)
-    last, found = passed(flat(pin=pin, distance=through / part))
-    left = through / part - through
-    below = PRESSURE * left + (factor - 1) * over * (1 - np.exp(-PRESSURE * left / over))
-    exact = thick + 10 * K * below
-    assert last["bodies"]["pin"]["max_wear_depth_m"] == pytest.approx(exact, rel=3e-4, abs=0)
-    assert found == [pytest.approx(through, rel=1e-9)]
 
 
 class Coating(WearLaw):
