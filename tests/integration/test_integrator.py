@@ -36,30 +36,7 @@ def test_a_rate_that_jumps_is_followed_wherever_it_does(at):
     assert total[0, 0] == pytest.approx(3 - 2 * at, abs=3e-4)
 
 
-@pytest.mark.parametrize("length", [0.5, 3.5, 10.0, 1000.0])
-def test_a_state_relaxes_alike_with_limits_and_without_however_long_the_increment(length):
-    def decay(values, passed):
-        return [-values[0]]
-
-    def slower(values, passed):
-        return [-(values[0] ** 2)]
-
-    between = Kept("a", "a test", 0.0)
-    (decayed,) = integrated(decay, [ONE], length, [between]).values
-    (slowed,) = integrated(slower, [ONE], length, [between]).values
-    assert decayed[0, 0] == pytest.approx(np.exp(-length), rel=1e-9, abs=1e-300)
-    assert slowed[0, 0] == pytest.approx(1 / (1 + length), rel=1e-3)
-
-
 BETWEEN = Kept("a", "a test", 0.0, 1.0)
-
-
-@pytest.mark.parametrize("length", [0.7, 1.5, 10.0])
-def test_a_steady_loss_ends_at_a_limit(length):
-    (left,) = integrated(
-        lambda values, _: [-1.0 * (values[0] > 0)], [ONE], length, [BETWEEN]
-    ).values
-    assert left[0, 0] == pytest.approx(max(1 - length, 0), abs=1e-12)
 
 
 @pytest.mark.parametrize("length", [1.0, 35.0, 1e3, 1e5])
@@ -147,16 +124,6 @@ def test_what_relaxes_under_a_layer_begins_when_that_is_passed(length):
     assert found.values[0][0, 0] == pytest.approx(exact, rel=1e-3)
     assert found.sums[0][0, 0] == pytest.approx(exact, rel=1e-3)
     assert found.passed[0, 0] == pytest.approx(0.3 / length, rel=1e-9)
-
-
-def test_a_state_that_turns_at_a_break_passes_it_downwards():
-    thermostat = Kept("a", "a test", breaks=(1.0,))
-
-    def rates(values, _):
-        return [np.where(values[0] < 1, -0.5, -2.0)]
-
-    (found,) = integrated(rates, [3 * ONE], 4.0, [thermostat]).values
-    assert found[0, 0] == pytest.approx(1 - 0.5 * 3, rel=1e-12, abs=0)
 
 
 LENGTHS = [1e-3, 0.1, 1.0, 3.0, 30.0, 1e4]

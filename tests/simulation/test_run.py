@@ -107,12 +107,6 @@ def test_an_existing_result_is_replaced_only_when_told(tmp_path):
     assert Result.open(path).status == "done"
 
 
-def test_a_run_may_end_at_a_distance():
-    result = Simulation(case(stop=Stop(distance="7 m"))).run()
-    assert result.distances[-1] == pytest.approx(7, rel=1e-12)
-    assert result.times[-1] == pytest.approx(70, rel=1e-12)
-
-
 def test_a_run_says_that_it_has_not_worn_to_the_depth_at_which_it_is_to_end():
     result = Simulation(case(stop=Stop(depth="300 um"), kinematics=motion(duration=20))).run()
     found, body = result.findings[-1], result.saves()[-1]["bodies"]["ball"]

@@ -10,7 +10,6 @@ from strangers.debris import Covered, Debris
 from tribo import CaseError, Effect, Field, Grid, RunningIn, Simulation, WearLaw, WearRate
 from tribo.core.errors import PluginError
 from tribo.core.fields import LOAD_SHARE
-from tribo.motion.closed_track import Unidirectional
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 
@@ -35,15 +34,6 @@ class Bath(Effect):
         return {"warm": self.heats * contact.speed - (contact.state["warm"] - 300.0) / self.time}
 
 
-class Reads(WearLaw):
-    type = "test.reads_warm"
-    requires = ("warm",)
-
-    def rate(self, local):
-        k = K * local.fields["warm"] / 300
-        return WearRate(k * local.pressure, k)
-
-
 def model(law=COVERED, effects=(), **changes):
     bodies = pair(law, law)
     return small(
@@ -56,27 +46,6 @@ def model(law=COVERED, effects=(), **changes):
             **changes,
         }
     )
-
-
-@pytest.mark.parametrize("law", [Reads(), archard()])
-def test_what_is_uniform_is_one_number_and_relaxes_as_it_should(law):
-    stages = [
-        {"until": 30, "speed": "0.1 m/s"},
-        {"until": 50, "speed": 0},
-        {"until": 70, "speed": "0.2 m/s"},
-    ]
-    case = model(
-        law,
-        effects=[Bath()],
-        kinematics=Unidirectional(speed=stages, track_length="2 mm", duration=70),
-    )
-    seen = {state.time: state.between["warm"] for state in states(case)}
-    assert {values.shape for values in seen.values()} == {(1, 1)}
-    rise = 0.0
-    for end, speed, span in ((30, 0.1, 30), (50, 0.0, 20), (70, 0.2, 20)):
-        # Heated at a constant speed it tends to h v τ; at rest it cools.
-        rise = 2000 * speed + (rise - 2000 * speed) * np.exp(-span / 20)
-        assert seen[end][0, 0] - 300 == pytest.approx(rise, rel=2e-4)
 
 
 @pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step="0.2 s")])

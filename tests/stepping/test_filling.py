@@ -35,12 +35,6 @@ def test_a_layer_takes_the_load_that_its_height_asks_for(stepping):
     np.testing.assert_allclose(last.contact.pressure, expected + np.zeros(8), rtol=1e-8)
 
 
-def test_an_even_layer_keeps_the_bodies_apart_and_changes_nothing_else():
-    bare, layered = (states(pin(effects=[Grows(rate=0, first=t)]))[-1] for t in (0, 1e-6))
-    assert bare.contact.approach - layered.contact.approach == pytest.approx(1e-6, rel=1e-9, abs=0)
-    np.testing.assert_allclose(layered.contact.pressure, bare.contact.pressure, rtol=1e-9)
-
-
 class Gathers(Grows):
     """A layer that grows the faster, the harder it is pressed, a little more on one half."""
 

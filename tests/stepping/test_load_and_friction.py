@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from edited import bits
 from paper_models import K, archard, flat, foundation, half_space, motion, named, pair, small, steel
 
 from tribo import (
@@ -18,8 +17,6 @@ from tribo import (
 )
 from tribo.core.errors import PluginError
 from tribo.motion.closed_track import Unidirectional
-from tribo.stepping.explicit import Explicit
-from tribo.wear.archard import Power
 
 
 class Film(Effect):
@@ -81,12 +78,6 @@ def volume(result):
     return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
 
 
-@pytest.mark.slow
-def test_a_film_that_carries_nothing_is_the_dry_case_to_the_bit():
-    with run() as dry, run(effects=[Film(share=0.0)]) as wet:
-        assert bits(dry).items() <= bits(wet).items()
-
-
 class NoSlope(WearLaw):
     """Archard's law, its slope left to be found."""
 
@@ -101,16 +92,6 @@ def test_a_film_that_carries_all_leaves_no_wear(law):
     with run(law, effects=[Film(share=1.0)]) as result:
         assert volume(result) == 0
         assert result.body("disk").effects["load_share"][-1].min() == 1
-
-
-@pytest.mark.parametrize("law", [archard(), Power(k=K, reference_pressure="1 GPa", p_exponent=2)])
-def test_what_it_carries_does_not_wear(law):
-    # A flat pin has an even pressure, which the film takes a quarter of.
-    shape = pin(law)
-    with run(**shape) as dry, run(effects=[Film(share=0.25)], **shape) as wet:
-        lost = [r.saves()[-1]["bodies"]["pin"]["wear_volume_m3"] for r in (dry, wet)]
-    power = 1 if law == archard() else 2
-    assert lost[1] == pytest.approx(0.75**power * lost[0], rel=1e-9, abs=0)
 
 
 class Above(Effect):
@@ -154,21 +135,6 @@ def test_friction_may_follow_the_speed():
     assert last["friction_force_N"] == pytest.approx(40.0, rel=1e-9)
     assert first["friction_energy_J"] == pytest.approx(20.0, rel=1e-9)
     assert last["friction_energy_J"] == pytest.approx(20.0 + 80.0, rel=1e-9)
-
-
-def test_friction_may_follow_the_load():
-    jumps = [{"until": 10, "normal": 20}, {"until": 11, "normal": 100}, {"until": 20, "normal": 20}]
-    c = 2e-3
-    follows = rubs(lambda contact: c * contact.pressure.sum() * contact.grid.cell_area)
-    parts = {"effects": [follows], "stepping": Explicit(time_step=2), **pin(archard())}
-    with run(load={"normal": jumps}, **parts) as result:
-        work = result.saves()[-1]["friction_energy_J"]
-    # ∫ μ F ds with μ = c F; each stage from the load after its jump on.
-    assert work == pytest.approx(c * 0.1 * (20**2 * 19 + 100**2), rel=1e-9)
-    ramp = [{"at": 0, "normal": 20}, {"at": 20, "normal": 100}]
-    with run(load={"normal": ramp}, **parts) as result:
-        work = result.saves()[-1]["friction_energy_J"]
-    assert work == pytest.approx(c * 0.1 * 20 * (20**2 + 20 * 100 + 100**2) / 3, rel=1e-10)
 
 
 def test_the_work_of_friction_that_follows_the_time_is_that_of_its_integral():
@@ -219,11 +185,6 @@ def test_at_rest_there_is_no_force_of_friction():
         forces = [save["friction_force_N"] for save in result.saves()]
     assert forces[1] == pytest.approx(30)
     assert forces[::2] == [0, 0]
-
-
-def test_friction_has_one_source():
-    with pytest.raises(CaseError, match="'friction_coefficient' is provided twice"):
-        run(effects=[rubs(lambda _: 0.1)], friction_coefficient=0.1)
 
 
 def test_without_friction_its_columns_are_empty():

@@ -5,7 +5,7 @@ import pytest
 from paper_models import K, archard, case, foundation, last, motion, pair, pin, small
 
 from tribo import Simulation
-from tribo.core.errors import BadValues, CaseError
+from tribo.core.errors import BadValues
 from tribo.core.fields import LOCAL_SLIP, Field, WearRate
 from tribo.effects.effect import Effect
 from tribo.stepping.explicit import Explicit
@@ -101,19 +101,6 @@ def test_worn_volume_goes_with_the_work_of_friction(changes):
         assert body["wear_volume_m3"] == pytest.approx(K / MU * work, rel=1e-10, abs=0)
 
 
-def test_where_every_point_slips_as_the_motion_the_run_is_the_same_to_the_bit():
-    changes = {"load": RAMP, **FEW_STEPS}
-    with_slip = Simulation(case(effects=[Slips(inside=1.0)], **changes)).run()
-    without = Simulation(case(**changes)).run()
-    for name, values in without.dataset.variables.items():
-        found = with_slip.dataset[name].values
-        if "friction" in name:
-            # Summed over the points.
-            np.testing.assert_allclose(found, values, rtol=1e-14)
-        else:
-            assert found.tobytes() == values.values.tobytes(), name
-
-
 def test_the_state_of_a_law_follows_the_slip_of_its_point():
     # So soft that its pressure stays even.
     model = pin(Tires(k=1e-15), effects=[Slips()], contact=foundation(modulus=1e11))
@@ -128,8 +115,3 @@ def test_the_state_of_a_law_follows_the_slip_of_its_point():
 def test_a_slip_of_each_body_is_refused():
     with pytest.raises(BadValues, match="local_slip"):
         last(small(effects=[Slips(uneven=True)]))
-
-
-def test_two_slips_are_refused():
-    with pytest.raises(CaseError, match="local_slip"):
-        small(effects=[Slips(), Slips()])

@@ -10,24 +10,11 @@ from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 
 
-class Pauses(Unidirectional):
-    """Rests from `begin` to `end`, in s."""
-
-    type = "test.pauses"
-    begin: float = 4.0
-    end: float = 9.0
-
-    def distance_at(self, time):
-        resting = np.clip(time - self.begin, 0.0, self.end - self.begin)
-        return super().distance_at(time - float(resting))
-
-    def time_at(self, distance):
-        time = super().time_at(distance)
-        return time if time <= self.begin else time + self.end - self.begin
-
-
 def pauses(begin=4.0, end=9.0, duration=15.0):
-    return Pauses(speed=0.1, track_length="2 mm", begin=begin, end=end, duration=duration)
+    """A motion that rests from `begin` to `end`, in s."""
+    stages = [(begin, 0.1), (end, 0.0), (99.0, 0.1)]
+    speed = [{"until": until, "speed": speed} for until, speed in stages if until > 0]
+    return Unidirectional(speed=speed, track_length="2 mm", duration=duration)
 
 
 STEPPINGS = [Implicit(), Explicit(time_step="1.5 s")]
