@@ -53,14 +53,3 @@ def dense(shape, spacing):
 
 def _corner(x, y):
     return x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y))
-
-
-def pressed(gaps, total):
-    """Return the overlaps of a foundation with each gap, in m, that add up to `total`."""
-    lowest = gaps.min(axis=(1, 2))
-    low, high = lowest, lowest + total
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        more = np.maximum(middle[:, None, None] - gaps, 0).sum(axis=(1, 2)) < total
-        low, high = np.where(more, middle, low), np.where(more, high, middle)
-    return np.maximum(high[:, None, None] - gaps, 0)

@@ -2,15 +2,12 @@
 
 import numpy as np
 import pytest
-from paper_models import K, archard, foundation, half_space, pair, power, small
+from paper_models import archard, foundation, half_space, pair, power, small
 
 from tribo.core.contact import ContactProblem
-from tribo.core.fields import ContactConditions, Field, WearRate
-from tribo.effects.effect import Effect
 from tribo.stepping.contacts import undeformed
 from tribo.stepping.first_contact import first_contact
 from tribo.stepping.implicit import Implicit
-from tribo.wear.law import WearLaw
 
 
 def one_step(model, increment=1.0):
@@ -45,34 +42,3 @@ def test_a_step_is_exact_backward_euler(laws, contact):
         ContactProblem(model.contact.system, undeformed(model, state)[0], model.contact.system.load)
     )
     np.testing.assert_allclose(again.pressure, pressure, atol=2e-5 * pressure.max())
-
-
-class Warmth(Effect):
-    type = "test.warmth"
-
-    provides = (Field("warmth", "1", "Twice as much on the ball as on the disk."),)
-
-    def fields(self, contact: ContactConditions):
-        rise = contact.pressure / contact.pressure.max()
-        return {"warmth": {"ball": 2 * rise, "disk": rise}}
-
-
-class Warm(WearLaw):
-    type = "test.warm"
-
-    requires = ("warmth",)
-
-    def rate(self, local):
-        k = K * (1 + local.fields["warmth"])
-        return WearRate(k * local.pressure, k)
-
-
-def test_a_law_gets_the_fields_it_requires_for_its_own_body():
-    law = Warm()
-    model = small(bodies=pair(law, law), effects=[Warmth()])
-    state = one_step(model)
-    p = state.contact.pressure
-    rise = p / p.max()
-    np.testing.assert_allclose(
-        state.bodies["ball"].wear, K * (1 + 2 * rise) * p, atol=1e-6 * K * p.max()
-    )

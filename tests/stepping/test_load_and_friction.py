@@ -137,14 +137,6 @@ def test_friction_may_follow_the_speed():
     assert last["friction_energy_J"] == pytest.approx(20.0 + 80.0, rel=1e-9)
 
 
-def test_the_work_of_friction_that_follows_the_time_is_that_of_its_integral():
-    follows = rubs(lambda contact: 0.1 * (1 + np.sin(contact.time)))
-    with run(effects=[follows], **pin(archard())) as result:
-        history = result.table("history")
-    exact = 0.1 * (1 - np.cos(20) + 20) * 100 * 0.1
-    assert history["friction_energy_J"][-1] == pytest.approx(exact, rel=3e-5)
-
-
 def test_friction_that_is_not_alike_on_both_bodies_is_refused():
     with pytest.raises(PluginError, match="friction_coefficient"):
         run(effects=[rubs(lambda _: [[[0.1]], [[0.2]]])])

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from paper_models import (
-    K,
     archard,
     foundation,
     last,
@@ -40,17 +39,6 @@ class Spring(Effect):
 
     def load_factor(self, snapshot):
         return 1 - self.relaxes * sum(b.max_wear_depth for b in snapshot.measures.bodies.values())
-
-
-class Sags(Effect):
-    """A load that falls with the volume that both bodies have lost: F = F₀ (1 − V/V₀)."""
-
-    type = "test.sags"
-    volume: float
-
-    def load_factor(self, snapshot):
-        lost = sum(body.wear_volume for body in snapshot.measures.bodies.values())
-        return 1 - lost / self.volume
 
 
 class Control(Effect):
@@ -90,23 +78,11 @@ def ball(*effects, **changes):
     return small(effects=effects, **{**parts, **changes})
 
 
-def test_a_ball_under_a_load_that_falls_with_its_wear_is_that_of_a_closed_form_to_first_order():
-    # On springs as on a half-space: dV/ds = 2 k F, so that F = F₀ exp(−2 k F₀ s/V₀).
-    slid, volume = 2.0, 1.5e-13
-    exact = volume * (1 - np.exp(-2 * K * 100 * slid / volume))
-    off = []
-    for time_step in (0.4, 0.2):
-        model = ball(Sags(volume=volume), stepping=Explicit(time_step=time_step))
-        worn = last(model).bodies
-        lost = sum(model.cycle.maps[name].volume(body.wear) for name, body in worn.items())
-        off.append(lost / exact - 1)
-    assert off[0] / off[1] == pytest.approx(2, abs=0.1)
-    assert 0 < off[1] < 0.01
-
-
-def test_steps_chosen_by_error_follow_the_load_of_a_rigid_pin():
+@pytest.mark.parametrize("stepping", [Implicit(), Explicit(time_step=0.1)], ids=lambda s: s.type)
+def test_steps_follow_the_load_of_a_rigid_pin(stepping):
     # dh/ds = k (F₀ − S h)/A, so that h = F₀/S (1 − exp(−k S s/A)).
-    model = pin(archard(1e-12), effects=[Spring(relaxes=1e5)])
+    parts = {"stepping": stepping, "contact": foundation(modulus=1e14)}
+    model = pin(archard(1e-12), effects=[Spring(relaxes=1e5)], **parts)
     depth = float(np.max(last(model).bodies["pin"].wear))
     rate = 1e-12 * FORCE / AREA
     assert depth == pytest.approx(1e-5 * (1 - np.exp(-1e5 * rate)), rel=0.03, abs=0)

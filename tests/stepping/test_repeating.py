@@ -4,7 +4,6 @@ from itertools import product
 
 import numpy as np
 import pytest
-from contact_problems import pressed
 from paper_models import FOUNDATION, K, archard, flat, last, motion, named, small, sphere, steel
 
 from tribo import (
@@ -66,45 +65,6 @@ def strokes(cells, **values):
 
 def track(length):
     return Unidirectional(speed=0.1, track_length=length, distance=1.0)
-
-
-def plain_loop(offsets, shares, distance, steps=300):
-    """Wear two rough bodies, of which the lower one goes round, by forward Euler."""
-    unworn = [-rough(seed).height(GRID) for seed in (1, 2)]
-    upper, lower = np.zeros(GRID.cells), np.zeros(GRID.cells)
-    shares = np.array(shares) / np.sum(shares)
-    for length in distance * np.diff(np.linspace(0, 1, steps + 1) ** 1.5):
-        gaps = [unworn[0] + upper + np.roll(unworn[1] + lower, cells, axis=0) for cells in offsets]
-        p = FOUNDATION * pressed(np.stack(gaps), LOAD / (DX * DY * FOUNDATION))
-        for share, cells, here in zip(shares, offsets, p, strict=True):
-            upper += K * length * share * here
-            lower += K * length * share * np.roll(here, -cells, axis=0)
-    return upper, lower
-
-
-# The ends of a stroke are half.
-EVEN, ENDS = np.ones(16), [0.5, *np.ones(39), 0.5]
-ROUND = np.bincount((np.arange(-20, 21) + 8) % 16, ENDS)
-PATHS = {
-    "short": (strokes(6), range(-3, 4), [1, 2, 2, 2, 2, 2, 1]),
-    "longer": (strokes(40), range(-8, 8), ROUND),
-    "track": (strokes(16), range(-8, 8), EVEN),
-}
-"""A stroke within the window, one that goes round it more than once, a long track."""
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("path", PATHS)
-def test_both_bodies_wear_as_in_a_plain_loop_that_goes_round(path):
-    kinematics, offsets, shares = PATHS[path]
-    state = last(repeating(kinematics))
-    loop = plain_loop(offsets, shares, state.distance)
-    for name, expected in zip(("upper", "lower"), loop, strict=True):
-        found = state.bodies[name].wear
-        assert found.shape == GRID.cells
-        assert np.max(np.abs(found - expected)) < 5e-3 * expected.max()
-        volume = np.sum(found) * GRID.cell_area
-        assert volume == pytest.approx(K * LOAD * state.distance, rel=1e-10, abs=0)
 
 
 SINE = {"waveform": "sinusoidal"}
