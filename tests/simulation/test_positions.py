@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import K, archard, case, flat, last, motion, named, pair, steel
+from paper_models import archard, case, last, motion, named, pair, steel
 
 from tribo import (
     Grid,
@@ -35,6 +35,7 @@ def with_bodies(stroke, *bodies):
 
 PIN = named("ball", Pin(radius="0.4 mm", edge="0.12 mm"), steel(), archard())
 WAVY = named("disk", Waves(amplitude="10 nm", wavelength="0.2 mm", along="x"), steel(), archard())
+CRESTS = named("ball", Waves(amplitude="10 nm", wavelength="0.2 mm", along="x"), steel(), archard())
 
 
 @pytest.mark.parametrize(
@@ -50,6 +51,8 @@ WAVY = named("disk", Waves(amplitude="10 nm", wavelength="0.2 mm", along="x"), s
         (left_open(stepping=Explicit(time_step=0.25)), "average"),
         (left_open("0.58 mm", swept="ball"), "cells"),
         (with_bodies("0.58 mm", WAVY), "cells"),
+        # A contact without ends is averaged over its own period only.
+        (with_bodies("6 mm", CRESTS).model_copy(update={"contact": Periodic()}), "cells"),
     ],
 )
 def test_the_positions_that_are_taken(given, taken):
@@ -76,28 +79,6 @@ def test_the_positions_taken_are_enough_for_one_percent():
 
     assert groove("auto") == pytest.approx(groove(99), rel=0.01)
     assert groove("average") > 1.1 * groove(99)
-
-
-@pytest.mark.parametrize(("stroke", "count"), [("0.05 mm", 5), ("0.4 mm", 32), ("2 mm", 32)])
-def test_a_contact_without_ends_is_averaged_over_its_own_period_only(stroke, count):
-    # Whatever the stroke, each of two bodies that repeat loses the same all over.
-    edge, load, distance = 0.4e-3, 20.0, 0.5
-    bodies = [
-        named("ball", Waves(amplitude=1e-7, wavelength=edge / 2, along="x"), steel(), archard()),
-        named("disk", flat(), steel(), archard()),
-    ]
-    model = composed(
-        case(
-            grid=Grid((edge, edge), (32, 4)),
-            load=load,
-            contact=Periodic(),
-            bodies=bodies,
-            kinematics=motion(stroke=stroke, duration=None, distance=distance, positions="auto"),
-        )
-    )
-    assert len(model.cycle) == count
-    mean = np.mean(last(model).bodies["disk"].wear)
-    assert mean == pytest.approx(K * load * distance / edge**2, rel=1e-9, abs=0)
 
 
 def test_the_choice_is_kept():

@@ -5,9 +5,10 @@ import pytest
 from paper_models import K, archard, case, foundation, last, motion, pair, pin, small
 
 from tribo import Simulation
-from tribo.core.errors import BadValues
+from tribo.core.errors import BadValues, CaseError
 from tribo.core.fields import LOCAL_SLIP, Field, WearRate
 from tribo.effects.effect import Effect
+from tribo.motion.reciprocating import Reciprocating
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 from tribo.wear.law import WearLaw
@@ -115,3 +116,17 @@ def test_the_state_of_a_law_follows_the_slip_of_its_point():
 def test_a_slip_of_each_body_is_refused():
     with pytest.raises(BadValues, match="local_slip"):
         last(small(effects=[Slips(uneven=True)]))
+
+
+class Shakes(Reciprocating):
+    """A motion in which points slip less than it slides."""
+
+    type = "test.shakes"
+
+    def effects(self):
+        return [Slips()]
+
+
+def test_a_slip_of_the_motion_and_one_of_the_case_are_refused():
+    with pytest.raises(CaseError, match="local_slip"):
+        small(kinematics=Shakes(**dict(motion())), effects=[Slips()])
