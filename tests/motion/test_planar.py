@@ -38,6 +38,7 @@ def test_the_body_goes_where_it_heads(path):
     model = Simulation(case(path=path, extent=extent, positions=48)).model
     extent = model.motion.component.track_extent
     assert model.cycle.maps["plate"].track(GRID) == pytest.approx(extent, rel=1e-12, abs=0)
+    np.testing.assert_allclose(model.cycle.fields[0]["place_x"]["pin"][:, 0], GRID.x)
     # The window moves over the body against the body itself.
     steps = -np.diff(model.cycle.offsets, axis=0)
     ways = np.array([position.heading for position in model.cycle])
