@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import K, archard, flat, foundation, half_space, motion, named, pair, small, steel
+from paper_models import K, archard, case, motion, pair, pin
 
 from tribo import (
     FRICTION_COEFFICIENT,
@@ -50,32 +50,8 @@ def rubs(function):
 
 
 def run(law=None, **changes):
-    law = law or archard()
-    return Simulation(
-        small(
-            **{
-                "grid": Grid((0.7e-3, 0.7e-3), (24, 24)),
-                "bodies": pair(law),
-                "contact": half_space(),
-                "kinematics": motion(duration=20),
-                **changes,
-            }
-        ).case
-    ).run()
-
-
-def pin(law):
-    return {
-        "grid": Grid((1e-3, 1e-3), (8, 8)),
-        "bodies": [named("pin", flat(), steel(), law), named("disk", flat(), steel())],
-        "contact": foundation(),
-        "kinematics": Unidirectional(speed=0.1, track_length="10 mm", distance=2),
-        "ends_at_window": True,
-    }
-
-
-def volume(result):
-    return result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"]
+    parts = {"grid": Grid((0.7e-3, 0.7e-3), (24, 24)), "kinematics": motion(duration=20)}
+    return Simulation(case(bodies=pair(law or archard()), **{**parts, **changes})).run()
 
 
 class NoSlope(WearLaw):
@@ -90,7 +66,7 @@ class NoSlope(WearLaw):
 @pytest.mark.parametrize("law", [archard(), NoSlope()])
 def test_a_film_that_carries_all_leaves_no_wear(law):
     with run(law, effects=[Film(share=1.0)]) as result:
-        assert volume(result) == 0
+        assert result.saves()[-1]["bodies"]["ball"]["wear_volume_m3"] == 0
         assert result.body("disk").effects["load_share"][-1].min() == 1
 
 
@@ -106,13 +82,12 @@ class Above(Effect):
 
 
 def test_each_of_several_takes_its_part_of_what_the_others_leave():
-    shape = pin(archard())
     effects = [Above(), Film(share=0.5), Film(share=0.2)]
-    with run(**shape) as dry, run(effects=effects, **shape) as wet:
-        lost = [r.saves()[-1]["bodies"]["pin"]["wear_volume_m3"] for r in (dry, wet)]
+    with Simulation(pin(archard(), effects=effects)).run() as wet:
+        lost = wet.saves()[-1]["bodies"]["pin"]["wear_volume_m3"]
         share = wet.body("pin").effects["load_share"][-1]
     left = 0.5 * 0.8 * (1 - 0.6)
-    assert lost[1] == pytest.approx(left * lost[0], rel=1e-9, abs=0)
+    assert lost == pytest.approx(left * K * 40, rel=1e-9, abs=0)
     np.testing.assert_allclose(share, 1 - left, rtol=1e-12)
     with pytest.raises(CaseError, match=r"test.above, test.above needs .* wait for one"):
         run(effects=[Above(), Above()])
@@ -135,6 +110,13 @@ def test_friction_may_follow_the_speed():
     assert last["friction_force_N"] == pytest.approx(40.0, rel=1e-9)
     assert first["friction_energy_J"] == pytest.approx(20.0, rel=1e-9)
     assert last["friction_energy_J"] == pytest.approx(20.0 + 80.0, rel=1e-9)
+
+
+def test_the_work_of_friction_that_follows_the_time_is_that_of_its_integral():
+    follows = rubs(lambda contact: 0.1 * (1 + np.sin(contact.time)))
+    with Simulation(pin(archard(), effects=[follows])).run() as result:
+        work = result.saves()[-1]["friction_energy_J"]
+    assert work == pytest.approx(0.1 * (1 - np.cos(10) + 10) * 40 * 0.1, rel=3e-5)
 
 
 def test_friction_that_is_not_alike_on_both_bodies_is_refused():
@@ -163,9 +145,9 @@ class Fading(Effect):
 
 @pytest.mark.parametrize("law", [archard(), archard(k=0.0)], ids=["worn", "unworn"])
 def test_the_work_of_friction_that_follows_a_state_is_that_of_its_course(law):
-    with run(effects=[Fading()], **pin(law)) as result:
+    with Simulation(pin(law, effects=[Fading()])).run() as result:
         work = result.saves()[-1]["friction_energy_J"]
-    exact = 100 * (0.1 * 2 + 0.4 * 0.5 * -np.expm1(-2 / 0.5))
+    exact = 40 * (0.1 + 0.4 * 0.5 * -np.expm1(-1 / 0.5))
     assert work == pytest.approx(exact, rel=1e-5)
 
 
