@@ -126,6 +126,16 @@ def test_what_relaxes_under_a_layer_begins_when_that_is_passed(length):
     assert found.passed[0, 0] == pytest.approx(0.3 / length, rel=1e-9)
 
 
+def test_a_state_that_turns_at_a_break_passes_it_downwards():
+    thermostat = Kept("a", "a test", breaks=(1.0,))
+
+    def rates(values, _):
+        return [np.where(values[0] < 1, -0.5, -2.0)]
+
+    (found,) = integrated(rates, [3 * ONE], 4.0, [thermostat]).values
+    assert found[0, 0] == pytest.approx(1 - 0.5 * 3, rel=1e-12, abs=0)
+
+
 LENGTHS = [1e-3, 0.1, 1.0, 3.0, 30.0, 1e4]
 FREE = Kept("a", "a test", 0.0)
 
