@@ -1,62 +1,11 @@
-"""Heat sources against Jaeger's integral, the elastic half-space and the paper's numbers."""
+"""Heat that stays on a track, against Green's function; the case thermal_sources has the rest."""
 
 import math
 
-import numpy as np
 import pytest
 from greens_function import moved_on, round_a_circle, steady_cycle, to_and_fro
 
-from tribo_thermal.sources import LIMITS, kept_per_power, rise_per_power
-
-PROFILES = {
-    "uniform": np.ones_like,
-    "parabolic": lambda r2: 1.5 * np.sqrt(np.maximum(1 - r2, 0.0)),
-}
-ALONG, ALONG_WEIGHT = np.polynomial.legendre.leggauss(40)
-ROUND, ROUND_WEIGHT = np.polynomial.legendre.leggauss(120)
-
-
-def jaeger(x, y, peclet, flux):
-    """ΔT K/(q a) at (x, y)/a inside a disc source that moves along +x.
-
-    Jaeger's quasi-steady point source, ΔT = Q exp(−v (r − X)/2κ)/(2πKr) with X
-    the distance ahead, integrated in polar coordinates about the point.
-    """
-    angle = math.pi * (ROUND + 1)
-    cos, sin = np.cos(angle), np.sin(angle)
-    inward = x * cos + y * sin
-    reach = np.sqrt(inward**2 + 1 - x * x - y * y) - inward
-    u = 0.5 * (ALONG + 1)
-    r = reach[:, None] * (1 - (1 - u) ** 2)
-    dr = reach[:, None] * (1 - u) * ALONG_WEIGHT
-    there = (x + r * cos[:, None]) ** 2 + (y + r * sin[:, None]) ** 2
-    decay = np.exp(-peclet * r * (1 + cos[:, None]))
-    total = np.sum(math.pi * ROUND_WEIGHT[:, None] * dr * flux(there) * decay)
-    return float(total) / (2 * math.pi)
-
-
-def exact(peclet, profile, rise):
-    """ΔT K/(q a), with q = Q/(π a²)."""
-    flux = PROFILES[profile]
-    if rise == "maximum":
-        return max(jaeger(x, 0.0, peclet, flux) for x in np.linspace(-0.99, 0.99, 67))
-    node, weight = np.polynomial.legendre.leggauss(10)
-    radius, around = 0.5 * (node + 1), math.pi * (np.arange(16) + 0.5) / 16
-    means = [
-        np.mean([jaeger(r * math.cos(t), r * math.sin(t), peclet, flux) for t in around])
-        for r in radius
-    ]
-    return float(np.sum(weight * radius * means))
-
-
-@pytest.mark.parametrize(("profile", "rise"), LIMITS)
-@pytest.mark.parametrize("peclet", [0.0, 0.3, 1.0, 3.0, 10.0, 300.0])
-def test_rises_follow_jaeger(profile, rise, peclet):
-    # The documented accuracy of the joined formula. The limits are exact: above Pe = 100 heat
-    # flows straight down, and conduction along adds some 1/Pe.
-    tolerance = {0.0: 1e-4, 300.0: 0.01}.get(peclet, {"maximum": 0.023, "mean": 0.049}[rise])
-    found = math.pi * rise_per_power(1.0, 1.0, peclet, profile, rise)
-    assert found == pytest.approx(exact(peclet, profile, rise), rel=tolerance)
+from tribo_thermal.sources import kept_per_power
 
 
 @pytest.mark.parametrize("way", [to_and_fro, round_a_circle])
