@@ -1,14 +1,11 @@
 """Roughness parameters against closed forms and SurfaceTopography."""
 
-import math
-
 import numpy as np
 import pytest
 from tribo import Cylinder, Grid, Rough, Sphere
 from tribo.kernel_api import without_form
 
 from tribo_topography.roughness import (
-    areal_parameters,
     is_rough,
     material_ratio,
     profile_parameters,
@@ -22,13 +19,6 @@ WAVES = A * np.sin(2 * np.pi * (np.arange(100) + 0.5) / 25)
 
 def random_waves():
     return Rough(sq=A, cut_off="50 um", roll_off="0.2 mm", seed=3).height(GRID)
-
-
-def test_a_sine_has_its_textbook_parameters():
-    sa, _, sz, ssk, _ = areal_parameters(np.tile(WAVES, (40, 1)))
-    assert sa == pytest.approx(2 * A / math.pi, rel=3e-3, abs=0)
-    assert sz == pytest.approx(2 * A, rel=1e-2, abs=0)
-    assert abs(ssk) < 1e-12
 
 
 def test_short_lines_at_the_rim_of_a_mask_do_not_count():
@@ -68,14 +58,3 @@ def test_a_body_is_rough_where_it_is_more_than_its_form(form):
     height = np.zeros(GRID.cells) if form is None else form.height(GRID)
     assert not is_rough(height)
     assert is_rough(height + 0.1 * random_waves())
-
-
-@pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_surface_topography_agrees():
-    topography = pytest.importorskip("SurfaceTopography").Topography
-    height = random_waves() + Sphere(radius="5 mm").height(GRID)
-    theirs = topography(height, GRID.size).detrend(detrend_mode="curvature")
-    ours = roughness(height)
-    np.testing.assert_allclose(without_form(height), theirs.heights(), rtol=0, atol=1e-17)
-    assert ours.Sq_m == pytest.approx(theirs.rms_height_from_area(), rel=1e-9, abs=0)
-    assert ours.Sa_m == pytest.approx(np.mean(np.abs(theirs.heights())), rel=1e-9, abs=0)

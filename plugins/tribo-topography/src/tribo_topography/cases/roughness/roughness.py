@@ -16,6 +16,9 @@ def found() -> dict[str, float]:
     return {
         "Ra along": seen.Ra_along_m,
         "Rq across": seen.Rq_across_m,
+        "Sa": seen.Sa_m,
         "Sq": seen.Sq_m,
+        "Sz": seen.Sz_m,
+        "Ssk": seen.Ssk,
         "Sku": seen.Sku,
     }
