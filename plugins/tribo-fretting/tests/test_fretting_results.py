@@ -62,14 +62,6 @@ def test_running_conditions_are_drawn_over_load_and_amplitude():
     assert dots.get_array().tolist() == [0, 0.6]
 
 
-def test_no_stick_zone_is_left_in_gross_slip():
-    motion = {"cycles": 1}
-    with Simulation(case(24, "6 um", k=0.0, motion=motion)).run() as slides:
-        last = slides.saves()[-1]
-    zone = [last[name] for name in ("stick_part", "stick_half_width_x_m", "stick_half_width_y_m")]
-    assert zone == [0, 0, 0]
-
-
 def test_the_area_of_a_loop_is_its_energy(result):
     moved, force = loop(result, 0)
     saved = {name: column[0] for name, column in result.table("saves").items()}
