@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 from tribo import CaseError, Simulation
 
-from tribo_roughening.resistance import resistance
-
 ROOT = Path(__file__).parents[1]
 EXAMPLE = runpy.run_path(str(ROOT / "examples/settled_roughness.py"))
 case, K, PRESSURE = EXAMPLE["case"], EXAMPLE["K"], EXAMPLE["PRESSURE"]
@@ -23,42 +21,6 @@ def quick(*given, **sizes):
     data = case(*given, **sizes)
     del data["stepping"]["depth_tolerance"]
     return data
-
-
-def plain_loop(height, size, layers, increments):
-    """Return what a patch in full contact is worn to: small explicit steps, mode by mode."""
-    count = len(height)
-    line = (np.arange(count) - 0.5 * (count - 1)) * size / count
-    x, y = np.meshgrid(line, line, indexing="ij")
-    along = np.fft.fftfreq(count, size / count)
-    wavenumber = 2 * np.pi * np.hypot(along[:, None], along)
-    worn = np.zeros_like(height)
-    # Distance times k and mean pressure: the mean depth.
-    increment = layers * THICKNESS / increments
-    for _ in range(increments):
-        modes = np.fft.fft2(height - worn)
-        pressure = PRESSURE + np.fft.ifft2(0.5 * MODULUS * wavenumber * modes).real
-        assert pressure.min() > 0
-        made = {"diameter": DIAMETER, "thickness": THICKNESS, "spread": 0.5, "seed": 0}
-        held = resistance(x, y, worn, repeats=round(size / DIAMETER), **made)
-        worn += increment * pressure / PRESSURE / held
-    return worn
-
-
-@pytest.mark.slow
-def test_it_wears_as_a_plain_loop_of_small_steps_does():
-    data = case(4e-9, cells=8, particles=2, layers=1)
-    with Simulation(data).run() as result:
-        patch = result.body("patch")
-        worn, height = patch.wear_depth[-1], patch.height
-        # The law knows the depth it has worn.
-        np.testing.assert_allclose(patch.state["worn"], patch.wear_depth, rtol=INTEGRATED)
-        assert result.saves()[-1]["contact_area_m2"] == pytest.approx(32e-6**2, rel=1e-9, abs=0)
-    size = 2 * DIAMETER
-    loop = plain_loop(height, size, 1, 500)
-    # The second is 0.9 %, and 3 % with the default depth_tolerance: of first order in the steps.
-    assert worn.mean() == pytest.approx(loop.mean(), rel=1e-3, abs=0)
-    assert np.std(worn - loop) < 0.012 * loop.std()
 
 
 @pytest.mark.slow

@@ -65,21 +65,20 @@ def volume(lost):
 
 
 def worn(shape, **changes):
-    """Return maps before and after, of which a part is worn 1 µm deep at most."""
+    """Return maps before and after, and the depth worn: a function of pixels, in µm."""
     before, after, _ = pair(depth=0, **changes)
     lost = 1e-6 * np.maximum(shape(*(each / PITCH for each in after.grid.mesh)), 0)
-    return before, Heights(after.heights - lost, after.pitch)
+    lost = np.broadcast_to(lost, after.heights.shape)
+    return before, Heights(after.heights - lost, after.pitch), lost
 
 
-def track(radius=50 * RADIUS, wide=WIDE):
-    before, after, _ = pair(depth=0, shift=(15.3, 0))
-    y = after.grid.mesh[1]
-    lost = np.broadcast_to(np.maximum((wide**2 - y**2) / (2 * radius), 0), after.heights.shape)
-    return before, Heights(after.heights - 1e3 * lost, after.pitch), 1e3 * lost
+def track(wide=WIDE):
+    deepest = 1e7 * wide**2 / RADIUS
+    return worn(lambda x, y: deepest * (1 - (y * PITCH / wide) ** 2), shift=(15.3, 0))
 
 
-def grooved(depth, sq=5e-8, **changes):
+def grooved(depth, **changes):
     """Return maps of a groove whose edges are flat, as of a contact that has grown."""
-    before, after, _ = pair(depth=0, shift=(0, 0), turn=0, sq=sq, **changes)
-    lost = depth * np.maximum(1 - np.abs(after.grid.mesh[1]) / WIDE, 0) ** 1.5
-    return before, Heights(after.heights - lost, after.pitch), np.broadcast_to(lost, (96, 96))
+    still = {"shift": (0, 0), "turn": 0, "sq": 5e-8}
+    lost = lambda x, y: 1e6 * depth * np.maximum(1 - np.abs(y) * PITCH / WIDE, 0) ** 1.5  # noqa: E731
+    return worn(lost, **still, **changes)

@@ -11,7 +11,6 @@ from scar_maps import (
     cap,
     of_flat,
     pair,
-    places,
     seen,
     track,
     volume,
@@ -90,16 +89,6 @@ def test_a_direction_that_grooves_do_not_tell_is_undetermined_and_the_other_is_k
     assert np.isinf(sure[0])
     assert abs(off[1]) < 2 * sure[1] < 0.03
     assert abs(laid.rotation) < 3 * laid.rotation_uncertainty
-
-
-def test_rounding_of_smooth_balls_tells_no_shift():
-    pitch = 10e-6
-    x, y = places(pitch=pitch)
-    ball = -(x**2 + y**2) / (2 * RADIUS)
-    lost = cap(x, y, 2e-6, wide=0.3e-3)
-    found = measured_scar(Heights(ball, (pitch, pitch)), Heights(ball - lost, (pitch, pitch)))
-    assert found.registration.shift == (0, 0)
-    assert found.volume == pytest.approx(np.sum(lost) * pitch**2, rel=1e-3, abs=0)
 
 
 def filled(shape, value=np.nan):

@@ -8,7 +8,6 @@ from tribo import (
     CaseError,
     ContactProblem,
     ContactSystem,
-    DcFft,
     Grid,
     NumericalError,
     WearCompliance,
@@ -30,24 +29,6 @@ def ball(cells=(48, 48), size=(0.7e-3, 0.7e-3), load=100.0, cap=None, modulus=MO
     return ContactProblem(ContactSystem(grid, modulus, load, cap), gap, load)
 
 
-# At looser tolerances both leave the pressure of a cell at the rim uncertain by some 1e-6.
-@pytest.mark.parametrize(("load", "width"), [(100, 0.7e-3), (1000, 1.2e-3)])
-@pytest.mark.slow
-def test_it_finds_the_first_contact_that_dcfft_finds(load, width):
-    problem = ball((64, 64), (width, width), load, 4e9)
-    theirs, ours = (kind(tolerance=1e-11).solve(problem) for kind in (Tamaas, DcFft))
-    difference = 1e-8 * ours.pressure.max()
-    np.testing.assert_allclose(theirs.pressure, ours.pressure, rtol=0, atol=difference)
-    np.testing.assert_array_equal(theirs.pressure == 4e9, ours.pressure == 4e9)
-    assert theirs.approach == pytest.approx(ours.approach, rel=1e-8, abs=0)
-    # The deepest indent of the capped case is 0.6 µm.
-    np.testing.assert_allclose(theirs.overlap, ours.overlap, rtol=0, atol=2e-12)
-    assert theirs.overlap.any() == (load == 1000)
-    assert theirs.residuals.worst <= 1e-11
-    assert theirs.iterations > 0
-    assert theirs.pressure.sum() * problem.system.grid.cell_area == pytest.approx(load, rel=1e-12)
-
-
 @pytest.mark.parametrize("cap", [None, 4e9])
 @pytest.mark.parametrize(
     ("cells", "size"), [((65, 48), (1.2e-3, 1.2e-3)), ((48, 96), (1.2e-3, 3.6e-3))]
@@ -56,6 +37,7 @@ def test_window_and_cells_need_not_be_square_or_even(cells, size, cap):
     problem = ball(cells, size, 1000.0, cap)
     solution = Tamaas().solve(problem)
     assert solution.residuals.worst <= 1e-8
+    assert solution.iterations > 0
     at_cap = np.count_nonzero(solution.pressure == 4e9) * problem.system.grid.cell_area
     # Converged on fine grids; cells are counted whole.
     assert at_cap == pytest.approx(0 if cap is None else 0.124e-6, rel=0.03, abs=0)
