@@ -15,7 +15,7 @@ STEEL = {"young": "207 GPa", "poisson": 0.3}
 
 
 class Ball(NamedTuple):
-    """A ball of 10 mm on a like flat, or another curvature, after its normal contact."""
+    """A ball of 10 mm on a like flat, after its normal contact."""
 
     grid: Grid
     problem: ContactProblem
@@ -40,14 +40,13 @@ class Ball(NamedTuple):
         return 4 * np.sum(size * drag.slip) * self.grid.cell_area
 
 
-def ball(cells, poisson=0.3, young=207e9, load=LOAD, radius=RADIUS, window=None) -> Ball:
-    material = Material(young=young, poisson=poisson)
-    modulus = 0.5 * young / (1 - poisson**2)
-    contact_radius = (3 * load * radius / (4 * modulus)) ** (1 / 3)
-    grid = Grid(window or 3 * contact_radius, cells)
+def ball(cells, poisson=0.3) -> Ball:
+    material = Material(young=207e9, poisson=poisson)
+    modulus = 0.5 * material.young / (1 - poisson**2)
+    contact_radius = (3 * LOAD * RADIUS / (4 * modulus)) ** (1 / 3)
+    grid = Grid(3 * contact_radius, cells)
     x, y = grid.mesh
-    system = ContactSystem(grid, modulus, load)
-    problem = ContactProblem(system, (x**2 + y**2) / (2 * radius), load)
+    problem = ContactProblem(ContactSystem(grid, modulus, LOAD), (x**2 + y**2) / (2 * RADIUS), LOAD)
     pressure = DcFft(tolerance=1e-11).solve(problem).pressure
     return Ball(grid, problem, pressure, contact_radius, (material, material))
 

@@ -94,16 +94,7 @@ REFUSED = {
     ),
     "load in a cycle": ({"load": {"normal": WITHIN}}, r"load\.normal: .* changes by 20 %"),
     "hardness": ({"bodies": bodies(material={**STEEL, "hardness": "1 GPa"})}, "1 GPa"),
-    "unlike": (
-        {
-            "bodies": case()["bodies"]
-            | {"flat": {"surface": {"type": "flat"}, "material": ALUMINIUM}}
-        },
-        "%",
-    ),
-    "long": ({"amplitude": "100 um"}, "reciprocating"),
     "long stage": ({"amplitude": LONG}, r"amplitude\.2\.amplitude: .*reciprocating"),
-    "narrow": ({"amplitude": "1 um"}, "2 cells wide"),
     "sticks": ({"amplitude": "1 nm"}, r"kinematics\.amplitude: .*all sticks"),
     "held": (
         {"motion": {"force_amplitude": 0.1, "cycles": 1}},

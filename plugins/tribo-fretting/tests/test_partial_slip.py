@@ -31,7 +31,7 @@ def test_closed_forms_give_the_numbers_of_mindlin_and_cattaneo():
         assert loop_energy(ratio, SLIDING, a, c) == pytest.approx(energy, rel=2e-5, abs=0)
         assert stick_radius(ratio, a) == pytest.approx(stuck * a, rel=2e-5, abs=0)
     # Where all sticks the ball bears its load.
-    assert worn_load_share(1.0) == 1.0
+    assert [worn_load_share(stuck) for stuck in (0.5, 1.0)] == [0.6875, 1.0]
 
 
 def test_ciavarella_and_jaeger_are_met_without_poissons_ratio():

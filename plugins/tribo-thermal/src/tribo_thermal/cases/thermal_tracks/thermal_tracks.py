@@ -8,6 +8,14 @@ ONCE = {
     "to and fro over 100 radii, Pe 20": (100, 20, 0.048242004),
     "round over 20 radii, Pe 4.9": (20, 4.9, 0.093278624),
     "round over 60 radii, Pe 20": (60, 20, 0.048242004),
+    "to and fro over 2 radii, Pe 0.2": (2, 0.2, 0.23905747),
+    "to and fro over 2 radii, Pe 50": (2, 50, 0.030974112),
+    "to and fro over 10 radii, Pe 50": (10, 50, 0.030974112),
+    "to and fro over 100 radii, Pe 2": (100, 2, 0.13658599),
+    "round over 2 radii, Pe 0.2": (2, 0.2, 0.23905747),
+    "round over 2 radii, Pe 50": (2, 50, 0.030974112),
+    "round over 10 radii, Pe 50": (10, 50, 0.030974112),
+    "round over 100 radii, Pe 2": (100, 2, 0.13658599),
 }
 """Length of the track in radii, Peclet number, and rise of a source that moves on for ever."""
 
