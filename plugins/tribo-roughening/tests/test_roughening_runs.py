@@ -9,9 +9,7 @@ from tribo import CaseError, Simulation
 
 ROOT = Path(__file__).parents[1]
 EXAMPLE = runpy.run_path(str(ROOT / "examples/settled_roughness.py"))
-case, K, PRESSURE = EXAMPLE["case"], EXAMPLE["K"], EXAMPLE["PRESSURE"]
-DIAMETER, THICKNESS = EXAMPLE["DIAMETER"], EXAMPLE["THICKNESS"]
-MODULUS = 207e9 / (2 * (1 - 0.3**2))
+case, DIAMETER, THICKNESS = EXAMPLE["case"], EXAMPLE["DIAMETER"], EXAMPLE["THICKNESS"]
 INTEGRATED = 1e-4
 """What is remembered is integrated within a step to 3e-5."""
 
