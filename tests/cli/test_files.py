@@ -65,16 +65,6 @@ def test_a_case_given_for_a_result_is_told(monkeypatch, folder, command):
     assert "tribo run case.toml" in told(monkeypatch, folder, command, "case.toml")
 
 
-@pytest.mark.parametrize(
-    "line", ["young = 207 GPa", "material = { poisson = 0.3, young = 207 GPa }", "poisson = 0,3"]
-)
-def test_a_value_that_is_no_toml_is_told_with_how_values_are_written(monkeypatch, folder, line):
-    (folder / "bare.toml").write_text(f'a = "b"\n{line}\n')
-    words = told(monkeypatch, folder, "check {}", "bare.toml")
-    assert "at line 2" in words
-    assert words.endswith("write 0.3, and each key once")
-
-
 @pytest.mark.parametrize("name", ["out.csv", "out.toml"])
 def test_a_result_is_not_written_under_the_name_of_another_format(monkeypatch, folder, name):
     assert "name it out.h5" in told(monkeypatch, folder, "run case.toml -o {}", name)

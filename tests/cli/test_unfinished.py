@@ -28,7 +28,9 @@ WRITING = {
     "check": "check case.toml --set begin=r.h5",
     "run": "run case.toml -o r.h5",
     "resume": "resume r.h5",
+    "force": "run case.toml -o r.h5 --force",
 }
+BEGINNING = [WRITING[name] for name in ("check", "run", "resume")]
 UNSAVED = ("unsaved", "running, unsaved", "alone")
 SAVED = ("one save", "running", "killed", "interrupted", "interrupted, alone")
 
@@ -98,8 +100,8 @@ def refusal(command):
 @pytest.mark.parametrize(
     ("name", "command"),
     [
-        *product(("unsaved",), [*READING.values(), *WRITING.values()]),
-        *product(UNSAVED[1:], [READING["show"], *WRITING.values()]),
+        *product(("unsaved",), [*READING.values(), *BEGINNING]),
+        *product(UNSAVED[1:], [READING["show"], *BEGINNING]),
     ],
 )
 def test_of_a_result_without_a_save_it_is_told_where_its_rest_is(state, name, command):
@@ -150,6 +152,9 @@ def test_no_run_begins_with_a_result_or_upon_it_before_it_is_done(state, name):
 def test_a_run_is_resumed_where_its_checkpoints_are_and_none_writes(state, name):
     state(name)
     if name in ("running", "interrupted, alone"):
+        if name == "running":
+            assert Result.open("r.h5").status == "running"
+            assert "in use" in refusal(WRITING["force"])
         said = refusal(WRITING["resume"])
         assert ("r.h5.run, which is not beside it" in said) == (name != "running")
         assert "--force" not in said

@@ -79,16 +79,6 @@ def test_the_doctor_names_every_fault_and_none_hurts_a_list_or_a_check(folder, a
     assert conflict in doctor.stdout
 
 
-@pytest.mark.parametrize("name", ["TRIBO_DISABLE_PLUGINS", "TRIBO_PLUGINS"])
-def test_a_plugin_that_is_turned_off_cannot_be_used(folder, asked, monkeypatch, name):
-    cases(folder)
-    install(folder, "odd-tribo")
-    monkeypatch.setenv(name, "odd-tribo" if "DISABLE" in name else "none")
-    off = asked("check", "named.toml")
-    assert off.returncode == 2
-    assert "'odd.one' cannot be used: odd-tribo 1.0 is disabled: " in off.stderr
-
-
 @pytest.mark.slow
 def test_malformed_distributions_harm_no_other(folder, asked):
     cases(folder)

@@ -4,7 +4,6 @@ import errno
 import os
 import re
 import shutil
-from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -119,24 +118,6 @@ def test_a_checkpoint_of_another_version_of_tribo_is_refused(killed):
         store(path, data)
     with pytest.raises(CaseError, match=r"another version.*unheard_of"):
         simulation().resume(killed)
-
-
-@pytest.mark.slow
-def test_only_one_process_writes_a_result(killed, undisturbed):
-    folder = RunFolder(killed)
-    before = folder.checkpoint.read_bytes()
-    other = RunFolder(killed)
-    other.lock()
-    with closing(other._lock):
-        with Result.open(killed) as result:
-            assert result.status == "running"
-        with pytest.raises(CaseError, match=r"in use: another process is writing it$"):
-            simulation().resume(killed)
-        with pytest.raises(CaseError, match="in use"):
-            simulation().run(killed, overwrite=True)
-    assert folder.checkpoint.read_bytes() == before
-    with simulation().resume(killed) as result:
-        assert bits(result) == undisturbed
 
 
 def test_a_file_system_without_locks_is_told_of_once(tmp_path, monkeypatch):

@@ -37,22 +37,6 @@ def test_every_bit_counts(tmp_path):
     open_sealed(path).close()
 
 
-@pytest.mark.parametrize(
-    "damage",
-    [
-        lambda data: b"not a result",
-        lambda data: data[:-1],
-        lambda data: bytes([data[0] ^ 1]) + data[1:],
-    ],
-    ids=["text", "cut", "first bit"],
-)
-def test_a_damaged_result_is_refused(sound, tmp_path, damage):
-    path = tmp_path / "damaged.h5"
-    path.write_bytes(damage(sound.read_bytes()))
-    with pytest.raises(CaseError, match=r"damaged\.h5 is (damaged|not a result)"):
-        Result.open(path)
-
-
 @pytest.mark.parametrize("number", [1, [2, 2]])
 def test_another_format_is_refused_with_both_numbers(sound, tmp_path, number):
     path = tmp_path / "old.h5"

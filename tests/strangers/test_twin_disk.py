@@ -46,13 +46,6 @@ def result(registry):
         yield result
 
 
-def test_each_disk_loses_k_f_s_by_its_slip(result):
-    assert result.distances[-1] == pytest.approx(SLID, rel=1e-12)
-    end = result.saves()[-1]["bodies"]
-    for name, k in K.items():
-        assert end[name]["wear_volume_m3"] == pytest.approx(k * 50 * SLID, rel=1e-9, abs=0)
-
-
 def test_the_longer_way_round_is_worn_less_deep(result):
     # Each row of both disks has seen the same line load: the depths are as k over circumference.
     upper, lower = (result.body(name).wear_depth[-1] for name in K)

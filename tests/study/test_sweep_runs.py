@@ -162,9 +162,7 @@ def test_two_sweeps_do_not_share_a_folder(tmp_path):
         sweep(path, sweeps.LOADS, tmp_path / "out", executor=sweeps.Inline())
 
 
-def test_what_is_wrong_is_said_before_anything_runs(tmp_path):
-    path = sweeps.case(tmp_path)
-    for vary, words in (([], "nothing varies"), ({"loda.normal": [1]}, "did you mean 'load'")):
-        with pytest.raises(CaseError, match=words):
-            sweep(path, vary, tmp_path / "out", executor=sweeps.Inline())
+def test_a_sweep_of_nothing_is_refused_before_anything_runs(tmp_path):
+    with pytest.raises(CaseError, match="nothing varies"):
+        sweep(sweeps.case(tmp_path), [], tmp_path / "out", executor=sweeps.Inline())
     assert not (tmp_path / "out").exists()
