@@ -20,9 +20,7 @@ def tribo_components():
 """
 
 LAW = """
-from tribo import Effect, Field, WearLaw, WearRate, hookimpl
-
-WARMTH = Field("warmth", "K", "How warm.")
+from tribo import WearLaw, WearRate, hookimpl
 
 class Hot(WearLaw):
     type = "{name}"

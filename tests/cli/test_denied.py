@@ -15,7 +15,7 @@ from click.testing import CliRunner
 from made_results import quick_reports
 
 import tribo as package
-from tribo import sweep
+from tribo import load_case, sweep
 from tribo.cli.main import tribo
 from tribo.core.errors import CaseError, OutputError
 from tribo.templates import template
@@ -95,14 +95,9 @@ def test_it_is_one_message_and_exit_code_3(given, nobody, monkeypatch, command):
         assert word not in message
 
 
-def test_a_sweep_whose_results_cannot_be_entered_is_one_message(given, nobody, monkeypatch):
+def test_what_lies_in_a_folder_that_cannot_be_entered_is_one_message(given, nobody, monkeypatch):
     monkeypatch.chdir(given)
+    with pytest.raises(CaseError, match=r"^entry/my\.toml cannot be read: Permission denied$"):
+        load_case("entry/my.toml")
     with pytest.raises(OutputError, match=r"^cannot write to swept: Permission denied$"):
         sweep("small.toml", sweeps.LOADS, "swept", executor=sweeps.Inline())
-
-
-def test_a_case_in_a_folder_that_cannot_be_entered_is_one_message(given, nobody, monkeypatch):
-    monkeypatch.chdir(given)
-    done = CliRunner().invoke(tribo, ["run", "entry/my.toml"])
-    assert isinstance(done.exception, CaseError)
-    assert str(done.exception) == "entry/my.toml cannot be read: Permission denied"

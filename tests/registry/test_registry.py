@@ -108,7 +108,7 @@ BROKEN = {
     "hook that returns nothing": (CALM.replace("[Calm]", "None"), "returns nothing", None),
     "another name": (observer("two.clam"), "returns two.clam", None),
     "abstract": (HOT.replace("def rate", "def rates"), "no method rate; help(tribo.WearLaw)", None),
-    "names as fields": (HOT.replace("requires = ()", "state_fields = ('a',)"), "of Field", 6),
+    "names as fields": (HOT.replace("requires = ()", "state_fields = ('a',)"), "of Field", 4),
 }
 
 

@@ -130,10 +130,3 @@ def test_one_case_runs_with_all_of_them(fresh):
     used = {c["type"]: (c["distribution"], c["version"]) for c in components}
     for name, component in COMPONENTS.items():
         assert used[component] == (name, "0.1.0")
-
-
-def test_an_installed_plugin_is_known_by_name_in_messages(fresh):
-    (fresh.scratch / "typo.toml").write_text(CASE.replace("acme.fretting", "acme.freting"))
-    typo = run(fresh.python, "-m", "tribo", "check", "typo.toml", folder=fresh.scratch, code=2)
-    assert "did you mean 'acme.fretting'?" in typo
-    assert "more: tribo plugins list" in typo

@@ -32,7 +32,6 @@ CASE = {
         "duration": "10 min",
     },
 }
-SLID = 0.05 * 2 * 600
 
 
 @pytest.fixture(scope="module")

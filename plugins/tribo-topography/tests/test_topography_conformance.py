@@ -8,7 +8,6 @@ from tribo_topography import MeasuredSurface
 
 WAVES = Path(__file__).parent / "data" / "waves.asc"  # 30 × 30 pixels on 1.5 × 1.5 mm
 KNOWN = {"path": WAVES, "expect_size": ["1.5 mm", "1.5 mm"]}
-SMALL = ["0.75 mm", "0.9 mm"]
 
 # Cells of the kit are smaller than these pixels, and are sampled at points.
 test_sampled_at_points = parametrize_checks(
