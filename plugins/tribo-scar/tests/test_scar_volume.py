@@ -53,6 +53,16 @@ def test_a_track_has_a_section_and_the_volume_of_its_length():
     assert ends.volume_m3 > unworn.volume_m3
 
 
+def test_a_thin_low_ridge_along_the_edge_is_not_taken_off_the_volume():
+    before, after, lost = pair(sq=30e-9, shift=(0, 0), turn=0, missing=0.0)
+    inside = (np.hypot(*after.grid.mesh) - WIDE) / (2 * PITCH)
+    ridge = 50e-9 * np.sin(np.pi * np.clip(inside, 0, 1))
+    found = measured_scar(before, Heights(after.heights + ridge, after.pitch))
+    assert abs(found.volume - volume(lost)) < 3 * found.volume_uncertainty
+    assert found.volume_uncertainty < 0.005 * found.volume
+    assert found.piled_up == pytest.approx(volume(ridge), rel=0.1, abs=0)
+
+
 def test_the_relief_of_a_worn_surface_is_hardly_taken_for_ridges_at_its_edge():
     before, after, lost = pair(sq=30e-9, noise=3e-9, shift=(0, 0), turn=0, missing=0.0)
     for seed in range(3):

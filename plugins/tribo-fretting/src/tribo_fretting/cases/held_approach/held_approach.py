@@ -25,7 +25,7 @@ class HeldApproach(tribo.Effect):
         """Return the load that the stiffness of the contact asks for, over the first load."""
         now = snapshot.measures
         stiffness = 2 * MODULUS * sqrt(now.area / pi)
-        return (now.load - stiffness * (now.approach - APPROACH)) / LOAD
+        return float(now.load - stiffness * (now.approach - APPROACH)) / LOAD
 
 
 def found() -> dict[str, float]:
