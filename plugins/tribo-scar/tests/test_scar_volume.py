@@ -21,6 +21,7 @@ def test_holes_add_as_much_to_the_uncertainty_of_a_volume_as_they_do():
         holes = [np.sum((places - m[:, None, None]) ** 2, axis=0) < 4**2 for m in middles]
         heights = np.where(np.any(holes, axis=0), np.nan, after.heights)
         found = measured_scar(before, Heights(heights, after.pitch))
+        assert 0.02 < found.missing < 0.12
         added = found.volume_uncertainty**2 - whole.volume_uncertainty**2
         off.append((found.volume - whole.volume) / np.sqrt(added))
     assert 0.4 < np.sqrt(np.mean(np.square(off))) < 2
