@@ -5,7 +5,6 @@ from __future__ import annotations
 from tribo.case import Case
 from tribo.core.errors import CaseError, located
 from tribo.core.measures import half_widths
-from tribo.core.words import readable
 from tribo.lab.against_hertz import hertz_half_width
 from tribo.model.model import Model
 from tribo.motion.reciprocating import Reciprocating
@@ -63,9 +62,3 @@ def composed(case: Case) -> Model:
 def _fixed(case: Case, positions: int | str) -> Case:
     motion = case.kinematics.model_copy(update={"positions": positions})
     return case.model_copy(update={"kinematics": motion})
-
-
-def lengths_of(stroke: float, half_width: float) -> str:
-    """Return how many lengths of the first contact a stroke (m) has, in words."""
-    length = 2 * half_width
-    return f"{stroke / length:.3g} lengths of the first contact, {readable(1e6 * length, '.3g')} µm"

@@ -25,7 +25,6 @@ from tribo.lab.against_hertz import (
 )
 from tribo.model.model import Model
 from tribo.motion.reciprocating import Reciprocating
-from tribo.simulation.positions import lengths_of
 from tribo.simulation.predict import Prediction, predict
 from tribo.simulation.run import Simulation
 from tribo.simulation.validity import findings_of, unusual
@@ -132,9 +131,10 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     if prediction.positions > 1:
         yield "positions", f"the cycle is resolved at {prediction.positions}"
     elif isinstance(model.case.kinematics, Reciprocating):
-        half_width = hertz_half_width(model.contact.system) or prediction.first.half_width_x
-        lengths = lengths_of(model.case.kinematics.stroke, half_width)
-        yield "positions", f"averaged over the stroke, {lengths}"
+        length = 2 * (hertz_half_width(model.contact.system) or prediction.first.half_width_x)
+        lengths = f"{model.case.kinematics.stroke / length:.3g} lengths of the first contact"
+        micro = readable(1e6 * length, ".3g")
+        yield "positions", f"averaged over the stroke, {lengths}, {micro} µm"
     yield from _end(model, prediction)
     yield "memory, at most", f"{readable(prediction.memory / 2**20, '.0f')} MiB"
 
