@@ -47,10 +47,9 @@ class Effect(Component):
     """Its states; each field starts at `initial_state`, is kept in the result, and is provided to
     laws and effects that require its name."""
 
-    reach: ClassVar[Literal["point", "contact"] | tuple[int, int] | None] = None
-    """What its fields and rates at a point depend on: the ``"point"`` alone; the load and the area
-    of the ``"contact"`` too; or points up to so many cells away along x and y. Gradients need it,
-    or `pull_back`."""
+    reach: ClassVar[Literal["point", "contact"] | None] = None
+    """What its fields and rates at a point depend on: the ``"point"`` alone; or the load and the
+    area of the ``"contact"`` too. None for any other. Gradients need it, or `pull_back`."""
 
     def check(self, system: ContactSystem, swept: frozenset[str], solver: str) -> None:
         """Raise `CaseError` if the effect cannot serve this contact.

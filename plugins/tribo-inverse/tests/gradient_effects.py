@@ -116,25 +116,6 @@ class Mirrors(Effect):
         return {"temperature": dict.fromkeys(contact.materials, beyond)}
 
 
-class Blurs(Effect):
-    """A temperature that follows the pressure beside each point."""
-
-    type = "blurs"
-    reach = (0, 3)
-    provides = Heat.provides
-
-    def fields(self, contact):
-        beside = 1e-8 * np.roll(contact.pressure, 3, axis=1)
-        return {"temperature": dict.fromkeys(contact.materials, beside)}
-
-
-class Far(Blurs):
-    """Such a temperature, of an effect that says that it may come from further away."""
-
-    type = "far"
-    reach = (2, 3)
-
-
 class Grows(Effect):
     """A layer that grows under pressure in time, at rest too, and flows off."""
 
@@ -150,29 +131,6 @@ class Grows(Effect):
 
     def state_rates(self, contact):
         return {"grown": self.rate * contact.pressure - contact.state["grown"] / self.stays}
-
-
-class Creeps(Grows):
-    """Such a layer that also spreads, the faster the thicker it is, and wear lands beside it."""
-
-    type = "creeps"
-    reach = (1, 1)
-    spreads: float = 0.05
-    over: float = 1e-7
-    on: str | None = None
-
-    def carrier(self):
-        return self.on
-
-    def state_rates(self, contact):
-        height = contact.state["grown"]
-        flow = height * (1 + height / self.over)
-        rate = -4 * flow
-        for axis in (0, 1):
-            rate += np.roll(flow, 1, axis) + np.roll(flow, -1, axis)
-        lands = contact.speed * np.roll(sum(contact.wear_rates.values()), 1, axis=1)
-        grown = super().state_rates(contact)["grown"]
-        return {"grown": grown + self.spreads * rate + 0.1 * lands}
 
 
 class Levers(Heat):

@@ -3,11 +3,8 @@
 import numpy as np
 import pytest
 from gradient_effects import (
-    Blurs,
     Buried,
-    Creeps,
     Dust,
-    Far,
     Grains,
     Grows,
     Heat,
@@ -114,24 +111,6 @@ KINDS = {
         stepping=LONG,
         save_times=(2.0,),
     ),
-    "spreads": briefly(
-        Depth("disk"),
-        [
-            *BASE[:1],
-            *SHAPE,
-            *(f"effects.1.{name}" for name in ("rate", "stays", "spreads", "over")),
-        ],
-        bodies=pair(FRESH, archard()),
-        effects=[Creeps()],
-        kinematics=motion(duration=1),
-    ),
-    "pressure beside": kind(
-        Depth("ball"),
-        ["load.normal", "bodies.ball.wear.k", *SHAPE],
-        bodies=pair(Softens(k=K), archard()),
-        effects=[Blurs()],
-        stepping=LONG,
-    ),
 }
 
 
@@ -143,8 +122,8 @@ def test_it_is_that_of_the_same_steps(kind):
 
 @pytest.mark.parametrize(
     "effects",
-    [[Mirrors()], [Far()], [Heat(), Creeps()], [Levers()]],
-    ids=["undeclared", "far", "both", "load"],
+    [[Mirrors()], [Levers()]],
+    ids=["undeclared", "load"],
 )
 def test_what_is_not_covered_is_refused(effects):
     bodies = pair(Softens(k=K), archard())

@@ -93,7 +93,6 @@ class Spreading(Effect):
     """dt/dt = v c (r1 + r2) + D (t_xx + t_yy) - v t/ℓ: debris spreads, and leaves at reversals."""
 
     type = "honest.spreading"
-    reach = (1, 1)
     caught: Part = 0.8
     """Part c of what is worn that becomes debris."""
     diffusivity: Annotated[float, Quantity("m^2/s", above=0)] = 1e-11

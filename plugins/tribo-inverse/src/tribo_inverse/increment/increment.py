@@ -25,7 +25,7 @@ from tribo.kernel_api import (
 from tribo_inverse.increment.across import held_effects
 from tribo_inverse.increment.breaks import moved_breaks, with_breaks
 from tribo_inverse.increment.carriers import Carrier
-from tribo_inverse.increment.response import ALONE, Arrays, Field
+from tribo_inverse.increment.response import Arrays, Field
 from tribo_inverse.increment.slopes import Slopes, Sloping
 from tribo_inverse.increment.stages import RateStage
 from tribo_inverse.recording.tape import Pressed, Slid
@@ -97,14 +97,14 @@ class Increment:
 
         Then `bodies` are the full contribution of wear to the system of a step.
         """
-        model, reach = self.stages.model, self.stages.reach
+        model = self.stages.model
         if not (model.laws.effects or model.laws.filling):
             return True
         if len(model.cycle) > 1 or model.laws.filling or held_effects(model):
             return False
         if self.stages.loads_change or any(kept.weights is not None for kept in self.stages.kept):
             return False
-        return all(each == ALONE for each in (reach.pressure, *reach.states))
+        return not self.stages.shares_load
 
     @cached_property
     def bodies(self) -> Sequence[tuple[Carrier, Array]]:

@@ -1,10 +1,9 @@
-"""Derivatives of rates in their inputs: at each point, next to it, in the load and in Σp²."""
+"""Derivatives of rates in their inputs: at each point, in the load and in Σp²."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
-from itertools import product
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from tribo import Array
@@ -18,38 +17,29 @@ EVENLY = 1e-6
 """Part of a pressure by which it is varied up and down where a rate depends on it alone."""
 LEAST = 0.1
 """Part of a cell's pressure that must be varied for a derivative in it."""
-MOST = 25
-"""Largest number of points, itself included, that a point may depend on."""
 
 Arrays = list[Array]
 Field = Array | float
 """Values at each cell or point, or one value for all."""
 Rates = Callable[[Array], Arrays]
 """Rates at pressures, shape (positions, nx, ny), or at other values."""
-Offset = tuple[int, int]
-"""Cells along x and y from a point to another one."""
-ALONE = (0, 0)
-"""Reach of points that do not depend on each other, in cells along x and y."""
 
 
 @dataclass(frozen=True)
 class Response:
     """The derivatives of a rate at each cell, of the shape (positions, nx, ny) or 0.
 
-    In its `own` value, and in the values of cells `beside` it, by their offset; and in the sum of
-    all pressures at its position, and in half the sum of their squares.
+    In its `own` value, in the sum of all pressures at its position, and in half the sum of their
+    squares.
     """
 
     own: Field
     load: Field = 0.0
     square: Field = 0.0
-    beside: Mapping[Offset, Array] = field(default_factory=dict)
 
     def change(self, pressure: Array, by: Array) -> Array:
         """Return the change of the rate for a change of the pressures, or of other values."""
         found: Array = self.own * by + self.load * over(np.sum(by, CELLS))
-        for offset, slope in self.beside.items():
-            found = found + slope * np.roll(by, (-offset[0], -offset[1]), CELLS)
         return found + self.square * over(np.sum(pressure * by, CELLS))
 
 
@@ -57,86 +47,35 @@ def back(seeds: Sequence[Field], responses: Sequence[Response]) -> Field:
     """Return derivatives in the values at each cell from derivatives in rates."""
     found: Field = 0.0
     for seed, response in zip(seeds, responses, strict=True):
-        if not np.ndim(seed):
-            continue
-        if np.ndim(response.own):
+        if np.ndim(seed) and np.ndim(response.own):
             found = found + seed * response.own
-        for offset, slope in response.beside.items():
-            found = found + np.roll(seed * slope, offset, CELLS)
     return found
 
 
-def local(rates: Rates, found: Arrays, pressure: Array, reach: Offset = ALONE) -> list[Response]:
-    """Return the responses of rates that depend on the pressures of their own cell, and near it.
-
-    For their own cell alone it is a central difference, whose errors are even.
-    """
-    if reach != ALONE:
-        return near(rates, found, pressure, ASIDE * pressure, reach)
+def central(rates: Rates, pressure: Array) -> list[Response]:
+    """Return the responses of rates that depend on the pressure of their own cell alone."""
     higher, lower = (1 + EVENLY) * pressure, (1 - EVENLY) * pressure
     by = np.where(higher == lower, np.inf, higher - lower)
     pairs = zip(rates(higher), rates(lower), strict=True)
     return [Response((above - below) / by) for above, below in pairs]
 
 
-def near(
+def aside(
     rates: Rates,
     found: Arrays,
     values: Array,
     nudge: Array,
-    reach: Offset,
     seen: Callable[[Array], Array] = lambda values: values,
 ) -> list[Response]:
-    """Return the responses of rates in values that lie on cells.
+    """Return the responses of rates in values of their own cell, each varied by its `nudge`.
 
-    `found` are the rates at the values, each of which is varied by its `nudge`. Cells so far apart
-    that nothing depends on two of them are varied at once. `seen` maps values on a body to the
-    cells of the rates.
+    `found` are the rates at the values. `seen` maps values on a body to the cells of the rates.
     """
+    moved = rates(values + nudge)
     # What is added is not quite the nudge: its last digits are lost.
-    span = (values + nudge) - values
-    if reach == ALONE:
-        moved = rates(values + nudge)
-        span = seen(span)
-        by = np.where(span == 0, np.inf, span)
-        pairs = zip(moved, found, strict=True)
-        return [Response((after - before) / by) for after, before in pairs]
-    colours, ends = _colours(values.shape, reach), []
-    for colour in range(int(np.max(colours)) + 1):
-        moved = rates(np.where(colours == colour, values + nudge, values))
-        ends.append([after - before for after, before in zip(moved, found, strict=True)])
-    span, colours = seen(span), seen(colours)
-    changes = [np.stack(each) for each in zip(*ends, strict=True)]
-    slopes: dict[Offset, Arrays] = {}
-    for offset in product(*(range(-far, far + 1) for far in reach)):
-        here = -offset[0], -offset[1]
-        by, source = np.roll(span, here, CELLS), np.roll(colours, here, CELLS).astype(int)
-        by[by == 0] = np.inf
-        slopes[offset[0], offset[1]] = [
-            np.take_along_axis(change, source[None], 0)[0] / by for change in changes
-        ]
-    own = slopes.pop(ALONE)
-    return [
-        Response(each, beside={o: of[at] for o, of in slopes.items() if np.any(of[at])})
-        for at, each in enumerate(own)
-    ]
-
-
-def _colours(shape: Sequence[int], reach: Offset) -> Array:
-    """Return numbers from 0, equal only on cells so far apart that no cell depends on both.
-
-    Cells at one end of the window may be neighbours of cells at the other.
-    """
-    *_, rows, columns = shape
-    along, across = _in_row(rows, reach[0]), _in_row(columns, reach[1])
-    colours = along[:, None] * (1 + np.max(across)) + across
-    return np.array(np.broadcast_to(colours, shape))
-
-
-def _in_row(count: int, far: int) -> Array:
-    every, cell = 2 * far + 1, np.arange(count)
-    colours = cell % every + every * (cell >= count // every * every)
-    return np.unique(colours, return_inverse=True)[1].astype(float)
+    span = seen((values + nudge) - values)
+    by = np.where(span == 0, np.inf, span)
+    return [Response((after - before) / by) for after, before in zip(moved, found, strict=True)]
 
 
 def shared(rates: Rates, pressure: Array) -> list[Response]:

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, zip_longest
-from typing import NamedTuple
 
 import numpy as np
 from tribo import WORN_DEPTH, Array, CaseError
@@ -16,30 +15,17 @@ from tribo.kernel_api import CELLS, over
 from tribo_inverse.increment.across import EffectFields, held, held_effects
 from tribo_inverse.increment.carriers import Carrier
 from tribo_inverse.increment.response import (
-    ALONE,
     ASIDE,
-    MOST,
     Arrays,
     Field,
-    Offset,
     Response,
+    aside,
     back,
-    local,
-    near,
+    central,
     shared,
 )
 from tribo_inverse.increment.stages import RateStage, Stages
 from tribo_inverse.recording.local import localised
-
-
-class Reach(NamedTuple):
-    """Distance, in cells, over which points depend on the pressure, and on each state.
-
-    None for the pressure: points depend on their own pressure, the load and the area.
-    """
-
-    pressure: Offset | None
-    states: Sequence[Offset]
 
 
 @dataclass(frozen=True)
@@ -62,8 +48,8 @@ class Sloping(Stages):
         return self.at(self.slid.before.values, 0.0 if self.along else 1.0)
 
     @cached_property
-    def reach(self) -> Reach:
-        """The reach that the effects declare."""
+    def shares_load(self) -> bool:
+        """Whether effects declare that points depend on the load and the area of the contact."""
         across = held_effects(self.model)
         if across and len(self.model.cycle) > 1:
             raise CaseError(
@@ -71,40 +57,29 @@ class Sloping(Stages):
                 'positions; set kinematics.positions = "average"',
                 "kinematics.positions",
             )
-        # Of effects with a `pull_back` only the rates of their states depend on cells nearby.
+        # Of effects with a `pull_back` only the rates of their states are asked for.
         asked = (e for e in self.model.laws.effects if e not in across or e.state_fields)
         effects = [effect.component for effect in asked]
-        declared = [effect.reach for effect in effects]
-        cells = [reach for reach in declared if isinstance(reach, tuple)]
-        alone, whole = [ALONE] * len(self.slid.before.values), "contact" in declared
-        if silent := [repr(effect.type) for effect in effects if effect.reach is None]:
+        if silent := [repr(e.type) for e in effects if e.reach not in ("point", "contact")]:
             raise CaseError(
                 f"{', '.join(silent)} does not declare its reach, which a gradient needs; let its "
-                'class say reach = "point", reach = "contact", or cells along x and y as (1, 1); '
-                "or let it state pull_back",
+                'class say reach = "point" or reach = "contact", or let it state pull_back',
                 "effects",
             )
-        if not cells:
-            return Reach(None if whole else ALONE, alone)
-        along, across = (max(far) for far in zip(*cells, strict=True))
-        if whole or (2 * along + 1) * (2 * across + 1) > MOST:
-            who = ", ".join(repr(effect.type) for effect in effects)
-            raise CaseError(
-                f"the fields of {who} at a point depend on neighbours and on the load or the area, "
-                f"or on more than {MOST} points, which has no gradient; leave it out",
-                "effects",
-            )
-        return Reach(
-            (along, across),
-            [
-                ALONE if state.size == 1 else _on(kept, (along, across))
-                for kept, state in zip(self.kept, self.slid.before.values, strict=True)
-            ],
-        )
+        return any(effect.reach == "contact" for effect in effects)
 
     def sloped(self, stage: RateStage) -> Slopes:
-        """Return a stage with its derivatives."""
-        return self.holding(stage)._sloped(stage, self.reach)
+        """Return a stage with its derivatives, those in the fields of its answers apart."""
+        here = self.holding(stage)
+        return Slopes(
+            **vars(stage),
+            by_pressure=here._by_pressure(stage),
+            by_state=[
+                here._by_state(at, stage, nudge) for at, nudge in enumerate(here.nudges(stage))
+            ],
+            by_factor=here._by_factor(stage),
+            by_field=[here._by_field(answer, stage) for answer in chain(*stage.answers)],
+        )
 
     def seen(self, slopes: Slopes, seeds: Sequence[Field]) -> list[Field]:
         """Return derivatives in the rates of each cell from derivatives in their means over points.
@@ -164,58 +139,36 @@ class Sloping(Stages):
             return found
         return carrier.gathered(over(self.shares) * found, self.box)
 
-    def _sloped(self, stage: RateStage, reach: Reach) -> Slopes:
-        """Return a stage with its derivatives, for a reach of points."""
-        answers = stage.answers
-        return Slopes(
-            **vars(stage),
-            by_pressure=self._by_pressure(stage, reach.pressure),
-            by_state=[
-                self._by_state(at, stage, nudge, reach.states[at])
-                for at, nudge in enumerate(self.nudges(stage))
-            ],
-            by_factor=self._by_factor(stage, reach.pressure or ALONE),
-            by_field=[self._by_field(answer, stage) for answer in chain(*answers)],
-        )
-
-    def _by_pressure(self, stage: RateStage, reach: Offset | None) -> Sequence[Response]:
+    def _by_pressure(self, stage: RateStage) -> Sequence[Response]:
         if not (self.along or self.model.laws.effects):
             return [Response(slope) for slope in stage.slopes]
 
         def rates(pressure: Array) -> Arrays:
             return self.rates(stage.states, stage.passed, self.told(stage.passed, pressure))
 
-        if reach is None:
+        if self.shares_load:
             return shared(rates, self.pressure)
         told = self.told(stage.passed)
-        responses = local(
-            lambda told: self.rates(stage.states, stage.passed, told), stage.rates, told, reach
-        )
+        responses = central(lambda told: self.rates(stage.states, stage.passed, told), told)
         if not self.loads_change:
             return responses
         # Along the increment pressures are told in proportion to the load.
         total = over(np.sum(self.pressure, CELLS))
         longer = over(np.sum(told, CELLS)) / total
         return [
-            Response(
-                longer * each.own,
-                -longer * each.change(self.pressure, self.pressure) / total,
-                beside={offset: longer * slope for offset, slope in each.beside.items()},
-            )
+            Response(longer * each.own, -longer * each.change(self.pressure, self.pressure) / total)
             for each in responses
         ]
 
-    def _by_state(
-        self, at: int, stage: RateStage, nudge: Array, reach: Offset
-    ) -> Sequence[Response]:
+    def _by_state(self, at: int, stage: RateStage, nudge: Array) -> Sequence[Response]:
         states = stage.states
 
         def rates(state: Array) -> Arrays:
             return self.rates([*states[:at], state, *states[at + 1 :]], stage.passed)
 
-        return near(rates, stage.rates, states[at], nudge, reach, self._seen_by(self.kept[at]))
+        return aside(rates, stage.rates, states[at], nudge, self._seen_by(self.kept[at]))
 
-    def _by_factor(self, stage: RateStage, reach: Offset) -> Sequence[Sequence[Response]]:
+    def _by_factor(self, stage: RateStage) -> Sequence[Sequence[Response]]:
         names = list(self.model.laws.wear)
         if not self.slid.before.between:
             laws = self.slid.before.laws.items()
@@ -236,8 +189,8 @@ class Sloping(Stages):
                 return self.rates(stage.states, stage.passed, model=changed)
 
             ones = np.ones((carrier.rows, self.model.grid.cells[1]))
-            seen, far = self._seen_by(carrier), _on(carrier, reach)
-            of_bodies.append(near(rates, stage.rates, ones, ASIDE * ones, far, seen))
+            seen = self._seen_by(carrier)
+            of_bodies.append(aside(rates, stage.rates, ones, ASIDE * ones, seen))
         return of_bodies
 
     def _by_field(
@@ -258,7 +211,7 @@ class Sloping(Stages):
             step = ASIDE * (float(np.max(np.abs(values))) or 1.0)
             most = np.inf if field.at_most is None else field.at_most
             nudge = np.where(values + step > most, -step, step)
-            return near(rates, stage.rates, values, nudge, ALONE)
+            return aside(rates, stage.rates, values, nudge)
 
         return {
             field.name: {body: response(field, body) for body in answer.fields[field.name]}
@@ -267,8 +220,3 @@ class Sloping(Stages):
 
     def _seen_by(self, carrier: Carrier) -> Callable[[Array], Array]:
         return lambda own: carrier.seen(own, self.box)
-
-
-def _on(carrier: Carrier, reach: Offset) -> Offset:
-    """Return a reach on a body: 0 along the track where it is averaged along it."""
-    return reach if carrier.weights is None else (0, reach[1])
