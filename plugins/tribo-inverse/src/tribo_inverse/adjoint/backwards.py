@@ -150,8 +150,6 @@ class Backwards:
         if slid is None and pressed is None and not yielded:
             return
         looked = np.zeros_like(self.gap) if pressed is None else pressed
-        for law in self.laws.values():
-            law.seen.clear()
         if slid is None:
             self._solve(record, looked, yielded, None)
             return

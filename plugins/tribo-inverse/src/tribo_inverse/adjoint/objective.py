@@ -174,21 +174,14 @@ class EndTime:
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the time, and 1; `CaseError` if no depth has ended the run."""
-        _check_ended(view)
-        return view.state.time, Seeds(time=1.0)
-
-
-def _check_ended(view: View) -> None:
-    """Refuse a run that no depth ends, which does not give the life of a body."""
-    model, time = view.model, view.state.time
-    if time < model.end_time:
-        return
-    stop = model.case.stop
-    if stop.depth is None:
-        raise CaseError("is not given: without it no depth ends the run", "stop.depth")
-    most = max(float(np.max(view.wear(name))) for name in stop.whose(model.case.bodies))
-    raise CaseError(
-        f"is not reached: after {time:g} s the largest depth is {1e6 * most:.3g} µm of "
-        f"{1e6 * stop.depth:.3g} µm; give the motion a longer duration, or a lower depth",
-        "stop.depth",
-    )
+        model, time, stop = view.model, view.state.time, view.model.case.stop
+        if time < model.end_time:
+            return time, Seeds(time=1.0)
+        if stop.depth is None:
+            raise CaseError("is not given: without it no depth ends the run", "stop.depth")
+        most = max(float(np.max(view.wear(name))) for name in stop.whose(model.case.bodies))
+        raise CaseError(
+            f"is not reached: after {time:g} s the largest depth is {1e6 * most:.3g} µm of "
+            f"{1e6 * stop.depth:.3g} µm; give the motion a longer duration, or a lower depth",
+            "stop.depth",
+        )

@@ -230,7 +230,7 @@ def chain(
                 model,
                 weight / step,
                 own if model is base else Stops.of(model),
-                moved(model, base) if moves else None,
+                _moved(model, base) if moves else None,
             )
             for model, (_, weight) in zip(models, scheme, strict=True)
         ]
@@ -274,12 +274,13 @@ def _only_wears(place: Sequence[Any]) -> bool:
     return place[0] in ("effects", "friction") or "wear" in place[2:] or of_material
 
 
-def moved(model: Model, base: Model) -> Mapping[str, Carrier] | None:
-    """Return the carriers of bodies; None if they equal the base's."""
+def _moved(model: Model, base: Model) -> Mapping[str, Carrier] | None:
+    """Return the carriers of bodies; None if they and the positions' shares equal the base's."""
     found, own = carriers_of(model), carriers_of(base)
-    shares, others = ([position.share for position in each.cycle] for each in (model, base))
-    alike = shares == others and not any(found[name].differs(own[name]) for name in found)
-    return None if alike else found
+    pairs = [([at.share for at in model.cycle], [at.share for at in base.cycle])]
+    for name, carrier in found.items():
+        pairs += [*zip(vars(carrier).values(), vars(own[name]).values(), strict=True)]
+    return None if all(np.array_equal(now, was) for now, was in pairs) else found
 
 
 def of_length(model: Model, end: float) -> Chain:
@@ -320,12 +321,9 @@ def _varied(
         )
     times, other_times = Stops.of(base).times, Stops.of(model).times
     if len(times) != len(other_times):
-        moved = np.setxor1d(times, other_times)[0]
-        of_load, of_motion = set(base.contact.loads.edges), set(base.motion.edges())
-        both = (of_load & of_motion) | ((of_load | of_motion) & base.saves)
-        at = min(both, key=lambda time: abs(time - moved), default=moved)
+        at = np.setxor1d(times, other_times)[0]
         raise CaseError(
-            f"a change of it separates events that coincide at {at:g} s: a save, the end of a "
+            f"a change of it separates events that coincide at {at:.4g} s: a save, the end of a "
             "stage of the load or of the motion; move one of them a little"
         )
     return model

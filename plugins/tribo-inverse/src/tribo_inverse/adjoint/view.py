@@ -141,10 +141,13 @@ def looked(objective: Objective, view: View) -> tuple[float, Seeds]:
     for body, seed in seeds.wear.items():
         parts.append((f"seed by the wear of {body}", seed, view.wear(body).shape))
     for what, given, shape in parts:
-        array = as_numbers(given)
-        if array is not None and array.shape != shape:
+        try:
+            array = np.asarray(given, dtype=np.float64)
+        except (TypeError, ValueError):
+            array = np.full(shape, np.nan)
+        if array.shape != shape:
             raise CaseError(f"the {what} of {name} has the shape {array.shape}, not {shape}")
-        if array is None or not np.all(np.isfinite(array)):
+        if not np.all(np.isfinite(array)):
             raise CaseError(f"the {what} of {name} is NaN, infinite or no number")
     return float(value), seeds
 
@@ -152,12 +155,3 @@ def looked(objective: Objective, view: View) -> tuple[float, Seeds]:
 def is_finite(value: object) -> bool:
     """Whether something is a finite number."""
     return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def as_numbers(values: object) -> Array | None:
-    """Return an array of numbers; None for text, or for rows of unequal length."""
-    try:
-        array = np.asarray(values)
-    except (TypeError, ValueError):
-        return None
-    return array if array.dtype.kind in "fiu" else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.ndimage import correlate1d
 from tribo import Array, CaseError, Heights, read_heights
-from tribo.kernel_api import Model, located
+from tribo.kernel_api import located
 
 ROUNDING = 1e-6
 """Relative rounding of pixel pitch and cell size."""
@@ -17,11 +17,6 @@ def read_map(file: str, pitch: float | None, place: str) -> Heights:
     """Read measured depths; CaseError, at their place, if they cannot be."""
     with located(f"{place}.depth"):
         return read_heights(file, None if pitch is None else (pitch, pitch))
-
-
-def surface_shape(model: Model, body: str) -> tuple[int, int]:
-    """Return the number of cells along and across a body's own surface."""
-    return model.cycle.maps[body].rows, model.grid.cells[1]
 
 
 def cell_means(depth: Array) -> Array:

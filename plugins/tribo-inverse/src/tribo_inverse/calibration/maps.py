@@ -18,7 +18,7 @@ from tribo.kernel_api import Model, begin, march
 from tribo_inverse.adjoint.backwards import swept_back
 from tribo_inverse.adjoint.unknowns import FURTHEST, ValueAndGradient
 from tribo_inverse.adjoint.view import Seeds, View
-from tribo_inverse.calibration.cells import cell_means, surface_shape
+from tribo_inverse.calibration.cells import cell_means
 from tribo_inverse.calibration.descent import descended
 from tribo_inverse.calibration.lanczos import eigenpairs
 from tribo_inverse.calibration.linearised import Weights
@@ -26,7 +26,7 @@ from tribo_inverse.calibration.prior import Prior
 from tribo_inverse.calibration.quantities import EDGE_CELL_SIGMA, edge_sigma
 from tribo_inverse.calibration.scar_shift import slopes
 from tribo_inverse.findings import UNLIKELY, of_maps
-from tribo_inverse.recording.local import localised
+from tribo_inverse.recording.local import factor_shape, localised
 from tribo_inverse.recording.tape import Tape, recorded
 
 STEP = 1e-2
@@ -184,7 +184,7 @@ class _Posterior:
     ) -> None:
         self.model, self.depths, self.priors, self.tell = model, depths, priors, tell
         self.placed = placed
-        self.shapes = {name: surface_shape(model, name) for name in depths}
+        self.shapes = {name: factor_shape(model, name) for name in depths}
         self.amplitudes, self.scales, self.parts, self.size = {}, {}, {}, 0
         for name, shape in self.shapes.items():
             if depths[name][0].shape != shape:

@@ -23,12 +23,6 @@ class Carrier:
     starts: Sequence[int]
     weights: Array | None
 
-    def differs(self, other: Carrier) -> bool:
-        """Whether another carrier has other rows, starts or weights."""
-        same = self.rows == other.rows and [*self.starts] == [*other.starts]
-        own, others = (np.array(0) if c.weights is None else c.weights for c in (self, other))
-        return not (same and np.array_equal(own, others))
-
     def gathered(self, parts: Array, box: Box) -> Array:
         """Return the sum on the body of fields on a box, by position: shape (rows, ny)."""
         along, columns = box.slices
