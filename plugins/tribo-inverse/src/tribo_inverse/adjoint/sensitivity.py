@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 from tribo import CaseError, Finding, NumericalError
-from tribo.kernel_api import WIDER, Model, coarsened, leaves
+from tribo.kernel_api import WIDER, Model, coarsened
 
 from tribo_inverse.adjoint.gradient import gradients
 from tribo_inverse.adjoint.objective import Deepest, EndTime, Volume
@@ -146,32 +146,25 @@ def of_case(model: Model, half_width_x: float) -> list[Finding]:
         return [Finding("sensitivity", f"not known, since {error}")]
     depth, time = f"depth of {found.body}", f"time until {found.body} reaches stop.depth"
     what = depth if found.of == "depth" else time
-    kelvin = {
-        ".".join(map(str, place)): value
-        for place, value, mark in leaves(model.case)
-        if mark and mark.unit == "K"
-    }
     known = [
         path for path, change in found.percent.items() if abs(change) > found.uncertainty[path]
     ]
     unknown = [path for path in found.percent if path not in known]
     words = "smaller than the error of the coarse grids, and left out: "
     return [
-        *(_sensitivity(found, what, path, kelvin.get(path)) for path in known[:MOST]),
+        *(_sensitivity(found, what, path) for path in known[:MOST]),
         *([Finding("sensitivity", words + ", ".join(unknown))] if unknown else []),
     ]
 
 
-def _sensitivity(found: Sensitivity, what: str, path: str, kelvin: float | None) -> Finding:
-    """Word the change of an answer, in %, for 1 % more of a number, or 1 K more."""
-    # A per cent of a temperature is one of its distance from absolute zero.
-    more, per = ("1 %", 1.0) if kelvin is None else ("1 K", 100 / kelvin)
+def _sensitivity(found: Sensitivity, what: str, path: str) -> Finding:
+    """Word the change of an answer, in %, for 1 % more of a number."""
     change, uncertainty, volume = (
-        per * each[path] for each in (found.percent, found.uncertainty, found.volume)
+        each[path] for each in (found.percent, found.uncertainty, found.volume)
     )
     return Finding(
         "sensitivity",
-        f"+{more}: {what} {change:+.2f} ± {uncertainty:.2f}, volume {volume:+.2f} %",
+        f"+1 %: {what} {change:+.2f} ± {uncertainty:.2f}, volume {volume:+.2f} %",
         value=change,
         uncertainty=uncertainty,
         place=path,
