@@ -164,7 +164,6 @@ def test_a_coarse_run_tells_what_rules_the_depth():
     assert list(found.percent) == sorted(found.percent, key=lambda path: -abs(found.percent[path]))
     assert found.percent["load.normal"] == pytest.approx(fine["load.normal"], abs=0.1)
     assert found.uncertainty["load.normal"] < 0.1
-    assert found.cells[1] == tuple(2 * cells for cells in found.cells[0])
 
 
 def test_what_a_coarse_run_tells_of_a_flat_pins_radius_has_the_answer_within_its_uncertainty():

@@ -140,9 +140,13 @@ def _fit_local(
 ) -> None:
     """Fit local coefficients to depth maps."""
     from tribo_inverse.calibration.mapped import calibrate_maps
-    from tribo_inverse.map_tables import check_free, maps_json, maps_table, write_maps
+    from tribo_inverse.map_tables import maps_json, maps_table, write_maps
 
-    check_free(output, force)
+    if output is not None:
+        if output.suffix != ".npz":
+            named = f"name it {output.stem}.npz"
+            raise CaseError(f"{output}: maps are written as a NumPy archive; {named}")
+        check_new(output, force)
     mapped = {f"map.{i}": entry for i, entry in enumerate(measurements.map, 1)}
     found = calibrate_maps(tables, mapped, on_run=_print_pass)
     if as_json:

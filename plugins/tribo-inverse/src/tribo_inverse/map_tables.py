@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
-from tribo import CaseError
-from tribo.kernel_api import DataTable, Heading, TableRow, check_new, write_file
+from tribo.kernel_api import DataTable, Heading, TableRow, write_file
 
 from tribo_inverse.calibration.maps import SILENT, FittedMaps, LocalMap
 from tribo_inverse.calibration.quantities import p_words
@@ -75,34 +74,18 @@ def maps_table(found: FittedMaps, level: float) -> DataTable:
     return DataTable(title, list(map(Heading, columns)), rows, (fit,))
 
 
-def map_pictures(found: FittedMaps, level: float) -> dict[str, Callable[[], Figure]]:
-    """Return functions that draw the map of each body, and its fit to the measured depths."""
-    from tribo_inverse.pictures import coefficient_map, depth_fit
-
-    pictures: dict[str, Callable[[], Figure]] = {}
-    for name, each in found.maps.items():
-        pictures[name] = partial(coefficient_map, each, level, name)
-        pictures[f"{name}-fit"] = partial(depth_fit, each, name)
-    return pictures
-
-
-def check_free(output: Path | None, force: bool) -> None:
-    """Check that an output is a new NumPy archive; CaseError if it is not."""
-    if output is None:
-        return
-    if output.suffix != ".npz":
-        raise CaseError(f"{output}: maps are written as a NumPy archive; name it {output.stem}.npz")
-    check_new(output, force)
-
-
 def write_maps(found: FittedMaps, level: float, output: Path) -> None:
     """Write the maps as a NumPy archive, and pictures of each beside it."""
     from tribo.kernel_api import write_figures
 
+    from tribo_inverse.pictures import coefficient_map, depth_fit
+
     arrays: dict[str, Any] = {}
+    pictures: dict[str, Callable[[], Figure]] = {}
     for name, each in found.maps.items():
         arrays |= {f"{name}_{key}": value for key, value in _arrays(each, level).items()}
-    pictures = {f"{output.stem}-{name}": draw for name, draw in map_pictures(found, level).items()}
+        pictures[f"{output.stem}-{name}"] = partial(coefficient_map, each, level, name)
+        pictures[f"{output.stem}-{name}-fit"] = partial(depth_fit, each, name)
     image = BytesIO()
     np.savez_compressed(image, **arrays)
     write_file(output, image.getbuffer())

@@ -44,8 +44,6 @@ class Sensitivity:
         By path: the difference of the two grids, in % for 1 %.
     volume : dict of float
         By path: change of the volume worn off the body in % for 1 %, on the finer grid.
-    cells : tuple of tuple of int
-        Cells of the two grids, along x and y.
     """
 
     body: str
@@ -53,7 +51,6 @@ class Sensitivity:
     percent: dict[str, float]
     uncertainty: dict[str, float]
     volume: dict[str, float]
-    cells: tuple[tuple[int, int], tuple[int, int]]
 
 
 def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
@@ -123,8 +120,7 @@ def _of_two(coarse: Model, fine: Model) -> Sensitivity:
     percent = {p: float(value) for p, value in ranked if abs(value) >= LEAST}
     uncertainty = {path: float(off[path]) for path in percent}
     volume_percent = {path: volumes.relative[path] for path in percent}
-    cells = coarse.grid.cells, fine.grid.cells
-    return Sensitivity(*asked[0], percent, uncertainty, volume_percent, cells)
+    return Sensitivity(*asked[0], percent, uncertainty, volume_percent)
 
 
 def _asked(view: View) -> tuple[str, Answer]:
