@@ -4,7 +4,8 @@ import copy
 
 import pytest
 
-from tribo.config.overrides import apply_settings
+import tribo
+from tribo.config.overrides import apply_settings, leaves_at
 from tribo.core.errors import CaseError
 
 DATA = {
@@ -94,3 +95,8 @@ def test_a_malformed_override_is_refused(override, message):
     with pytest.raises(CaseError) as caught:
         changed(override)
     assert message in str(caught.value)
+
+
+def test_a_value_in_a_list_of_pairs_has_its_own_unit():
+    path = tribo.Measured(path=[[0, -1e-3], [1, 1e-3], [2, -1e-3]], cycles=2)
+    assert leaves_at(path, "path.2") == [("path.2.1", 1.0, "s"), ("path.2.2", 1e-3, "m")]

@@ -12,7 +12,7 @@ from pydantic import BaseModel
 from tribo.case import SHORT
 from tribo.component import Component
 from tribo.core.errors import CaseError, located
-from tribo.core.units import Quantity, quantities
+from tribo.core.units import Quantity, each_in, quantities
 from tribo.core.words import shown
 
 
@@ -79,8 +79,9 @@ def leaves(
         for key, item in value.items():
             yield from leaves(item, annotation, (*place, str(key)))
     elif isinstance(value, list | tuple):
-        for count, item in enumerate(value, 1):
-            yield from leaves(item, annotation, (*place, count))
+        inside = each_in(annotation, len(value))
+        for count, (of, item) in enumerate(zip(inside, value, strict=True), 1):
+            yield from leaves(item, of, (*place, count))
     else:
         yield place, value, next(quantities(annotation), None)
 

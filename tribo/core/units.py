@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
 from numbers import Real
-from typing import Any, get_args
+from typing import Any, get_args, get_origin
 
 from pydantic import GetCoreSchemaHandler
 from pydantic.fields import FieldInfo
@@ -342,6 +342,15 @@ def parts(annotation: Any) -> Iterator[Any]:
     field = isinstance(annotation, FieldInfo)
     for part in (annotation.annotation, *annotation.metadata) if field else get_args(annotation):
         yield from parts(part)
+
+
+def each_in(annotation: Any, count: int) -> list[Any]:
+    """Return the annotation of each value of a sequence."""
+    for part in parts(annotation):
+        inner = [a for a in get_args(part) if a is not Ellipsis]
+        if get_origin(part) in (list, tuple) and len(inner) in (1, count):
+            return inner * (count // len(inner))
+    return [annotation] * count
 
 
 def _called(dimension: Dimension) -> str:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, TypeVar, get_args, get_origin
+from typing import Any, TypeVar
 
 import numpy as np
 from pydantic import BaseModel
 
 from tribo.core.fields import Field
 from tribo.core.material import Material
-from tribo.core.units import parts, quantities, scale
+from tribo.core.units import each_in, quantities, scale
 from tribo.testing.compare import NotApplicable, mapped
 
 T = TypeVar("T")
@@ -81,19 +81,10 @@ def _rescaled(annotation: Any, value: Any) -> Any:
     if isinstance(value, Mapping):
         return {key: _rescaled(annotation, inner) for key, inner in value.items()}
     if isinstance(value, list | tuple):
-        inside = zip(_inside(annotation, len(value)), value, strict=True)
+        inside = zip(each_in(annotation, len(value)), value, strict=True)
         return type(value)(_rescaled(of, inner) for of, inner in inside)
     unit = next((mark.unit for mark in quantities(annotation)), "1")
     return value * factor(unit) if isinstance(value, float | np.ndarray) else value
-
-
-def _inside(annotation: Any, count: int) -> list[Any]:
-    """Return the annotation of each value of a sequence."""
-    for part in parts(annotation):
-        inner = [a for a in get_args(part) if a is not Ellipsis]
-        if get_origin(part) in (list, tuple) and len(inner) in (1, count):
-            return inner * (count // len(inner))
-    return [annotation] * count
 
 
 def in_other_units(value: T, units: Mapping[str, float]) -> T:
