@@ -55,7 +55,7 @@ def changed(**changes):
         ({"uncertainty": "5 %", "value": None}, ".1.uncertainty", "to plan"),
         ({"uncertainty": None}, ".1", "uncertainty"),
         ({"quantity": "mas"}, ".1.quantity", "'mass'"),
-        ({"body": "bal"}, ".1.body", "'ball'"),
+        ({"body": "bal"}, ".1.body", "'bal'"),
         ({"time": "2 h"}, ".1.time", "3600 s"),
         (SCAR | {"body": "disk", "value": "1 mm"}, ".1.quantity", "'disk'"),
         (SCAR | {"quantity": "scar_across", "value": "3 mm"}, ".1.value", "2 mm"),
