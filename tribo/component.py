@@ -105,7 +105,7 @@ class Component(Table, ABC):
         table = {"type": value} if isinstance(value, str) else value
         if not isinstance(table, Mapping):
             words = cls.kind().replace("_", " ")
-            raise told(f"a {words} is needed, as a table with its type; {cls.hint(info)}")
+            raise told(f"give the {words} as a table with its type; {cls.hint(info)}")
         name = table.get("type")
         if not isinstance(name, str):
             fault = "must be text" if "type" in table else "missing"

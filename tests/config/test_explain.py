@@ -53,7 +53,7 @@ BLEND = {"type": "blend", "parts": ["none", {**LINEAR, "zzz": 1}]}
         # Wrong kinds of value.
         (ball(material=3), "bodies.ball.material", "a table is needed, 3 was given"),
         (ball(wear={**LINEAR, "passes": 2.5}), "bodies.ball.wear.passes", "a whole number"),
-        (ball(wear=4), "bodies.ball.wear", "a wear law is needed, as a table with its type"),
+        (ball(wear=4), "bodies.ball.wear", "give the wear law as a table with its type"),
         ({"bodies": {}, "cells": [8, 8, 8]}, "cells", "at most 2 allowed, 3 given"),
         ({"bodies": {}, "verbose": "maybe"}, "verbose", "true or false is needed"),
         (

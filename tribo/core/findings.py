@@ -128,8 +128,9 @@ def short_stroke(stroke: float, half_width: float) -> Finding:
     widths = stroke / half_width
     words = (
         f"tribo averages over the stroke, {1e3 * stroke:.3g} mm or {widths:.2g} half-widths of the "
-        f"contact; a groove is 7 to 15 % too deep at mid-stroke at {SHORT:g}, 12 to 24 % at 4, and "
-        "62 % at 1.8: resolve the stroke by kinematics.positions = 33 or more"
+        "contact; where both bodies wear alike, a groove is 7 to 15 % too deep at mid-stroke for "
+        f"{SHORT:g} half-widths, 12 to 24 % for 4 and 62 % for 1.8: resolve the stroke by "
+        'kinematics.positions = "auto"'
     )
     return Finding("averaging", words, value=widths, limit=SHORT, place="kinematics")
 

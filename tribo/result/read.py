@@ -292,7 +292,10 @@ class Result(AbstractContextManager["Result"]):
 
         A body's are called ``bodies.NAME.max_wear_depth_m``. Columns of models follow.
         """
-        dim = "time" if name == "saves" else "step"
+        dims = {"saves": "time", "history": "step"}
+        if name not in dims:
+            raise CaseError(f"there is no table {name!r}; give 'saves' or 'history'")
+        dim = dims[name]
         columns, of_bodies = {}, {}
         for key, its in self._variables.items():
             label = labelled(its.field or key.removeprefix(HISTORY), its.unit)

@@ -13,6 +13,7 @@ from pydantic import ValidationError
 
 from tribo.component import Component
 from tribo.core.errors import PluginError
+from tribo.core.explain import case_error
 from tribo.core.words import said
 from tribo.registry.child import in_child
 from tribo.registry.kinds import check_class
@@ -258,9 +259,10 @@ def suites(cls: type[Component], configs: Sequence[Config] | None) -> Iterator[C
         try:
             made.append(cls.model_validate(config))
         except ValidationError as error:
-            what = f"configs[{number}] is not valid for {cls.__qualname__}"
-            hint = "a class gives valid ones as examples = ({…},)"
-            raise ValueError(f"{what}: {error}; {hint}") from error
+            raise ValueError(
+                f"{cls.__qualname__} has no valid configuration at {number}: {case_error(error)}; "
+                "a class gives valid ones as examples = ({…},)"
+            ) from error
     yield from (SUITES[cls.kind()](config, made) for config in made)
 
 

@@ -62,6 +62,9 @@ def test_a_sweep_tells_the_least_and_the_most_wear(tmp_path):
     assert f"to {volumes[1]} mm³" in ball
     assert "(run 3: normal load 50 N, kinematics type b)" in ball
     assert "run 4: too steep" in (tmp_path / "study-sweep-report.html").read_text()
+    # Where no run has a message, the column is read as numbers.
+    pd.DataFrame(rows[:3]).assign(message=None).to_csv(folder / "runs.csv", index=False)
+    assert command("report", "study-sweep", cwd=tmp_path).returncode == 0
 
 
 def test_a_sweep_without_a_run_that_is_done_has_no_report(tmp_path):

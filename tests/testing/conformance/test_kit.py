@@ -84,7 +84,12 @@ class Unknown(Hill):
             r"no method height; help\(tribo.Surface\)",
         ),
         (Hill, [], ValueError, "nothing would be checked of Hill"),
-        (Hill, [{}, {"radius": "5 s"}], ValueError, r"configs\[1\] is not valid for Hill: "),
+        (
+            Hill,
+            [{}, {"radius": "5 s"}],
+            ValueError,
+            "Hill has no valid configuration at 1: radius: ",
+        ),
     ],
 )
 def test_what_the_author_got_wrong_is_named(run, cls, configs, error, message):

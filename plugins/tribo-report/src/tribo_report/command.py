@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
+from tribo import CaseError
 from tribo.kernel_api import PATH
 
 
@@ -37,6 +38,8 @@ def report(what: tuple[Path, ...], output: Path | None, verified: Path | None) -
     from tribo_report.write import write_report
 
     path = output or what[0].with_name("-".join([*(each.stem for each in what), "report.html"]))
+    if path.suffix.lower() not in (".html", ".htm"):
+        raise CaseError(f"{path} is no HTML file; end its name in .html", "--output")
     write_report(what[0] if len(what) == 1 else what, path, verified=verified)
     click.echo(
         f"Wrote {path} ({readable(path.stat().st_size / 1e6, '.1f')} MB), for any browser, offline"

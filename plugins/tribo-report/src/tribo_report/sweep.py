@@ -97,7 +97,7 @@ def _answers(
 def _notes(runs: pd.DataFrame) -> Iterator[str]:
     """Yield once what several runs have to say with other numbers."""
     found = runs[runs["message"].notna()]
-    alike = found["message"].str.replace(r"[\d.]+", "", regex=True)
+    alike = found["message"].astype(str).str.replace(r"[\d.]+", "", regex=True)
     for _, rows in found.groupby(alike, sort=False):
         numbers, text = list(rows["run"]), rows["message"].iloc[0]
         more = f" and {len(numbers) - 1} more" if len(numbers) > 1 else ""
