@@ -38,19 +38,13 @@ class Console(RichConsole):
     def table(self, table: DataTable, kept: Iterable[int] = ()) -> None:
         """Print the columns `kept` of a table, or all, and its notes.
 
-        If it is too wide, columns that it can spare are left out, and named.
+        No number is cut: a table may be wider than the terminal.
         """
-        shown, headings = list(kept or range(len(table.headings))), table.headings
-        spare = sorted((i for i in shown if headings[i].spare), key=lambda i: headings[i].spare)
-        left_out, unbounded = [], self.options.update(width=sys.maxsize)
-        drawn = _drawn(table, shown)
-        while spare and self.measure(drawn, options=unbounded).minimum > self.width:
-            shown.remove(spare[0])
-            left_out.append(headings[spare.pop(0)].label)
-            drawn = _drawn(table, shown)
-        self.print(drawn)
-        if left_out:
-            self.print(f"Left out for want of width: {', '.join(left_out)}.", markup=False)
+        drawn = _drawn(table, list(kept or range(len(table.headings))))
+        least = self.measure(drawn, options=self.options.update(width=sys.maxsize)).minimum
+        if least > self.width:
+            drawn.width = least
+        self.print(drawn, crop=False)
         for note in table.notes:
             self.print(note, markup=False)
 

@@ -23,15 +23,14 @@ Value = float | str | None
 class Heading(NamedTuple):
     """The heading of a column: label, "" for the rows' names, and unit and format of its numbers.
 
-    A column that is `whole` is not broken into lines. A narrow terminal leaves out those that it
-    can `spare`, in this order from 1. `name` is the label where the title of the table is missing.
+    A column that is `whole` is not broken into lines. `name` is the label where the title of the
+    table is missing.
     """
 
     label: str
     unit: str = ""
     form: str = ""
     whole: bool = False
-    spare: int = 0
     name: str = ""
 
     def __str__(self) -> str:

@@ -12,13 +12,13 @@ from tribo.result.read import Result
 
 COLUMNS = (
     (Heading("time", "s", "g", whole=True), "time_s", 1),
-    (Heading("path", "m", ".4g", whole=True, spare=3), "distance_m", 1),
+    (Heading("path", "m", ".4g", whole=True), "distance_m", 1),
     (Heading("load", "N", ".4g", whole=True), "load_N", 1),
     (Heading("p max", "MPa", ".4g", whole=True), "max_pressure_Pa", 1e-6),
-    (Heading("p centre", "MPa", ".4g", whole=True, spare=2), "centre_pressure_Pa", 1e-6),
-    (Heading("along", "µm", ".0f", True, 4, "width along"), "contact_half_width_x_m", 2e6),
-    (Heading("across", "µm", ".0f", True, 5, "width across"), "contact_half_width_y_m", 2e6),
-    (Heading("area", "mm²", ".3f", whole=True, spare=1), "contact_area_m2", 1e6),
+    (Heading("p centre", "MPa", ".4g", whole=True), "centre_pressure_Pa", 1e-6),
+    (Heading("along", "µm", ".0f", True, "width along"), "contact_half_width_x_m", 2e6),
+    (Heading("across", "µm", ".0f", True, "width across"), "contact_half_width_y_m", 2e6),
+    (Heading("area", "mm²", ".3f", whole=True), "contact_area_m2", 1e6),
 )
 """Heading, key in a save, and factor to the unit of each column."""
 

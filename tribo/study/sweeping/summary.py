@@ -24,18 +24,10 @@ def measured(runs: pd.DataFrame) -> list[str]:
 
 
 def runs_table(runs: pd.DataFrame, measures: Sequence[str]) -> DataTable:
-    """Return what varied and some measures of each run; its status where one is not done.
-
-    A narrow terminal leaves out measures, from the last.
-    """
+    """Return what varied and some measures of each run; its status where one is not done."""
     status = ["status"] if (runs["status"] != "done").any() else []
-    known = ["run", *status, *varied_paths(runs)]
-    shown = [*known, *measures]
-    spare = [0] * len(known) + [*range(len(measures), 0, -1)]
-    headings = [
-        column_heading(name, runs)._replace(spare=order)
-        for name, order in zip(shown, spare, strict=True)
-    ]
+    shown = ["run", *status, *varied_paths(runs), *measures]
+    headings = [column_heading(name, runs) for name in shown]
     rows = [TableRow(tuple(cell(name, runs, index) for name in shown)) for index in runs.index]
     return DataTable("Each run at its end", headings, rows, dense=True)
 
