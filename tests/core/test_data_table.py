@@ -17,7 +17,6 @@ TABLE = DataTable("Title", (Heading(""), Heading("a", "mm", ".1f"), Heading("b")
 
 def test_cells_have_the_format_of_their_row_or_column_and_a_dash_where_missing():
     assert TABLE.cells() == [["at 0 s"], ["depth, µm", "1.25", "–"], ["<b>", "3.0", "[whole]"]]
-    assert TABLE.cells([0, 2]) == [["at 0 s"], ["<b>", "[whole]"]]
 
 
 def test_html_and_terminal_print_the_same_cells_as_they_are():

@@ -14,9 +14,6 @@ from tribo.core.errors import CaseError, located
 if TYPE_CHECKING:
     from tribo.study.comparison import Comparison
 
-BESIDE = 3
-"""Results side by side, which fit into 80 characters."""
-
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=PATH)
@@ -82,13 +79,13 @@ def compare(
 
 
 def print_comparison(comparison: Comparison, times: Sequence[float]) -> None:
-    """Print what differs at `times`, three results side by side."""
+    """Print what differs at `times`, the results side by side."""
     from rich.markup import escape
 
     from tribo.cli.console import Console
     from tribo.study.side_by_side import comparison_table
 
-    console, labels = Console(), list(comparison.results)
+    console = Console()
     if varied := comparison.varied:
         console.print(f"Varied: {', '.join(varied)}")
     console.print(
@@ -96,9 +93,6 @@ def print_comparison(comparison: Comparison, times: Sequence[float]) -> None:
         "cells: the L2 norm of the difference, then the largest, which for a pressure often lies "
         "in a cell at the rim."
     )
-    table = comparison_table(comparison, times)
-    indices = range(1, len(labels) + 1)
-    for start in indices[::BESIDE]:
-        console.table(table, (0, *indices[start - 1 : start - 1 + BESIDE]))
+    console.table(comparison_table(comparison, times))
     for each in comparison.findings:
         console.print(f"[yellow]Note:[/] {escape(each.words)}")

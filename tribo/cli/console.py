@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 from rich import box
@@ -35,12 +35,12 @@ class Console(RichConsole):
         """Return what is written, without the blanks at the ends of lines."""
         return re.sub(" +$", "", super()._render_buffer(buffer), flags=re.MULTILINE)
 
-    def table(self, table: DataTable, kept: Iterable[int] = ()) -> None:
-        """Print the columns `kept` of a table, or all, and its notes.
+    def table(self, table: DataTable) -> None:
+        """Print a table, and its notes.
 
         No number is cut: a table may be wider than the terminal.
         """
-        drawn = _drawn(table, list(kept or range(len(table.headings))))
+        drawn = _drawn(table)
         least = self.measure(drawn, options=self.options.update(width=sys.maxsize)).minimum
         if least > self.width:
             drawn.width = least
@@ -49,13 +49,13 @@ class Console(RichConsole):
             self.print(note, markup=False)
 
 
-def _drawn(table: DataTable, shown: Sequence[int]) -> Table:
-    """Return columns of a table in the house style: a long heading is broken before a number is."""
+def _drawn(table: DataTable) -> Table:
+    """Return a table in the house style: a long heading is broken before a number is."""
     title = escape(table.title) if table.title else None
     drawn = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
     drawn.pad_edge, drawn.collapse_padding = not table.dense, table.dense
-    rows = table.cells(shown)
-    for place, heading in enumerate(table.headings[i] for i in shown):
+    rows = table.cells()
+    for place, heading in enumerate(table.headings):
         words = (word for row in rows if row[1:] for word in row[place].split())
         drawn.add_column(
             escape(str(heading)),

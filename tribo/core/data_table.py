@@ -73,11 +73,11 @@ class DataTable:
         """Whether each row begins with a name."""
         return all(isinstance(row.values[0], str) for row in self.rows)
 
-    def cells(self, kept: Sequence[int] | None = None) -> list[list[str]]:
-        """Return the rows as text; of the columns `kept`, by their index, or of all."""
-        forms = dict(enumerate(heading.form for heading in self.headings))
+    def cells(self) -> list[list[str]]:
+        """Return the rows as text."""
+        forms = [heading.form for heading in self.headings]
         rows = (
-            [_text(row.values[i], row.form or forms[i]) for i in kept or forms if row.values[i:]]
+            [_text(value, row.form or form) for value, form in zip(row.values, forms, strict=False)]
             for row in self.rows
         )
         return [row for row in rows if set(row[1:]) != {NOTHING}]
