@@ -27,16 +27,26 @@ def doctor(as_json: bool) -> None:
     from tribo.registry.all_plugins import try_out
     from tribo.registry.plugins import installed
     from tribo.result.provenance import environment
+    from tribo.verification.suite import cases_in, tribo_cases
 
     records = installed()
     try_out(records)
-    checks = _self_test()
+    checks: list[dict[str, Any]] = [
+        {
+            "name": f"{row.case}, {row.quantity}",
+            "ok": row.verdict == "holds",
+            "detail": row.reason if row.error is None else f"off by {row.error:.0e}",
+        }
+        for case in cases_in(*tribo_cases())
+        if case.name in KNOWN
+        for row in case.run()
+    ]
     found: dict[str, Any] = {
         **environment(),
         "checks": checks,
         "plugins": [record.facts for record in records],
     }
-    lines: list[tuple[str, bool, str]] = [(c["name"], c["ok"], c["detail"]) for c in checks]
+    lines = [(c["name"], c["ok"], c["detail"]) for c in checks]
     for record in records:
         name = f"plugin {record} ({record.facts['entry_point']})"
         reason = f"{record.status}: {record.reason}".rstrip(": ")
@@ -51,19 +61,3 @@ def doctor(as_json: bool) -> None:
             click.echo(f"{name}: {detail}")
     if bad := [name for name, well, _ in lines if not well]:
         raise NumericalError(f"not well: {', '.join(bad)}")
-
-
-def _self_test() -> list[dict[str, Any]]:
-    """Compute known results."""
-    from tribo.verification.suite import cases_in, tribo_cases
-
-    cases = [case for case in cases_in(*tribo_cases()) if case.name in KNOWN]
-    return [
-        {
-            "name": f"{row.case}, {row.quantity}",
-            "ok": row.verdict == "holds",
-            "detail": row.reason if row.error is None else f"off by {row.error:.0e}",
-        }
-        for case in cases
-        for row in case.run()
-    ]

@@ -43,7 +43,9 @@ def new(name: str | None, file: Path | None, force: bool) -> None:
         return
     check_new(file, force)
     write_file(file, text)
-    click.echo(f"Wrote {file}; look it over, then: {_next(text, file)}")
+    measured = "measured" in tomllib.loads(text)
+    then = f"calibrate CASE --measured {file}" if measured else f"check {file}"
+    click.echo(f"Wrote {file}; look it over, then: tribo {then}")
 
 
 def _list() -> None:
@@ -55,10 +57,3 @@ def _list() -> None:
     rows = [TableRow((name, said.rstrip("."))) for name, said in {**TEMPLATES, **plugged}.items()]
     headings = Heading("template"), Heading("contents", form=LEFT)
     Console().table(DataTable("", headings, rows, ["Write one with: tribo new TEMPLATE FILE"]))
-
-
-def _next(text: str, file: Path) -> str:
-    tables = tomllib.loads(text)
-    if "measured" in tables:
-        return f"tribo calibrate CASE --measured {file}"
-    return f"tribo check {file}"

@@ -53,21 +53,15 @@ def verify(
         return
     if overrides:
         raise click.UsageError("--set changes a case file; name one")
-    from tribo.verification.suite import called, cases_in, installed_cases
+    from tribo.verification.suite import called, cases_in, installed_cases, uncovered
 
     if case is not None and Path(case).is_dir():
         cases = cases_in(Path(case))
     else:
         cases = called(case or "", installed_cases())
-    if coverage:
-        _coverage(cases, as_json)
-    else:
+    if not coverage:
         _validate([each for each in cases if each.expected.quick or not quick], as_json)
-
-
-def _coverage(cases: Sequence[ValidationCase], as_json: bool) -> None:
-    from tribo.verification.suite import uncovered
-
+        return
     missing = uncovered(cases)
     if as_json:
         echo_json({"uncovered": missing})
