@@ -85,15 +85,6 @@ def hertz_half_width(system: ContactSystem) -> float | None:
     return hertz.half_width_x if hertz is not None and hertz.half_width_x < inf else None
 
 
-def hardness_of(result: Result) -> dict[str, float | None]:
-    """Return the hardness at the surface of each body of a result, in Pa; None if not given."""
-    found = {}
-    for name, body in result.case_tables["bodies"].items():
-        top = next((each.get("hardness") for each in body.get("layers") or ()), None)
-        found[name] = top or body["material"].get("hardness")
-    return found
-
-
 def softer_known(system: ContactSystem, hardness: Mapping[str, float | None]) -> ContactSystem:
     """Return the system, without its cap if a body has no hardness: the softer one is unknown."""
     return system if all(hardness.values()) else replace(system, cap=None)
@@ -101,14 +92,17 @@ def softer_known(system: ContactSystem, hardness: Mapping[str, float | None]) ->
 
 def first_hertz(result: Result) -> HertzContact | None:
     """Return Hertz's contact for the first save of a result; None where it is another."""
-    layers = (
-        each for body in result.case_tables["bodies"].values() for each in body.get("layers", ())
-    )
-    # A result's system does not keep them.
-    elastic = any(each.get(key) is not None for each in layers for key in ("young", "poisson"))
-    if elastic or result.case_tables.get("begin"):
+    if result.case_tables.get("begin"):
         return None
-    return hertz_contact(softer_known(result.system, hardness_of(result)))
+    hardness: dict[str, float | None] = {}
+    for name, body in result.case_tables["bodies"].items():
+        layers = body.get("layers") or ()
+        # A result's system does not keep elastic layers.
+        if any(each.get(key) is not None for each in layers for key in ("young", "poisson")):
+            return None
+        top = next((each.get("hardness") for each in layers), None)
+        hardness[name] = top or body["material"].get("hardness")
+    return hertz_contact(softer_known(result.system, hardness))
 
 
 def computed_pressure(

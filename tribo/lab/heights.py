@@ -133,26 +133,20 @@ def read_heights(
                 )
         elif unit != "m":
             raise CaseError(f"{path} states its own unit; leave {unit!r} out")
-        else:
-            found = _by_plugin(path)
+        elif formats := from_all_plugins("tribo_height_formats"):
+            found: Heights = formats[0].read(path)
             heights, pitch = found.heights, pitch or found.pitch
+        else:
+            raise CaseError(
+                f"{path} is no NumPy or CSV file ({', '.join(OWN)}); install tribo-topography, "
+                "which reads the files of instruments, or export it as one of those"
+            )
     except ValueError as error:
         raise CaseError(str(error)) from None
     try:
         return Heights(heights, pitch)
     except CaseError as error:
         raise CaseError(f"{path}: {error}") from None
-
-
-def _by_plugin(path: Path) -> Heights:
-    formats = from_all_plugins("tribo_height_formats")
-    if not formats:
-        raise CaseError(
-            f"{path} is no NumPy or CSV file ({', '.join(OWN)}); install tribo-topography, "
-            "which reads the files of instruments, or export it as one of those"
-        )
-    heights: Heights = formats[0].read(path)
-    return heights
 
 
 def nearest_filled(heights: Array) -> Array:

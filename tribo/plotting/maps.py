@@ -156,7 +156,11 @@ def field_picture(
         value = f"{np.mean(field[marked]) / scale.factor:.4g} {scale.unit}"
         raise NothingToDraw(f"{title}: {scale.what.lower()} is uniform, {value}")
     if len(vary) == 1:
-        return _profile(field, marked, grid, scale, title, vary[0])
+        sections = through_centre([(grid, field, marked)], vary)
+        up = min(0.0, float(np.min(field))), 1.05 * (scale.most or float(np.max(field)))
+        labelled = scale.label, scale.factor
+        row = section_row(sections, [{"color": "black"}], [""], labelled, up, title)
+        return Picture([row], 55.0, share="")
     shown = Layout.of(marked, grid)
 
     def panel(axes: Axes) -> Sequence[Artist]:
@@ -165,14 +169,3 @@ def field_picture(
         return more(axes, shown)
 
     return Picture([[panel]], shown.height, share="")
-
-
-def _profile(
-    field: Array, marked: Mask, grid: Grid, scale: Scale, title: str, axis: int
-) -> Picture:
-    """Return a field through the centre along an axis."""
-    sections = through_centre([(grid, field, marked)], (axis,))
-    up = min(0.0, float(np.min(field))), 1.05 * (scale.most or float(np.max(field)))
-    look, shown = {"color": "black"}, (scale.label, scale.factor)
-    row = section_row(sections, [look], [""], shown, up, title)
-    return Picture([row], 55.0, share="")

@@ -16,13 +16,7 @@ from tribo.core.errors import CaseError
 from tribo.core.findings import Finding
 from tribo.core.material import Material, in_words, materials, typical
 from tribo.core.words import readable
-from tribo.lab.against_hertz import (
-    HertzContact,
-    computed_pressure,
-    hertz_half_width,
-    in_mpa,
-    yield_words,
-)
+from tribo.lab.against_hertz import computed_pressure, hertz_half_width, in_mpa, yield_words
 from tribo.model.model import Model
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.predict import Prediction, predict
@@ -116,13 +110,6 @@ def check_case(case: Case) -> Check:
     return Check(tuple(problems), facts, rows, asdict(prediction))
 
 
-def _widths(hertz: HertzContact) -> str:
-    a, b = 1e6 * hertz.half_width_x, 1e6 * hertz.half_width_y
-    if hertz.is_line:
-        return f"{min(a, b):.4g} µm of a line contact"
-    return f"{a:.4g} × {b:.4g} µm along × across"
-
-
 def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     """Yield materials, the first contact, the end and the memory of the run, by name."""
     for name, body in model.case.bodies.items():
@@ -162,8 +149,10 @@ def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, 
     elif hertz is None or prediction.cells_across is None:
         yield "first contact", "no Hertz solution for these surfaces"
     else:
-        p0 = hertz.peak_pressure
-        yield "Hertz half-widths", _widths(hertz)
+        p0, a, b = hertz.peak_pressure, 1e6 * hertz.half_width_x, 1e6 * hertz.half_width_y
+        line = f"{min(a, b):.4g} µm of a line contact"
+        point = f"{a:.4g} × {b:.4g} µm along × across"
+        yield "Hertz half-widths", line if hertz.is_line else point
         pressure, computed = computed_pressure(
             model.contact.system, first.max_pressure, first.centre_pressure
         )
