@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Mapping
 
 import numpy as np
 from tribo import CaseError, Finding, NumericalError
@@ -24,52 +23,19 @@ LEAST = 0.005
 MOST = 8
 """Numbers of a case that are reported."""
 
-Answer = Literal["depth", "end_time"]
 
+def of_case(model: Model, half_width_x: float) -> list[Finding]:
+    """Return the `MOST` most influential numbers of a case; `half_width_x` of its contact in m.
 
-@dataclass(frozen=True)
-class Sensitivity:
-    """Influence of the numbers of a case on the largest depth worn, or on the time to reach it.
-
-    Parameters
-    ----------
-    body : str
-        The body that is worn deepest, or whose depth ends the run.
-    of : str
-        ``"depth"`` of the body, or ``"end_time"`` where a depth ends the run.
-    percent : dict of float
-        By path, the largest first: change of the depth or time in % for 1 % of the number, on the
-        finer grid.
-    uncertainty : dict of float
-        By path: the difference of the two grids, in % for 1 %.
-    volume : dict of float
-        By path: change of the volume worn off the body in % for 1 %, on the finer grid.
+    They change the largest depth worn, or the time to reach it where a depth ends the run.
     """
-
-    body: str
-    of: Answer
-    percent: dict[str, float]
-    uncertainty: dict[str, float]
-    volume: dict[str, float]
+    try:
+        return _of_case(model, half_width_x)
+    except (CaseError, NumericalError) as error:
+        return [Finding("sensitivity", f"not known, since {error}")]
 
 
-def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
-    """Return the influence of numbers on the largest depth of a run, or its end, on coarse grids.
-
-    Parameters
-    ----------
-    model : Model
-        The composed case.
-    half_width_x : float
-        Half the extent of its first contact along x, in m.
-
-    Raises
-    ------
-    CaseError
-        If the case has no gradient, or nothing wears.
-    NumericalError
-        If the run on a coarse grid fails.
-    """
+def _of_case(model: Model, half_width_x: float) -> list[Finding]:
     if not model.laws.wear:
         raise CaseError("no body has a wear law, so nothing wears", "bodies")
     if not model.case.contact.accepts_wear_compliance:
@@ -98,14 +64,14 @@ def sensitivity(model: Model, half_width_x: float) -> Sensitivity:
     raise failed
 
 
-def _of_two(coarse: Model, fine: Model) -> Sensitivity:
-    asked: list[tuple[str, Answer]] = []
+def _of_two(coarse: Model, fine: Model) -> list[Finding]:
+    asked: list[tuple[str, bool]] = []
 
     def answer(view: View) -> tuple[float, Seeds]:
         if not asked:
             asked.append(_asked(view))
-        body, of = asked[0]
-        return EndTime()(view) if of == "end_time" else Deepest(body)(view)
+        body, ends = asked[0]
+        return EndTime()(view) if ends else Deepest(body)(view)
 
     def volume(view: View) -> tuple[float, Seeds]:
         return Volume(asked[0][0])(view)
@@ -113,55 +79,44 @@ def _of_two(coarse: Model, fine: Model) -> Sensitivity:
     (before, _), (after, volumes) = (gradients(each, [answer, volume]) for each in (coarse, fine))
     if not (before.value > 0 and after.value > 0):
         raise CaseError("no body wears on a coarse grid", "bodies")
-    # A number may have a derivative on one of the grids alone.
-    both = {p: value for p, value in after.relative.items() if p in before.relative}
-    off = {p: abs(value - before.relative[p]) for p, value in both.items()}
-    ranked = sorted(both.items(), key=lambda item: -abs(item[1]))
-    percent = {p: float(value) for p, value in ranked if abs(value) >= LEAST}
-    uncertainty = {path: float(off[path]) for path in percent}
-    volume_percent = {path: volumes.relative[path] for path in percent}
-    return Sensitivity(*asked[0], percent, uncertainty, volume_percent)
+    body, ends = asked[0]
+    what = f"time until {body} reaches stop.depth" if ends else f"depth of {body}"
+    return influences(what, before.relative, after.relative, volumes.relative)
 
 
-def _asked(view: View) -> tuple[str, Answer]:
-    model, state = view.model, view.state
+def _asked(view: View) -> tuple[str, bool]:
+    """Return the body that is worn deepest, or whose depth ends the run, and whether it does."""
+    model = view.model
     deepest = max(model.laws.wear, key=lambda name: float(np.max(view.wear(name))))
-    if state.time < model.end_time:
-        return model.case.stop.body or deepest, "end_time"
-    return deepest, "depth"
+    if view.state.time < model.end_time:
+        return model.case.stop.body or deepest, True
+    return deepest, False
 
 
-def of_case(model: Model, half_width_x: float) -> list[Finding]:
-    """Return the `MOST` most influential numbers of a case; `half_width_x` of its contact in m.
+def influences(
+    what: str, coarse: Mapping[str, float], fine: Mapping[str, float], volume: Mapping[str, float]
+) -> list[Finding]:
+    """Return the influence of numbers, by path, on an answer on two grids, and on the volume.
 
-    Where the two grids differ by more than an influence, the number is named alone.
+    Their unit is % for 1 % of a number. Where the two grids differ by more than an influence, the
+    number is named alone.
     """
-    try:
-        found = sensitivity(model, half_width_x)
-    except (CaseError, NumericalError) as error:
-        return [Finding("sensitivity", f"not known, since {error}")]
-    depth, time = f"depth of {found.body}", f"time until {found.body} reaches stop.depth"
-    what = depth if found.of == "depth" else time
-    known = [
-        path for path, change in found.percent.items() if abs(change) > found.uncertainty[path]
+    # A number may have a derivative on one of the grids alone.
+    off = {path: abs(value - coarse[path]) for path, value in fine.items() if path in coarse}
+    large = [path for path in off if abs(fine[path]) >= LEAST]
+    ranked = sorted(large, key=lambda path: -abs(fine[path]))
+    known = [path for path in ranked if abs(fine[path]) > off[path]]
+    findings = [
+        Finding(
+            "sensitivity",
+            f"+1 %: {what} {fine[path]:+.2f} ± {off[path]:.2f}, volume {volume[path]:+.2f} %",
+            value=fine[path],
+            uncertainty=off[path],
+            place=path,
+        )
+        for path in known[:MOST]
     ]
-    unknown = [path for path in found.percent if path not in known]
-    words = "smaller than the error of the coarse grids, and left out: "
-    return [
-        *(_sensitivity(found, what, path) for path in known[:MOST]),
-        *([Finding("sensitivity", words + ", ".join(unknown))] if unknown else []),
-    ]
-
-
-def _sensitivity(found: Sensitivity, what: str, path: str) -> Finding:
-    """Word the change of an answer, in %, for 1 % more of a number."""
-    change, uncertainty, volume = (
-        each[path] for each in (found.percent, found.uncertainty, found.volume)
-    )
-    return Finding(
-        "sensitivity",
-        f"+1 %: {what} {change:+.2f} ± {uncertainty:.2f}, volume {volume:+.2f} %",
-        value=change,
-        uncertainty=uncertainty,
-        place=path,
-    )
+    if unknown := [path for path in ranked if path not in known]:
+        words = "smaller than the error of the coarse grids, and left out: "
+        findings.append(Finding("sensitivity", words + ", ".join(unknown)))
+    return findings
