@@ -187,7 +187,7 @@ def calibrate(
     def responses(values: Array) -> Array:
         found = experiment.run(values).responses
         problem = experiment.problem(values)
-        misfit = float(np.sum(problem.residuals(found, problem.weights()) ** 2))
+        misfit = float(np.sum(problem.residuals(found, Weights.of(problem.sigma)) ** 2))
         nonlocal least, told
         if experiment.run_count > told:
             told = experiment.run_count

@@ -14,6 +14,7 @@ from tribo_inverse.calibration.linearised import (
     COLLINEAR,
     Linearised,
     Problem,
+    Weights,
     normalised,
     root_covariance,
 )
@@ -172,7 +173,7 @@ def differenced(
         change = problem.scaled(found) - problem.scaled(responses)
         columns.append(change / (moved[i] - point[i]))
     slopes = np.stack(columns, axis=1)
-    return Linearised(problem, point, responses, slopes, weights=problem.weights())
+    return Linearised(problem, point, responses, slopes, Weights.of(problem.sigma))
 
 
 def _within(

@@ -84,10 +84,6 @@ class Problem:
     upper: Array
     """Upper bounds, infinity for none."""
 
-    def weights(self, scatter: Array | None = None) -> Weights:
-        """Return the weights of the data, with correlated errors, shape (n, j), if given."""
-        return Weights.of(self.sigma, scatter)
-
     def scaled(self, responses: Array) -> Array:
         """Return responses on a scale on which slopes change little: logarithms.
 
@@ -177,7 +173,7 @@ class Linearised:
 
     def about(self, point: Array, responses: Array, problem: Problem) -> Linearised:
         """Return the model about another run, with the same slopes."""
-        weights = problem.weights()
+        weights = Weights.of(problem.sigma)
         return replace(self, point=point, responses=responses, problem=problem, weights=weights)
 
     def weighed(self, point: Array, repeatability: float) -> Linearised:
@@ -185,7 +181,7 @@ class Linearised:
         scatter = None
         if repeatability > 0:
             scatter = repeatability * self.problem.by_test(self.effects(point))
-        weights = self.problem.weights(scatter)
+        weights = Weights.of(self.problem.sigma, scatter)
         return replace(self, weights=weights, repeatability=repeatability)
 
     def degrees_of_freedom(self, direction: Array) -> float:

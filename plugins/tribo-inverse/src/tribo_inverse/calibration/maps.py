@@ -24,7 +24,6 @@ from tribo_inverse.calibration.lanczos import eigenpairs
 from tribo_inverse.calibration.linearised import Weights
 from tribo_inverse.calibration.prior import Prior
 from tribo_inverse.calibration.quantities import EDGE_CELL_SIGMA, edge_sigma
-from tribo_inverse.calibration.scar_shift import slopes
 from tribo_inverse.findings import UNLIKELY, of_maps
 from tribo_inverse.recording.local import factor_shape, localised
 from tribo_inverse.recording.tape import Tape, recorded
@@ -253,8 +252,9 @@ class _Posterior:
         for name, (depth, sigma) in self.depths.items():
             worn, placed = view.wear(name), self.placed.get(name, (0.0, 0.0))
             total = np.hypot(sigma, edge_sigma(worn, EDGE_CELL_SIGMA))
-            along = slopes(cell_means(worn), spacing).items()
-            moves = [placed[axis] * slope for axis, slope in along if placed[axis]]
+            axes = [axis for axis in (0, 1) if placed[axis] and worn.shape[axis] > 1]
+            mean = cell_means(worn)
+            moves = [placed[axis] * np.gradient(mean, spacing[axis], axis=axis) for axis in axes]
             columns = np.array([np.where(np.isnan(depth), 0.0, each).ravel() for each in moves])
             self.weights[name] = Weights.of(total.ravel(), columns.reshape(-1, depth.size).T)
 
@@ -263,16 +263,12 @@ class _Posterior:
         value, seeds = 0.0, {}
         for name, (depth, _) in self.depths.items():
             residuals = np.nan_to_num(cell_means(view.wear(name)) - depth)
-            value += 0.5 * self.square(name, residuals)
+            value += 0.5 * float(np.sum(self.weights[name].weigh(residuals.ravel()) ** 2))
             seeds[name] = self.seed(name, residuals)
         return value, Seeds(seeds)
 
-    def square(self, name: str, residuals: Array) -> float:
-        """Return the weighed sum of squares of residuals, in m, of a map."""
-        return float(np.sum(self.weights[name].weigh(residuals.ravel()) ** 2))
-
     def seed(self, name: str, residuals: Array) -> Array:
-        """Return half of the derivative of `square` by the depth worn."""
+        """Return the derivative of half the weighed sum of squares of residuals, in m, of a map."""
         weights = self.weights[name]
         weighed = weights.weigh_transposed(weights.weigh(residuals.ravel()))
         # `cell_means` is its own adjoint.

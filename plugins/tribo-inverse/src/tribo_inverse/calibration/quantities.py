@@ -159,7 +159,8 @@ def read(result: Result, asked: Reading) -> tuple[float, float]:
     if label := quantity(asked.quantity).label:
         key = ".".join(filter(None, ("quantities", asked.body, label)))
         return {row.key: row.value for row in quantity_rows(result)}.get(key, math.nan), 0.0
-    save, body = _save(result, asked), result.body(asked.body)
+    save = -1 if math.isnan(asked.time_s) else result.save_at(asked.time_s)
+    body = result.body(asked.body)
     depth, spacing, name = body.wear_depth[save], result.grid.spacing, asked.quantity
     if name in ("scar_along", "scar_across"):
         axis = AXES[name]
@@ -185,10 +186,6 @@ def edge_sigma(depth: Array, part: float) -> Array:
     axes = [axis for axis, n in enumerate(depth.shape) if n > 1]
     steps = [np.max(np.abs(np.diff(depth, axis=axis))) for axis in axes]
     return np.asarray(edge * part * max(steps))
-
-
-def _save(result: Result, asked: Reading) -> int:
-    return -1 if math.isnan(asked.time_s) else result.save_at(asked.time_s)
 
 
 def _crown(result: Result, name: str, save: int) -> tuple[float, float]:

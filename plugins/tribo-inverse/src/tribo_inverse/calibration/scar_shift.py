@@ -11,12 +11,6 @@ PRIOR_SHIFT = 0.25
 """Prior standard deviation of the shift of a map, relative to the size of the surface."""
 
 
-def slopes(depth: Array, spacing: tuple[float, float]) -> dict[int, Array]:
-    """Return the derivative of a depth along each axis that has more than one cell."""
-    axes = [axis for axis in (0, 1) if depth.shape[axis] > 1]
-    return {axis: np.gradient(depth, spacing[axis], axis=axis) for axis in axes}
-
-
 def find_shift(heights: Heights, depth: Array, spacing: tuple[float, float]) -> tuple[float, float]:
     """Return the position of the scar from the middle of its map, along and across, in m.
 
