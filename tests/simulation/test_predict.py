@@ -83,7 +83,6 @@ def test_a_trial_that_fails_on_coarse_cells_is_told_and_does_not_stop_the_run(mo
     assert problem.kind == "trial"
     assert problem.words.endswith(": too coarse")
     assert found.exit_code == 0
-    assert found.stops is None
 
 
 class Asks(Effect):
@@ -107,7 +106,6 @@ def test_a_case_refused_on_its_way_ends_check_as_it_ends_the_run():
     (problem,) = found.problems
     assert problem.kind == "trial"
     assert problem.words.endswith(str(stopped.value))
-    assert found.stops == problem.words
 
 
 def test_a_softer_body_that_is_not_known_has_no_onset_of_yield():

@@ -22,13 +22,7 @@ from tribo.simulation.assembly import assemble, varied
 from tribo.simulation.hardness import at_surface
 from tribo.simulation.march import begin, march
 from tribo.simulation.memory import memory_needed
-from tribo.simulation.validity import (
-    doubting,
-    few_cells,
-    implausible,
-    limitation,
-    unusual,
-)
+from tribo.simulation.validity import doubting, few_cells, implausible, limitation
 from tribo.simulation.watch import Watch
 from tribo.stepping.implicit import Implicit
 from tribo.stepping.step import start_sliding
@@ -65,8 +59,6 @@ class Prediction:
     """The facts of components, by their place in the case."""
     problems: tuple[Finding, ...]
     exit_code: int
-    stops: str | None
-    """Warnings, and then the error that stops the run, as in its message."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +98,6 @@ def predict(model: Model) -> Prediction:
         code = NumericalError.exit_code
     problems = (failure, *few_cells(state.contact), *trial.findings)
     facts = {place: Guard(c).ask(c.facts) for place, c in components(model.case)}
-    stops = (*unusual(model.case), failure) if failure and code else ()
     return Prediction(
         first=first,
         hertz=hertz,
@@ -121,7 +112,6 @@ def predict(model: Model) -> Prediction:
         facts={place: dict(stated) for place, stated in facts.items() if stated},
         problems=tuple(problem for problem in problems if problem is not None),
         exit_code=code,
-        stops=" ".join(each.words for each in stops) or None,
     )
 
 
