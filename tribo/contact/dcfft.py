@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 
 from tribo.contact.elastic import ElasticSolver
 from tribo.contact.love import nyquist_compliance
-from tribo.contact.operator import Operator
 from tribo.contact.padded_half_space import HalfSpace
 from tribo.contact.residuals import check_finite
 from tribo.core.arrays import Array
@@ -40,16 +37,13 @@ class DcFft(ElasticSolver):
     """
 
     type = "dcfft"
+    _half_space = HalfSpace
 
     def smallest_compliance(self, system: ContactSystem) -> float:
         """Return the compliance of the chequerboard mode, or the least on coatings, in m/Pa."""
         if system.coatings:
             return super().smallest_compliance(system)
         return nyquist_compliance(system.grid.spacing) / system.modulus
-
-    def _operator(self, system: ContactSystem, shape: tuple[int, int]) -> Operator:
-        coatings = tuple(system.coatings.values())
-        return _cached(shape, system.grid.spacing, system.surface_modulus, coatings)
 
     def _guess(self, problem: ContactProblem) -> Array | None:
         """Return Hertz's pressure of a ball with the same gap; None where it is even."""
@@ -67,7 +61,3 @@ class DcFft(ElasticSolver):
         # It touches where the gap is less than half of the approach.
         guess: Array = np.sqrt(np.maximum(0.5 * approach - gap, 0.0))
         return guess if guess.any() else None
-
-
-# A run comes back to its boxes; the kernel of 256² cells takes 1 MiB.
-_cached = lru_cache(maxsize=32)(HalfSpace)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Annotated, ClassVar
+from functools import lru_cache
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -48,6 +48,8 @@ class ElasticSolver(ContactSolver):
     takes_cap_map: ClassVar[bool] = True
     takes_coatings: ClassVar[bool] = True
     couples: ClassVar[bool] = True
+    _half_space: ClassVar[Callable[..., Operator]]
+    """Makes K from a box, its spacing, the modulus at the surface and the coatings."""
 
     def check(self, system: ContactSystem) -> None:
         """Raise `CaseError` if the window cannot bear the load at the pressure cap."""
@@ -83,9 +85,10 @@ class ElasticSolver(ContactSolver):
         """Return a pressure to start from where none is known, in Pa."""
         return None
 
-    @abstractmethod
     def _operator(self, system: ContactSystem, shape: tuple[int, int]) -> Operator:
         """Return K on a box of cells."""
+        coatings = tuple(system.coatings.values())
+        return _kept(self._half_space, shape, system.grid.spacing, system.surface_modulus, coatings)
 
     def _around(self, touching: Mask) -> Box:
         """Return a box to solve on, around the cells that touch."""
@@ -169,6 +172,12 @@ class ElasticSolver(ContactSolver):
                 operator = WornOperator(operator, wear.on(near))
             doubtful[here] &= gap[here] + operator.apply(pressure[here]) < approach
         return _anywhere(doubtful)
+
+
+# A run comes back to its boxes; the kernel of 256² cells takes 1 MiB.
+@lru_cache(maxsize=32)
+def _kept(half_space: Callable[..., Operator], *given: Any) -> Operator:
+    return half_space(*given)
 
 
 def _anywhere(cells: Mask) -> Mask:

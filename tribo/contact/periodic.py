@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
 from typing import Any, ClassVar
 
 import numpy as np
 import scipy
 
 from tribo.contact.elastic import ElasticSolver
-from tribo.contact.operator import Operator
 from tribo.contact.projection import CELLS, over
 from tribo.core.arrays import Array, Mask
 from tribo.core.box import Box, whole
@@ -79,7 +77,7 @@ class Periodic(ElasticSolver):
     """
 
     type = "periodic"
-
+    _half_space = PeriodicHalfSpace
     periodic: ClassVar[bool] = True
 
     def _solve(
@@ -93,13 +91,5 @@ class Periodic(ElasticSolver):
             for solution, low in zip(solutions, np.ravel(lowest), strict=True)
         ]
 
-    def _operator(self, system: ContactSystem, shape: tuple[int, int]) -> Operator:
-        coatings = tuple(system.coatings.values())
-        return _cached(shape, system.grid.spacing, system.surface_modulus, coatings)
-
     def _around(self, touching: Mask) -> Box:
         return whole((touching.shape[0], touching.shape[1]))
-
-
-# As many as of `dcfft`; each takes a quarter.
-_cached = lru_cache(maxsize=32)(PeriodicHalfSpace)
