@@ -48,7 +48,7 @@ MEASURE = """
     model = small(**parts)
     Simulation(model.case).run(case + ".h5").close()
     peak = most()
-    needed = memory_needed(model.case, model.laws.effects, model.cycle)
+    needed = memory_needed(model.case, len(model.cycle))
     print(json.dumps([1024 * (peak - first), needed]))
 """
 

@@ -52,9 +52,8 @@ def assemble(case: Case) -> Model:
         exposures = motion.exposures(window, list(bodies), len(positions))
         cycle = Cycle(grid, positions, exposures)
     cap, share, hardness = yielding(bodies, case.contact)
-    given = (*motion.effects(), *case.effects)
     # Before the first array is made.
-    check_memory(grid, memory_needed(case, given, cycle))
+    check_memory(grid, memory_needed(case, len(cycle)))
     surfaces, laws = {}, {}
     for name, body in bodies.items():
         exposure = exposures[name]
@@ -89,6 +88,7 @@ def assemble(case: Case) -> Model:
             "time_step, or a contact type that does",
             "stepping.type",
         )
+    given = (*motion.effects(), *case.effects)
     effects = in_order(case, [GuardedEffect(effect, list(bodies)) for effect in given])
     friction = None if case.friction is None else case.friction.coefficient
     with located("stop.distance"):

@@ -54,7 +54,7 @@ class Prediction:
     positions: int
     """Of a cycle in which the contact is solved; 1 for an average."""
     memory: float
-    """The most that a run takes, in bytes."""
+    """About the most that a run takes, in bytes."""
     facts: Mapping[str, Mapping[str, str]]
     """The facts of components, by their place in the case."""
     problems: tuple[Finding, ...]
@@ -108,7 +108,7 @@ def predict(model: Model) -> Prediction:
         worn_through=trial.worn_through,
         window_holds=holds,
         positions=len(model.cycle),
-        memory=memory_needed(model.case, model.laws.effects, model.cycle),
+        memory=memory_needed(model.case, len(model.cycle)),
         facts={place: dict(stated) for place, stated in facts.items() if stated},
         problems=tuple(problem for problem in problems if problem is not None),
         exit_code=code,

@@ -123,7 +123,7 @@ def _facts(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
         micro = readable(1e6 * length, ".3g")
         yield "positions", f"averaged over the stroke, {lengths}, {micro} µm"
     yield from _end(model, prediction)
-    yield "memory, at most", f"{readable(prediction.memory / 2**20, '.0f')} MiB"
+    yield "memory, about", f"{readable(prediction.memory / 2**20, '.0f')} MiB"
 
 
 def _material(body: str, material: Material) -> Iterator[tuple[str, str]]:
