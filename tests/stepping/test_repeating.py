@@ -4,7 +4,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from paper_models import FOUNDATION, K, archard, flat, last, motion, named, small, steel
+from paper_models import FOUNDATION, K, archard, flat, last, motion, named, small, sphere, steel
 
 from tribo import (
     Grid,
@@ -19,6 +19,7 @@ from tribo import (
 )
 from tribo.simulation.march import begin
 from tribo.simulation.predict import predict
+from tribo.simulation.validity import tribo_findings
 from tribo.stepping.first_contact import first_contact
 
 GRID = Grid((0.32e-3, 0.32e-3), (16, 16))
@@ -87,6 +88,21 @@ def test_two_flats_wear_evenly_in_windows_of_many_cells_or_few(kinematics, cells
     depth = K * LOAD / (GRID.size[0] * GRID.size[1]) * state.distance
     for body in state.bodies.values():
         np.testing.assert_allclose(body.wear, depth, rtol=1e-10)
+
+
+def test_a_surface_that_ends_at_the_window_is_told_of():
+    ending = rough(1).model_copy(update={"period": None})
+    model = repeating(strokes(16), bodies=bodies(flat(), ending))
+    (found,) = begin(model).findings
+    assert (found.kind, found.place) == ("period", "bodies.lower.surface")
+    assert found.value > 0
+    assert tribo_findings(model) == [found]
+
+
+@pytest.mark.parametrize("surface", [rough(3), sphere(), Waves(amplitude=1e-7, wavelength=8e-5)])
+def test_a_surface_that_repeats_goes_without_a_word(surface):
+    model = repeating(track(GRID.size[0]), bodies=bodies(surface, flat()))
+    assert begin(model).findings == ()
 
 
 def test_of_a_contact_without_an_end_the_average_holds_for_a_track_of_one_period():

@@ -86,6 +86,19 @@ def few_cells(cells: int) -> Finding:
     )
 
 
+def broken_period(body: str, along: str, jump: float) -> Finding:
+    """Word a surface with a jump (m) where the contact repeats along an axis."""
+    return Finding(
+        "period",
+        f"the surface of {body} does not repeat with the window: along {along} it "
+        f"jumps by {1e9 * jump:.3g} nm (root mean square) from one period to the next, "
+        "and presses there; give it a period of the window's length or a part of it",
+        value=jump,
+        limit=0.0,
+        place=f"bodies.{body}.surface",
+    )
+
+
 def too_deep(body: str, depth: float, size: float) -> Finding:
     """Word a wear depth that is no small part of a length of the contact, both in m."""
     words = (

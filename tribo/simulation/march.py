@@ -19,6 +19,7 @@ from tribo.simulation.validity import (
     few_cells,
     hold_wear,
     limitation,
+    tribo_findings,
 )
 from tribo.simulation.watch import Watch
 from tribo.stepping.invariants import hold
@@ -54,7 +55,7 @@ def begin(model: Model) -> State:
     soon = 0.5 * _stops(model)[0]
     speed = (distance_until(model, state, soon) or 0.0) / soon
     state = _averaged(model, replace(state, saves=1, speed=speed))
-    return state.with_findings(*few_cells(state.contact))
+    return state.with_findings(*tribo_findings(model), *few_cells(state.contact))
 
 
 def _stops(model: Model) -> list[float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -9,8 +10,10 @@ from dataclasses import replace
 import numpy as np
 
 from tribo.case import Case
+from tribo.component import components
 from tribo.config.overrides import leaves
 from tribo.core import findings
+from tribo.core.arrays import Array
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError, NumericalError, PluginError, TooWorn, located
 from tribo.core.explain import path
@@ -20,6 +23,11 @@ from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.model.model import Model
 from tribo.motion.stroke import least_positions
+from tribo.registry.hookspecs import hookimpl
+from tribo.registry.registry import from_packages
+
+SEAM = 4
+"""How many times more a surface bends at the edge of a window than inside if it ends there."""
 
 
 def unusual(case: Case) -> list[Finding]:
@@ -56,6 +64,41 @@ def few_cells(contact: ContactSolution) -> list[Finding]:
     """Return a finding if a contact is only a few cells wide."""
     cells = min(rows.stop - rows.start for rows in contact.extent)
     return [findings.few_cells(cells)] if cells < findings.FEW_CELLS else []
+
+
+@hookimpl(trylast=True)
+def tribo_findings(model: Model) -> list[Finding]:
+    """Report the surface of a body that does not repeat with the window as the contact does."""
+    if not model.case.contact.periodic:
+        return []
+    for name, surface in model.surfaces.items():
+        for axis, along in enumerate("xy"):
+            jump = _jump(np.moveaxis(surface.height, axis, 0))
+            if jump > 0:
+                return [findings.broken_period(name, along, jump)]
+    return []
+
+
+def findings_of(model: Model, half_width_x: float) -> list[Finding]:
+    """Return the findings of the kernel and of packages on a case.
+
+    `half_width_x` is half the length of its first contact, in m.
+    """
+    own, types = sys.modules[__name__], {each.type for _, each in components(model.case)}
+    given = {"model": model, "half_width_x": half_width_x}
+    return from_packages("tribo_findings", own, types=types, **given)
+
+
+def _jump(height: Array) -> float:
+    """Return the jump of the height from the last row to the first; 0 if it is periodic."""
+    steps = np.diff(height, axis=0, append=height[:1])
+    bends = steps - 0.5 * (np.roll(steps, 1, axis=0) + np.roll(steps, -1, axis=0))
+    # Those beside the last step have it in them.
+    inside, last = bends[1:-2], bends[-1:]
+    if len(inside) < SEAM or np.mean(last**2) <= SEAM**2 * np.mean(inside**2):
+        return 0.0
+    jump = float(np.sqrt(np.mean(steps[-1] ** 2)))
+    return jump if jump > ROUND_OFF * float(np.ptp(height)) else 0.0
 
 
 def check_stroke(model: Model, state: State) -> None:

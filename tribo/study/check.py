@@ -12,7 +12,6 @@ from textwrap import wrap
 from typing import Any
 
 from tribo.case import Case
-from tribo.component import components
 from tribo.core.errors import CaseError
 from tribo.core.findings import Finding
 from tribo.core.material import Material, in_words, materials, typical
@@ -20,10 +19,9 @@ from tribo.core.words import readable
 from tribo.lab.against_hertz import computed_pressure, hertz_half_width, in_mpa, yield_words
 from tribo.model.model import Model
 from tribo.motion.reciprocating import Reciprocating
-from tribo.registry.registry import from_packages
 from tribo.simulation.predict import Prediction, predict
 from tribo.simulation.run import Simulation
-from tribo.simulation.validity import unusual
+from tribo.simulation.validity import findings_of, unusual
 
 
 @dataclass(frozen=True)
@@ -103,9 +101,7 @@ def check_case(case: Case) -> Check:
     """
     model = Simulation(case).model
     prediction = predict(model)
-    types = {component.type for _, component in components(case)}
-    given = {"model": model, "half_width_x": prediction.first.half_width_x}
-    found = from_packages("tribo_findings", types=types, **given)
+    found = findings_of(model, prediction.first.half_width_x)
     # What has a limit is beyond it; else a finding is a fact.
     facts = tuple(each for each in found if each.limit is None)
     beyond = (each for each in found if each not in facts)
