@@ -11,8 +11,6 @@ from functools import cache
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from pydantic import PrivateAttr
-
 from tribo.case import Output
 from tribo.core.state import RunInfo, Snapshot
 from tribo.observers.observer import Observer
@@ -20,21 +18,6 @@ from tribo.simulation.run import Simulation
 from tribo.testing import samples
 from tribo.testing.checks import BODIES, Checks
 from tribo.testing.compare import NotApplicable, locked, renamed, require
-
-
-class Keeps(Observer):
-    """Keeps what a run shows to its observers."""
-
-    type = "tribo.testing.keeps"
-    _seen: list[Any] = PrivateAttr(default_factory=list)
-
-    def on_start(self, run: RunInfo) -> None:
-        """Keep the information at the start."""
-        self._seen.append(run)
-
-    def on_step(self, snapshot: Snapshot) -> None:
-        """Keep every step."""
-        self._seen.append(snapshot)
 
 
 class ObserverChecks(Checks):
@@ -67,10 +50,21 @@ class ObserverChecks(Checks):
 @cache
 def _watched() -> list[Any]:
     """Return the inputs of an observer in a small run."""
-    keeps, case = Keeps(), samples.small_case(output=Output(save_times=(5.0,)))
+    seen: list[Any] = []
+
+    class Keeps(Observer):
+        type = "tribo.testing.keeps"
+
+        def on_start(self, run: RunInfo) -> None:
+            seen.append(run)
+
+        def on_step(self, snapshot: Snapshot) -> None:
+            seen.append(snapshot)
+
+    case = samples.small_case(output=Output(save_times=(5.0,)))
     with TemporaryDirectory() as folder, chdir(folder):
-        Simulation(case).run(observers=[keeps]).close()
-    return keeps._seen
+        Simulation(case).run(observers=[Keeps()]).close()
+    return seen
 
 
 def _show(observer: Any, run: RunInfo, snapshots: Sequence[Snapshot], reason: str = "done") -> None:
