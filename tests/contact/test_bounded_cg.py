@@ -132,7 +132,7 @@ def test_not_converging_says_how_far_it_came_and_what_to_do():
 @pytest.mark.parametrize(
     ("gap", "load", "error", "match"),
     [
-        (0.0, 0.0, CaseError, "positive load"),
+        (0.0, 0.0, CaseError, "the load is 0 N"),
         (np.nan, 1.0, NumericalError, "not finite"),
     ],
 )

@@ -9,11 +9,12 @@ import numpy as np
 import paper_models
 import pytest
 from edited import bits
-from paper_models import archard, motion, pair, small
+from paper_models import archard, motion, named, pair, small, steel
 
-from tribo import CaseError, Grid, Interrupted, NumericalError, Result, Simulation
+from tribo import CaseError, Cylinder, Grid, Interrupted, NumericalError, Result, Simulation
 from tribo.case import Stop
 from tribo.core.errors import OutputError, TriboWarning
+from tribo.motion.closed_track import Unidirectional
 from tribo.observers.observer import Observer
 from tribo.result import checkpoint
 from tribo.simulation.march import begin, march
@@ -151,6 +152,15 @@ def test_few_cells_are_warned_of_once_and_a_short_stroke_as_the_run_begins_and_e
     begun, few, ended = texts
     assert begun.startswith("averaging: at 0 s")
     assert result.warnings == (few, ended)
+
+
+def test_a_track_shorter_than_its_contact_and_few_cells_across_alone_are_told_apart():
+    short = Unidirectional(speed=0.1, track_length="0.15 mm", duration=2)
+    bodies = [named("ball", Cylinder(radius="5 mm"), steel(), archard()), pair(None, archard())[1]]
+    line = {"grid": Grid((0.7e-3, 0.7e-3), (40, 4)), "bodies": bodies, "ends_at_window": True}
+    (found,) = begin(small(kinematics=short, **line)).findings
+    assert found.kind == "averaging"
+    assert found.value == pytest.approx(1.5e-4)
 
 
 def test_a_run_stopped_before_its_first_checkpoint_says_so_and_can_start_again(

@@ -135,6 +135,15 @@ def short_stroke(stroke: float, half_width: float) -> Finding:
     return Finding("averaging", words, value=widths, limit=SHORT, place="kinematics")
 
 
+def short_track(track: float, width: float) -> Finding:
+    """Word a track on which a contact meets itself, both lengths in m."""
+    words = (
+        f"the track of {1e3 * track:.3g} mm is shorter than the contact of {1e3 * width:.3g} mm, "
+        "which meets itself on it: lengthen the track"
+    )
+    return Finding("averaging", words, value=track, limit=width, place="kinematics")
+
+
 def unlike_the_period(body: str, length: float, period: float) -> Finding:
     """Word a track averaged over a length other than the period of an endless contact, in m."""
     return Finding(

@@ -9,6 +9,7 @@ from scipy.ndimage import map_coordinates
 
 from tribo.core.arrays import Array
 from tribo.core.errors import CaseError
+from tribo.core.rounding import ROUND_OFF
 from tribo.result.read import Result
 
 
@@ -49,5 +50,6 @@ def interpolated(field: Array, spacing: tuple[float, float], x: Array, y: Array)
     padded = np.pad(field, 1, "reflect", reflect_type="odd")
     axes = list(zip((x, y), spacing, field.shape, strict=True))
     at = np.broadcast_arrays(*(axis / cell + 0.5 * (count + 1) for axis, cell, count in axes))
-    within = [np.abs(axis) <= 0.5 * cell * count for axis, cell, count in axes]
+    edge = 0.5 * (1 + ROUND_OFF)
+    within = [np.abs(axis) <= edge * cell * count for axis, cell, count in axes]
     return np.where(within[0] & within[1], map_coordinates(padded, at, order=1), np.nan)

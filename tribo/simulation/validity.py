@@ -62,8 +62,10 @@ def doubting(case: Case) -> Iterator[None]:
 
 def few_cells(contact: ContactSolution) -> list[Finding]:
     """Return a finding if a contact is only a few cells wide."""
-    cells = min(rows.stop - rows.start for rows in contact.extent)
-    return [findings.few_cells(cells)] if cells < findings.FEW_CELLS else []
+    spans = zip(contact.extent, contact.pressure.shape, strict=True)
+    # A line contact may have few cells along its length.
+    wide = [rows.stop - rows.start for rows, all_rows in spans if rows.stop - rows.start < all_rows]
+    return [findings.few_cells(min(wide))] if min(wide, default=np.inf) < findings.FEW_CELLS else []
 
 
 @hookimpl(trylast=True)
@@ -139,9 +141,12 @@ def limitation(model: Model, half_width: float) -> Finding | None:
             continue
         if endless and abs(length - period) > ROUND_OFF * period:
             return findings.unlike_the_period(name, length, period)
-        reverses = model.case.kinematics.turns_back and not endless
-        if reverses and length < findings.SHORT * half_width:
+        if endless:
+            continue
+        if model.case.kinematics.turns_back and length < findings.SHORT * half_width:
             return findings.short_stroke(length, half_width)
+        if length < 2 * half_width:
+            return findings.short_track(length, 2 * half_width)
     return None
 
 

@@ -46,8 +46,8 @@ class Debris(Effect):
     fills: bool = False
     """Whether the bodies meet on it, at its height without pores, or as if it gave way. Then it
     leaves in proportion to the pressure, relative to the mean over the load Σp²/Σp. Where a
-    body that passes wears too, it must lie `on` that: elsewhere it would fill a gap faster than
-    that opens, which is refused.
+    body that passes wears too, let it lie `on` that: elsewhere it may fill a gap faster than that
+    opens, and the load draws together on few points.
     """
 
     provides = (LOAD_SHARE,)
