@@ -6,7 +6,7 @@ import tribo
 from tribo.core.state import State
 from tribo.simulation.assembly import assemble
 from tribo.stepping.first_contact import first_contact
-from tribo.verification.cases.pins import pin_on_flat
+from tribo.verification.cases.pins import disc, pin_on_flat
 
 RADIUS, LOAD, K, MODULUS = 0.3e-3, 100.0, 3.11e-16, 113.736e9
 # Short enough a step to tell the modes apart, and enough steps to be rid of the second.
@@ -16,10 +16,9 @@ STEP, STEPS = 0.5, 16
 def found(cells: int) -> dict[str, float]:
     """Return the slowest rate, and the first contact over a disc's of the staircase's area."""
     grid = tribo.Grid(2.4 * RADIUS, cells)
-    inside = np.hypot(*grid.mesh) < RADIUS
-    radius = float(np.sqrt(np.count_nonzero(inside) * grid.cell_area / np.pi))
+    punch, radius = disc(grid, RADIUS)
     case = pin_on_flat(
-        tribo.HeightMap(size=grid.size, heights=np.where(inside, 0.0, -1e-3)),
+        punch,
         tribo.Archard(k=K),
         grid=grid,
         load=LOAD,
