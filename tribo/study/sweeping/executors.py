@@ -34,8 +34,10 @@ THREADS = (
 @contextmanager
 def processes(count: int | None = None) -> Iterator[Executor]:
     """Run calls in single-threaded processes, by default one per core; they end with this one."""
-    cores = len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count()
-    with _environment(), _Processes(count or cores or 1) as executor:
+    cores = os.cpu_count() or 1
+    if sys.platform == "linux":
+        cores = len(os.sched_getaffinity(0))
+    with _environment(), _Processes(count or cores) as executor:
         yield executor
 
 
