@@ -63,7 +63,7 @@ def provenance_rows(result: Result) -> Iterator[tuple[str, str]]:
     made = result.provenance
     for again in (made, *made.get("resumed_with", ())):
         packages = ", ".join(f"{name} {version}" for name, version in again["packages"].items())
-        when = "made with" if again is made else "gone on with"
+        when = "made with" if again is made else "continued with"
         yield when, f"Python {again['python']}, {packages}"
         if begun := again.get("begun_with"):
             yield "begun with", f"{begun['result']}, SHA-256 {begun['sha256']}"

@@ -92,9 +92,8 @@ def installed() -> list[Plugin]:
     module ``acme_tribo`` offers a component of that name; an entry point named after its
     distribution, as ``acme-tribo = "acme_tribo.hooks"``, that it has hooks and no component. The
     number is the contract's: a distribution that has only other groups is ``incompatible``. Plugins
-    that declare the same name are ``broken``. The
-    environment variable TRIBO_DISABLE_PLUGINS lists distributions to leave out, ``*`` for all;
-    TRIBO_PLUGINS the only ones that may take part.
+    that declare the same name are ``broken``. The environment variable TRIBO_DISABLE_PLUGINS lists
+    distributions to leave out, ``*`` for all; TRIBO_PLUGINS the only ones that may take part.
     """
     found: dict[tuple[str, str], Plugin] = {}
     declared = list(entry_points(PROJECT))

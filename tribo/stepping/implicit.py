@@ -166,13 +166,13 @@ class Implicit(Scheme):
         slide = partial(course, model, before, interval=interval)
         slid = Course(state.contacts, state.rates, before)
         if not state.rates:
-            # What is remembered is integrated along it; other rates are those where it begins.
+            # States are integrated along it; other rates are those where it begins.
             slid = slide(contacts=state.contacts, asked=0.0)
         height = filling(model, before)
         worn = worn_depths(model, slid.rates, increment)
         opened, deepest = _opened(model, height, slid, worn)
         load = model.loads(state).mean(state.time, time)
-        # What is remembered is integrated under the load of the step already.
+        # States are integrated under the load of the step already.
         heavier = 1.0 if before.values else load / model.loads(state).after(state.time)
         forward = {name: heavier * depth for name, depth in worn.items()}
         contacts = extrapolated(state)
