@@ -40,7 +40,8 @@ def matching(registry: Registry, name: str) -> list[str]:
     known = [*registry.components, *registry.waiting]
     if name in known:
         return [name]
-    found = [each for each in known if registry.owners[each].distribution == name]
+    owners = registry.owners
+    found = [each for each in known if owners[each].distribution == name]
     if found:
         return found
     for plugin in registry.plugins:
