@@ -2,12 +2,10 @@
 
 import numpy as np
 import pandas as pd
-import pytest
 from made_results import made
 
-from tribo.lab.kept import KeptField, kept_fields
+from tribo.lab.kept import kept_fields
 from tribo.plotting.curves import sweep_curves
-from tribo.plotting.history import history
 from tribo.plotting.profiles import field_map
 from tribo.study.sweeping.summary import sweep_pictures
 
@@ -43,7 +41,7 @@ def test_the_number_that_varies_most_is_the_axis_and_the_rest_makes_curves():
         np.testing.assert_allclose(line.get_xdata(), [1, 2, 3])
 
 
-def test_a_field_of_the_models_is_drawn_from_above_and_over_time():
+def test_a_field_of_the_models_is_drawn_from_above():
     result = made(film=1e-11)
     film, share = kept_fields(result)
     assert (film.name, film.key, share.name) == ("film", "film", "load share")
@@ -51,25 +49,3 @@ def test_a_field_of_the_models_is_drawn_from_above_and_over_time():
     shown = np.nan_to_num(np.ma.filled(axes.images[0].get_array(), 0.0)).T
     np.testing.assert_allclose(shown, 1e9 * result.field("film", -1))
     assert axes.child_axes[0].get_ylabel().startswith("Film (nm)\n")
-    above, _ = history(result, "fields").figure().axes
-    largest, mean = (line.get_ydata() for line in above.lines)
-    assert above.get_title(loc="right") == "at the saves; not known between"
-    for line, mark in zip(above.lines, "os", strict=True):
-        assert (line.get_linestyle(), line.get_marker()) == (":", mark)
-    np.testing.assert_allclose(largest, [1e9 * np.max(each) for each in film.values])
-    touched = result.field("pressure", -1) > 0
-    assert mean[-1] == pytest.approx(1e9 * np.mean(film.values[-1][touched]))
-
-
-def test_rounding_of_a_field_that_stays_the_same_is_not_drawn(monkeypatch):
-    result = made()
-    rounding = 1e-13 * np.arange(len(result.times))
-    kept = [KeptField("film", "film", "m", at * (1 + rounding)) for at in (39e-9, -39e-9)]
-    kept.append(KeptField("flow", "flow", "m", -1e-9 * np.arange(len(result.times))))
-    monkeypatch.setattr("tribo.plotting.history.kept_fields", lambda _: kept)
-    (axes,) = history(result, "fields").figure().axes
-    (line,) = axes.lines
-    np.testing.assert_allclose(line.get_ydata(), -np.arange(len(result.times)))
-    low, high = axes.get_ylim()
-    assert low < min(line.get_ydata())
-    assert high > 0

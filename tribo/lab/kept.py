@@ -29,13 +29,6 @@ class KeptField:
         """Whether it differs from place to place at any save."""
         return not all(steady(values) for values in self.values)
 
-    def over_time(self, result: Result) -> dict[str, Array]:
-        """Return the largest value at each save and, where it differs, the mean in the contact."""
-        if not self.varies:
-            return {"": self.values.reshape(len(self.values), -1)[:, 0]}
-        means = [self.mean(result, save) for save in range(len(self.values))]
-        return {"largest": self.values.max(axis=(1, 2)), "mean in the contact": np.array(means)}
-
     def mean(self, result: Result, save: int) -> float:
         """Return the mean in the contact at a save."""
         touched = result.field("pressure", save) > 0

@@ -1,4 +1,4 @@
-"""Pictures of what changes with time: wear, the contact, friction, fields of models."""
+"""Pictures of what changes with time: wear, the contact, friction."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from tribo.core.arrays import Array
 from tribo.core.rounding import ROUND_OFF
-from tribo.lab.kept import kept_fields, steady
+from tribo.lab.kept import steady
 from tribo.lab.units import shown_in, size, time_unit
 from tribo.plotting.picture import Picture
 from tribo.plotting.style import OVER, UNDER, Look, ticks
@@ -23,23 +23,10 @@ BODIES: tuple[Look, Look] = (
     {**OVER, "marker": "s", "markersize": 3.0},
 )
 LARGEST: Look = {**UNDER, "color": "#e69f00"}
-AT_SAVES: Look = {"linestyle": ":", "linewidth": 0.8, "clip_on": False}
-"""Joins values that are known at the saves only."""
 WAYS = {"along": "x", "across": "y"}
 
 Curves = Mapping[str, tuple[Array, Array]]
 """Times and values, in SI units, by label."""
-
-
-def _from_zero(axes: Axes) -> None:
-    axes.set_ylim(bottom=0.0)
-    axes.yaxis.set_major_locator(ticks(6))
-    axes.ticklabel_format(axis="y", useMathText=True)
-
-
-def _as_it_varies(axes: Axes) -> None:
-    """Leave the scale to matplotlib: a temperature varies far from zero, a rate may be negative."""
-    axes.yaxis.set_major_locator(ticks(6))
 
 
 @dataclass(frozen=True)
@@ -50,7 +37,6 @@ class TimePanel:
     unit: str
     curves: Curves
     looks: Sequence[Look] = (UNDER, OVER)
-    scale: Callable[[Axes], None] = _from_zero
     off: Mapping[str, float] | None = None
     title: str = ""
 
@@ -70,7 +56,9 @@ class TimePanel:
         axes.set_xlim(left=0.0)
         if len(self.curves) > 1 or next(iter(self.curves)):
             axes.legend(loc="best")
-        self.scale(axes)
+        axes.set_ylim(bottom=0.0)
+        axes.yaxis.set_major_locator(ticks(6))
+        axes.ticklabel_format(axis="y", useMathText=True)
         if top:
             _distance_axis(axes, result, size(time))
         axes.set_title(self.title, loc="right", fontsize="small")
@@ -150,24 +138,6 @@ def _friction(result: Result) -> list[TimePanel]:
     ]
 
 
-def _fields(result: Result) -> list[TimePanel]:
-    """Return the largest value of each field that varies with time, and its mean in the contact."""
-    looks = [
-        {**look, **AT_SAVES, "marker": mark, "markersize": size}
-        for look, mark, size in ((LARGEST, "o", 6.0), (OVER, "s", 3.0))
-    ]
-    panels: list[TimePanel] = []
-    for field in kept_fields(result) if len(result.times) > 1 else ():
-        values = field.over_time(result).items()
-        curves = {label: (result.times, each) for label, each in values}
-        if all(steady(each) for _, each in curves.values()):
-            continue
-        title = "" if panels else "at the saves; not known between"
-        name = field.name.capitalize()
-        panels.append(TimePanel(name, field.unit, curves, looks, _as_it_varies, title=title))
-    return panels
-
-
 def _columns(
     table: Mapping[str, Array],
     what: str,
@@ -184,6 +154,5 @@ HISTORIES: Mapping[str, Callable[[Result], list[TimePanel]]] = {
     "wear": _wear,
     "contact": _contact,
     "friction": _friction,
-    "fields": _fields,
 }
 """The panels of each history by its name; none where it says nothing."""

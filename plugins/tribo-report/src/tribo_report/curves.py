@@ -213,7 +213,12 @@ def _of_models(results: Results) -> Iterator[Panel]:
     for label, result in results.items():
         for field in kept_fields(result) if len(result.times) > 1 else ():
             curves = found.setdefault((field.name.capitalize(), field.unit), {})
-            for called, values in field.over_time(result).items():
+            shown = {"": field.values.reshape(len(result.times), -1)[:, 0]}
+            if field.varies:
+                means = [field.mean(result, save) for save in range(len(result.times))]
+                largest = field.values.max(axis=(1, 2))
+                shown = {"largest": largest, "mean in the contact": np.array(means)}
+            for called, values in shown.items():
                 name = ", ".join(part for part in (label, called) if part)
                 curves[name or field.name] = [result.distances, result.times, values]
     for (name, unit), curves in found.items():
