@@ -35,6 +35,7 @@ USE = (
     ("compare", "my.h5", "other.h5", "-o", "compared"),
     ("plugins", "list"),
     ("doctor",),
+    ("verify", "archard_k"),
 )
 
 

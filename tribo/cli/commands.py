@@ -26,7 +26,7 @@ OWN = {
     "materials": "List the materials that a case may name.",
     "plugins": "List, show, check and begin plugins.",
     "verify": "Compare with closed forms and other codes; find the errors of a case.",
-    "doctor": "Test the installation and every plugin.",
+    "doctor": "Print versions, and try every plugin.",
 }
 
 
