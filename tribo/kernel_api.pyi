@@ -108,6 +108,8 @@ from tribo.model.model import Model as Model
 from tribo.motion.held import Held as Held
 from tribo.motion.held import held as held
 from tribo.plotting import style as style
+from tribo.plotting.curves import cell as cell
+from tribo.plotting.curves import labelled as labelled
 from tribo.plotting.figures import picture_format as picture_format
 from tribo.plotting.figures import result_pictures as result_pictures
 from tribo.plotting.figures import write_figures as write_figures
@@ -140,10 +142,8 @@ from tribo.simulation.predict import WIDER as WIDER
 from tribo.simulation.predict import coarsened as coarsened
 from tribo.study.runs import file_names as file_names
 from tribo.study.side_by_side import comparison_table as comparison_table
-from tribo.study.sweeping.summary import cell as cell
 from tribo.study.sweeping.summary import column_heading as column_heading
 from tribo.study.sweeping.summary import is_text as is_text
-from tribo.study.sweeping.summary import labelled as labelled
 from tribo.study.sweeping.summary import runs_table as runs_table
 from tribo.study.sweeping.summary import sweep_pictures as sweep_pictures
 from tribo.study.sweeping.summary import varied_paths as varied_paths

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -25,20 +26,16 @@ def sweep_curves(runs: pd.DataFrame, x: str, y: str, by: Sequence[str] = ()) -> 
     """
     done = runs[runs["status"] == "done"].sort_values(x)
     groups = list(done.groupby(list(by))) if by else [((), done)]
-    numbers = done[list(by)].apply(pd.to_numeric, errors="coerce").to_numpy(float)
-    named = [column_label(name, column) for name, column in zip(by, numbers.T, strict=True)]
-    below, beside = (column_label(name, done[name].to_numpy(float)) for name in (x, y))
+    named = [labelled(name, done)[:2] for name in by]
+    below, beside = (labelled(name, done) for name in (x, y))
 
     def panel(axes: Axes) -> list[Line2D]:
         axes.set_xlabel(_axis(*below[:2]))
         axes.set_ylabel(_axis(*beside[:2], "\n"))
         curves: list[Line2D] = []
         looks = enumerate(zip(save_looks(len(groups)), groups, strict=True))
-        for i, (look, (values, rows)) in looks:
-            label = ", ".join(
-                f"{value / unit:.4g}" if isinstance(value, float) else str(value)
-                for value, (_, _, unit) in zip(values, named, strict=True)
-            )
+        for i, (look, (_, rows)) in looks:
+            label = ", ".join(cell(name, done, rows.index[0]) for name in by)
             look = {**look, "marker": MARKS[i % len(MARKS)], "label": label}
             look |= {"fillstyle": "none", "markersize": 6.0} if i else {"markersize": 3.0}
             curves += axes.plot(rows[x] / below[2], rows[y] / beside[2], **look)
@@ -46,8 +43,23 @@ def sweep_curves(runs: pd.DataFrame, x: str, y: str, by: Sequence[str] = ()) -> 
 
     figure = Picture([[panel]], 55.0).figure()
     for legend in figure.legends:
-        legend.set_title(", ".join(_axis(words, unit) for words, unit, _ in named))
+        legend.set_title(", ".join(_axis(*each) for each in named))
     return figure
+
+
+def labelled(name: str, runs: pd.DataFrame) -> tuple[str, str, float]:
+    """Return the label of a column, its unit, "" for none, and the unit's size."""
+    return column_label(name, pd.to_numeric(runs[name], errors="coerce").to_numpy(float))
+
+
+def cell(name: str, runs: pd.DataFrame, index: Any) -> str:
+    """Return a value of a run, in the unit of its column, which it leaves out."""
+    value, (_, _, factor) = runs.at[index, name], labelled(name, runs)
+    if pd.isna(value):
+        return "–"
+    if factor == 1 and not isinstance(value, float):
+        return str(value)
+    return f"{value / factor:.4g}"
 
 
 def _axis(words: str, unit: str, gap: str = " ") -> str:

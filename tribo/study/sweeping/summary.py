@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import pandas as pd
+from matplotlib.figure import Figure
 
 from tribo.core.data_table import DataTable, Heading, TableRow
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from tribo.plotting.curves import cell, labelled, sweep_curves
+from tribo.plotting.figures import write_figures
 
 MEASURED = (".max_wear_depth_m", ".wear_volume_m3")
 """Ends of the names of the columns of bodies that a terminal shows."""
@@ -34,8 +33,6 @@ def runs_table(runs: pd.DataFrame, measures: Sequence[str]) -> DataTable:
 
 def draw_runs(runs: pd.DataFrame, folder: Path) -> list[Path]:
     """Draw the largest depth of each worn body over what varies most, and return the files."""
-    from tribo.plotting.figures import write_figures
-
     depths = [str(name) for name in runs if str(name).endswith(".max_wear_depth_m")]
     worn = [depth for depth in depths if (runs[depth] > 0).any()]
     pictures = sweep_pictures(runs, varied_paths(runs), worn)
@@ -50,8 +47,6 @@ def sweep_pictures(
 
     What else varies parts the runs into curves.
     """
-    from tribo.plotting.curves import sweep_curves
-
     done = runs[runs["status"] == "done"]
     counts = {name: done[name].nunique() for name in varied if done[name].nunique() > 1}
     numbers = [name for name in counts if not is_text(done, name)]
@@ -73,24 +68,7 @@ def is_text(runs: pd.DataFrame, name: str) -> bool:
     return not pd.api.types.is_numeric_dtype(runs[name])
 
 
-def labelled(name: str, runs: pd.DataFrame) -> tuple[str, str, float]:
-    """Return the label of a column, its unit, "" for none, and the unit's size."""
-    from tribo.lab.units import column_label
-
-    return column_label(name, pd.to_numeric(runs[name], errors="coerce").to_numpy(float))
-
-
 def column_heading(name: str, runs: pd.DataFrame) -> Heading:
     """Return the heading of a column, its unit in brackets."""
     words, unit, _ = labelled(name, runs)
     return Heading(f"{words} ({unit})" if unit else words)
-
-
-def cell(name: str, runs: pd.DataFrame, index: Any) -> str:
-    """Return a value of a run, in the unit of its column, which it leaves out."""
-    value, (_, _, factor) = runs.at[index, name], labelled(name, runs)
-    if pd.isna(value):
-        return "–"
-    if factor == 1 and not isinstance(value, float):
-        return str(value)
-    return f"{value / factor:.4g}"
