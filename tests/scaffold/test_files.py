@@ -15,7 +15,8 @@ from tribo.core.errors import CaseError
 from tribo.registry.kinds import KINDS
 from tribo.scaffold import plugin_names, write_plugin
 
-EACH = pytest.mark.parametrize(("kind", "name"), [*zip(KINDS, NAMES.values(), strict=True)])
+KNOWN = [kind.replace("_", "-") for kind in KINDS]
+EACH = pytest.mark.parametrize(("kind", "name"), [*zip(KNOWN, NAMES.values(), strict=True)])
 
 
 @EACH
@@ -68,7 +69,7 @@ def test_it_is_formatted_however_long_its_name(tmp_path):
     ("kind", "folder", "says"),
     [
         ("wear-lwa", "new", "did you mean 'wear-law'"),
-        ("xyz", "new", "Known: contact-solver, wear-law, kinematics, surface, effect, observer"),
+        ("xyz", "new", "There are contact-solver, wear-law, kinematics, surface, effect, observer"),
         ("wear-law", ".", "exists; give another folder"),
         ("wear-law", "nowhere/new", "there is no folder .*nowhere; make it with: mkdir"),
     ],

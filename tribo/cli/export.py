@@ -10,7 +10,7 @@ import click
 
 from tribo.cli.options import PATH, RESULT
 from tribo.core.errors import CaseError
-from tribo.core.words import did_you_mean, suggestion
+from tribo.core.words import unknown
 
 OWN = ("csv", "xlsx")
 
@@ -65,7 +65,4 @@ def _chosen(columns: str, there: Iterable[str]) -> list[str]:
     try:
         return [names[each.strip()] for each in columns.split(",")]
     except KeyError as error:
-        meant = suggestion(did_you_mean(error.args[0], names))
-        listed = ", ".join(names)
-        what = f"no column is called {error}{meant} Columns: {listed}"
-        raise CaseError(what, "--columns") from None
+        raise CaseError(unknown("column", error.args[0], names), "--columns") from None

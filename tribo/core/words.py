@@ -90,6 +90,13 @@ def suggestion(meant: str | None) -> str:
     return f"; did you mean {meant!r}?" if meant else "."
 
 
+def unknown(what: str, name: str, known: Iterable[str]) -> str:
+    """Return a message that a name is unknown, with the known names."""
+    names = list(known)
+    meant = suggestion(did_you_mean(name, names))
+    return f"there is no {what} {name!r}{meant} There are {', '.join(names) or 'none'}"
+
+
 def said(error: BaseException) -> str:
     """Return the type of an error and its message on one line."""
     try:

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 
 from tribo.core.errors import CaseError, located
 from tribo.core.units import Quantity
-from tribo.core.words import did_you_mean, suggestion
+from tribo.core.words import unknown
 from tribo.core.writing import make_folder, write_file
 from tribo.lab.kept import kept_fields
 from tribo.lab.scar import removed
@@ -146,12 +146,6 @@ def _saves(result: Result, draw: Callable[..., Picture], time: Any) -> dict[str,
     if "save" not in takes:
         raise CaseError("a history has all times; leave time out")
     return {"save": result.save_at(TIME.read(time))}
-
-
-def unknown(what: str, name: str, there: Sequence[str]) -> str:
-    """Return a message that a name is unknown, with the known names."""
-    meant = suggestion(did_you_mean(name, there))
-    return f"there is no {what} {name!r}{meant} There are {', '.join(there) or 'none'}"
 
 
 def save_figures(

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from tribo.core.errors import CaseError, warn
-from tribo.core.words import did_you_mean, suggestion
+from tribo.core.words import unknown
 from tribo.registry.child import in_child
 from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry, default_registry
@@ -21,9 +21,7 @@ def choose(hook: str, name: str, words: str, own: Iterable[str] = ()) -> Any:
     """
     known = {each.name: each for each in from_all_plugins(hook)}
     if name not in known:
-        names = [*own, *known]
-        meant = suggestion(did_you_mean(name, names))
-        raise CaseError(f"no {words} is called {name!r}{meant} Known: {', '.join(names)}")
+        raise CaseError(unknown(words, name, [*own, *known]))
     return known[name]
 
 

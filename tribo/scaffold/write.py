@@ -8,7 +8,7 @@ from pathlib import Path
 from string import Template
 
 from tribo.core.errors import CaseError
-from tribo.core.words import did_you_mean, suggestion
+from tribo.core.words import unknown
 from tribo.core.writing import check_output, make_folder, write_file, writing
 from tribo.registry.kinds import KINDS
 from tribo.scaffold.names import plugin_names
@@ -43,15 +43,13 @@ def write_plugin(name: str, kind: str, folder: Path) -> list[Path]:
     OutputError
         If the files cannot be written.
     """
-    kind = kind.replace("-", "_")
-    if kind not in KINDS:
-        known = [known.replace("_", "-") for known in KINDS]
-        meant = suggestion(did_you_mean(kind, known))
-        raise CaseError(f"unknown kind {kind!r}{meant} Known: {', '.join(known)}")
+    kinds = {known.replace("_", "-"): known for known in KINDS}
+    if kind not in kinds:
+        raise CaseError(unknown("kind", kind, kinds))
     words = {
         **plugin_names(name),
-        "kind": kind,
-        "words": kind.replace("_", " "),
+        "kind": kinds[kind],
+        "words": kind.replace("-", " "),
         "article": "An" if kind[0] in "aeiou" else "A",
         "year": str(date.today().year),
     }
