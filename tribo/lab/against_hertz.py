@@ -11,7 +11,7 @@ import numpy as np
 from tribo.closed_forms import hertz
 from tribo.core.arrays import Array
 from tribo.core.contact import ContactSystem
-from tribo.core.words import readable
+from tribo.core.words import readable, signed
 from tribo.result.read import Result
 
 
@@ -105,33 +105,36 @@ def first_hertz(result: Result) -> HertzContact | None:
     return hertz_contact(softer_known(result.system, hardness))
 
 
-def computed_pressure(
-    system: ContactSystem, max_pressure: float, centre_pressure: float
-) -> tuple[float, str]:
-    """Return the computed pressure to compare with Hertz's and the onset of yield, and its words.
+def compared(
+    system: ContactSystem,
+    theory: HertzContact | None,
+    max_pressure: float,
+    centre_pressure: float,
+) -> tuple[float | None, str]:
+    """Return a computed pressure over the pressure of first yield, and beside Hertz's in words.
 
-    In Pa: the peak of a point contact, and the pressure of a line contact at mid-length, for
-    where a cylinder ends on a half-space the pressure is singular and grows as the grid is refined.
+    The pressure, in Pa, is the peak of a point contact, and of a line contact the pressure at
+    mid-length: where a cylinder ends on a half-space, it is singular and grows as the grid is
+    refined. The ratio is None without the `theory` or a hardness.
     """
-    hertz = hertz_contact(system)
-    if hertz is None or not hertz.is_line:
-        return max_pressure, f"p max {in_mpa(max_pressure)}"
-    words = f"p {in_mpa(centre_pressure)} at mid-length, {in_mpa(max_pressure)} at most"
-    return centre_pressure, words
+    pressure, words = max_pressure, f"p max {in_mpa(max_pressure)}"
+    alike = hertz_contact(system)
+    if alike is not None and alike.is_line:
+        pressure = centre_pressure
+        words = f"p {in_mpa(pressure)} at mid-length, {in_mpa(max_pressure)} at most"
+    if theory is None:
+        return None, f"{words}; Hertz's theory has no solution for it"
+    off = signed(100 * (pressure / theory.peak_pressure - 1), 2)
+    words = f"{words}, Hertz {in_mpa(theory.peak_pressure)} ({off} %)"
+    if system.cap is None or theory.load_ratio is None:
+        return None, words
+    first = hertz.first_yield_pressure(system.cap, line=theory.is_line)
+    return pressure / first, (
+        f"{words}; yield: {100 * pressure / first:.0f} % of the {in_mpa(first)} at which the "
+        f"softer body first yields beneath the surface (P/P_yield {theory.load_ratio:.2g})"
+    )
 
 
 def in_mpa(pressure: float) -> str:
     """Return a pressure, in Pa, in words."""
     return f"{readable(1e-6 * pressure, '.1f')} MPa"
-
-
-def yield_words(pressure: float, cap: float, contact: HertzContact) -> str:
-    """Return a `computed_pressure`, in Pa, relative to the pressure of first yield, in words.
-
-    `cap` is the hardness of the softer body, in Pa.
-    """
-    first = hertz.first_yield_pressure(cap, line=contact.is_line)
-    return (
-        f"{100 * pressure / first:.0f} % of the {in_mpa(first)} at which the softer body first "
-        f"yields beneath the surface (P/P_yield {contact.load_ratio:.2g})"
-    )

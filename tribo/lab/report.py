@@ -10,15 +10,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribo.closed_forms.hertz import first_yield_pressure
 from tribo.core.errors import warn
-from tribo.core.words import readable, said, signed
-from tribo.lab.against_hertz import (
-    computed_pressure,
-    first_hertz,
-    in_mpa,
-    yield_words,
-)
+from tribo.core.words import readable, said
+from tribo.lab.against_hertz import compared, first_hertz
 from tribo.lab.inferred import InferredVolume, inferred_volumes, track_section
 from tribo.lab.scar import scar
 from tribo.lab.units import shown_in
@@ -193,17 +187,8 @@ def _body(result: Result, name: str) -> BodyReport:
 
 
 def _first_contact(result: Result) -> tuple[FirstContact, str]:
-    system, save = result.system, result.saves()[0]
+    hertz, save = first_hertz(result), result.saves()[0]
     largest = save["max_pressure_Pa"]
-    pressure, words = computed_pressure(system, largest, save["centre_pressure_Pa"])
-    hertz = first_hertz(result)
-    if hertz is None:
-        words = f"First contact: {words}; Hertz's theory has no solution for it."
-        return FirstContact(None, largest, None, None), words
-    p0, ratio = hertz.peak_pressure, None
-    off = signed(100 * (pressure / p0 - 1), 2)
-    words = f"First contact: {words}, Hertz {in_mpa(p0)} ({off} %)"
-    if system.cap is not None and hertz.load_ratio is not None:
-        ratio = pressure / first_yield_pressure(system.cap, line=hertz.is_line)
-        words += f"; yield: {yield_words(pressure, system.cap, hertz)}"
-    return FirstContact(p0, largest, ratio, hertz.load_ratio), f"{words}."
+    ratio, words = compared(result.system, hertz, largest, save["centre_pressure_Pa"])
+    p0, load_ratio = (hertz.peak_pressure, hertz.load_ratio) if hertz else (None, None)
+    return FirstContact(p0, largest, ratio, load_ratio), f"First contact: {words}."

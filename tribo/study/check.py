@@ -16,7 +16,7 @@ from tribo.core.errors import CaseError
 from tribo.core.findings import Finding
 from tribo.core.material import Material, in_words, materials, typical
 from tribo.core.words import readable
-from tribo.lab.against_hertz import computed_pressure, hertz_half_width, in_mpa, yield_words
+from tribo.lab.against_hertz import compared, hertz_half_width, in_mpa
 from tribo.model.model import Model
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation.predict import Prediction, predict
@@ -146,21 +146,14 @@ def _first_contact(model: Model, prediction: Prediction) -> Iterator[tuple[str, 
     if begin := model.case.begin:
         most = f"p max {in_mpa(first.max_pressure)}"
         yield "first contact", f"of the bodies as worn in {begin}: {most}"
-    elif hertz is None or prediction.cells_across is None:
-        yield "first contact", "no Hertz solution for these surfaces"
-    else:
-        p0, a, b = hertz.peak_pressure, 1e6 * hertz.half_width_x, 1e6 * hertz.half_width_y
+        return
+    pressures = first.max_pressure, first.centre_pressure
+    yield "first contact", compared(model.contact.system, hertz, *pressures)[1]
+    if hertz is not None and prediction.cells_across is not None:
+        a, b = 1e6 * hertz.half_width_x, 1e6 * hertz.half_width_y
         line = f"{min(a, b):.4g} µm of a line contact"
         point = f"{a:.4g} × {b:.4g} µm along × across"
         yield "Hertz half-widths", line if hertz.is_line else point
-        pressure, computed = computed_pressure(
-            model.contact.system, first.max_pressure, first.centre_pressure
-        )
-        yield "Hertz peak pressure p0", f"{in_mpa(p0)}, computed {computed}"
-        hardness = model.contact.system.cap
-        if hardness is not None and hertz.load_ratio is not None:
-            yield "p0/H", f"{p0 / hardness:.3f}"
-            yield "yield", yield_words(pressure, hardness, hertz)
         across = [f"{n:.0f}" for n in prediction.cells_across if math.isfinite(n)]
         yield "cells across the contact", " × ".join(across)
 
