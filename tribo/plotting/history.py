@@ -25,17 +25,14 @@ BODIES: tuple[Look, Look] = (
 LARGEST: Look = {**UNDER, "color": "#e69f00"}
 WAYS = {"along": "x", "across": "y"}
 
-Curves = Mapping[str, tuple[Array, Array]]
-"""Times and values, in SI units, by label."""
-
 
 @dataclass(frozen=True)
 class TimePanel:
-    """Curves over time; `off` by label is the half-width of a band around each, in SI units."""
+    """Times and values by label, in SI units; `off` is the half-width of a band around each."""
 
     what: str
     unit: str
-    curves: Curves
+    curves: Mapping[str, tuple[Array, Array]]
     looks: Sequence[Look] = (UNDER, OVER)
     off: Mapping[str, float] | None = None
     title: str = ""
@@ -46,8 +43,7 @@ class TimePanel:
         shown, factor = shown_in(self.unit, every)
         time, off = time_unit(result.times), self.off or {}
         for (label, (x, values)), look in zip(self.curves.items(), self.looks, strict=False):
-            style = {"marker": "o" if len(x) == 1 else "none", **look}
-            axes.plot(x / size(time), values / factor, label=label.lstrip("_"), **style)
+            axes.plot(x / size(time), values / factor, label=label.lstrip("_"), **look)
             if label in off:
                 band = (values - off[label]) / factor, (values + off[label]) / factor
                 axes.fill_between(x / size(time), *band, color=look["color"], alpha=0.2, lw=0.0)
