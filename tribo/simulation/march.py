@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 
 from tribo.core.errors import OutOfWindow, PluginError
 from tribo.core.findings import ended
@@ -23,12 +24,10 @@ from tribo.simulation.validity import (
 )
 from tribo.simulation.watch import Watch
 from tribo.stepping.invariants import hold
-from tribo.stepping.step import distance_until, start_sliding
+from tribo.stepping.step import SMALLEST, distance_until, start_sliding
 
 DEPTH_ACCURACY = 1e-6
 """Relative excess of the depth at which a run ends: tables print it to four digits."""
-MOST_CUTS = 40
-"""Of a step: 40 halves leave 1e-12 of it."""
 
 
 @dataclass(frozen=True)
@@ -109,26 +108,19 @@ def _advanced(model: Model, state: State, until: float, limit: float) -> State:
 
 def _up_to_depth(model: Model, state: State, after: State, limit: float) -> State:
     """Return the state after the part of a step that just wears to the depth `limit`, in m."""
-    state = start_sliding(model, state)
-    low, high = 0.0, after.distance - state.distance
-    depth_low, depth_high = _depth(model, state), _depth(model, after)
-    slow = False
-    for _ in range(MOST_CUTS):
-        if depth_high - limit <= DEPTH_ACCURACY * limit:
-            break
+    length = after.distance - state.distance
+    cuts = {0.0: start_sliding(model, state), length: after}
+
+    def excess(increment: float) -> float:
+        if increment not in cuts:
+            cuts[increment] = _cut(model, cuts[0.0], after, increment)
+        over = _depth(model, cuts[increment]) / limit - 1
         # Aim just above the limit, so that the end approaches it from the side that stops.
-        part = (limit * (1 + 0.5 * DEPTH_ACCURACY) - depth_low) / (depth_high - depth_low)
-        # Where the rate jumps, as between layers, a line may lead nowhere; halves do not.
-        width = high - low
-        trial = low + (0.5 if slow else part) * width
-        cut = _cut(model, state, after, trial)
-        depth = _depth(model, cut)
-        if depth >= limit:
-            high, depth_high, after = trial, depth, cut
-        else:
-            low, depth_low = trial, depth
-        slow = high - low > 0.5 * width
-    return after
+        return 0.0 if 0 <= over <= DEPTH_ACCURACY else over - 0.5 * DEPTH_ACCURACY
+
+    scipy.optimize.brentq(excess, 0.0, length, xtol=SMALLEST * length)
+    reached = (cut for cut in cuts.values() if _depth(model, cut) >= limit)
+    return min(reached, key=lambda cut: cut.distance)
 
 
 def _cut(model: Model, state: State, after: State, increment: float) -> State:

@@ -274,7 +274,7 @@ def test_the_depth_that_ends_a_run_is_among_the_numbers_that_count():
 
 
 def test_a_depth_that_jumps_past_its_limit_is_refused(monkeypatch):
-    monkeypatch.setattr(march, "MOST_CUTS", 0)
+    monkeypatch.setattr(march, "SMALLEST", 1.0)
     with pytest.raises(CaseError, match=r"stop\.depth: the depth jumps from below 0.2 µm to"):
         gradient(run(stop=Stop(depth="0.2 um")), Volume("ball"), [])
 
