@@ -1,5 +1,5 @@
 """Conformance checks for plugins, and closed-form solutions in `tribo.closed_forms`."""
 
-from tribo.testing.kit import Outcome, Report, check, example_configs, parametrize_checks
+from tribo.testing.kit import Outcome, Report, check, parametrize_checks
 
-__all__ = ["Outcome", "Report", "check", "example_configs", "parametrize_checks"]
+__all__ = ["Outcome", "Report", "check", "parametrize_checks"]

@@ -138,7 +138,7 @@ def check(cls: type[Component], configs: Sequence[Config] | None = None) -> Repo
         subclasses.
     configs : sequence of Component or Mapping, optional
         Valid configurations, as objects or as in a case; ``type`` may be left
-        out. By default `example_configs`.
+        out. By default the `examples` of the class or, without any, its defaults.
 
     Returns
     -------
@@ -219,40 +219,10 @@ def parametrize_checks(
     return test_conformance
 
 
-def example_configs(cls: type[Component]) -> list[dict[str, Any]]:
-    """Return configurations to check a class with.
-
-    Parameters
-    ----------
-    cls : type
-        The class.
-
-    Returns
-    -------
-    list of dict
-        Its `examples`; else ``{}`` alone, for its defaults.
-
-    Raises
-    ------
-    ValueError
-        If its `examples` are no list of tables.
-
-    Examples
-    --------
-    >>> from tribo.testing import example_configs
-    >>> example_configs(tribo.Sphere)
-    [{'radius': '5 mm'}]
-    """
-    examples = cls.examples
-    if not (isinstance(examples, Sequence) and all(isinstance(e, Mapping) for e in examples)):
-        raise ValueError(f"they are {examples!r}; they must be a list of tables")
-    return [dict(example) for example in examples] or [{}]
-
-
 def suites(cls: type[Component], configs: Sequence[Config] | None) -> Iterator[Checks]:
     """Yield the checks of a class with each of its configurations."""
-    configs = example_configs(cls) if configs is None else configs
-    if not configs:
+    configs = (cls.examples or [{}]) if configs is None else configs
+    if not (isinstance(configs, Sequence) and configs):
         raise ValueError(f"nothing would be checked of {cls.__qualname__}: give a configuration")
     made = []
     for number, config in enumerate(configs):

@@ -14,7 +14,7 @@ from testing.conformance.honest_others import Counts, Hill
 from testing.conformance.mistakes import MISTAKES
 
 from tribo import Field, Grid, Quantity, Sphere, Surface, WearRate
-from tribo.testing import check, example_configs, parametrize_checks
+from tribo.testing import check, parametrize_checks
 from tribo.testing.compare import CheckFailed
 from tribo.testing.kit import suites
 from tribo.wear.archard import Archard
@@ -102,8 +102,8 @@ class OneOfTwo(Archard):
 
 
 def test_examples_are_those_of_the_class_or_its_defaults():
-    assert example_configs(Sphere) == [{"radius": "5 mm"}]
-    assert example_configs(Counts) == [{}]
+    for cls, config in ((Sphere, "Sphere(radius=0.005)"), (Counts, "Counts()")):
+        assert {outcome.config for outcome in check(cls).outcomes} == {config}
     with pytest.raises(ValueError, match="valid ones as examples"):
         check(OneOfTwo)
 
