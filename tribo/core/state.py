@@ -121,10 +121,6 @@ class State:
         """The contact in the middle of the cycle, which a result shows."""
         return self.contacts[len(self.contacts) // 2]
 
-    def has_finding(self, kind: str) -> bool:
-        """Whether there is a finding of this kind."""
-        return any(each.kind == kind for each in self.findings)
-
     def without_findings(self, kind: str) -> State:
         """Return the state without findings of this kind."""
         return replace(self, findings=tuple(each for each in self.findings if each.kind != kind))

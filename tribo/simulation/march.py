@@ -80,7 +80,8 @@ def march(model: Model, state: State, watch: Watch | None = None) -> Iterator[Ac
             while state.time < until:
                 state = watch.told(_advanced(model, state, until, limit))
                 worn_out = _depth(model, state) >= limit
-                last = worn_out or state.time >= model.end_time or state.has_finding("stop")
+                stopped = any(each.kind == "stop" for each in state.findings)
+                last = worn_out or stopped or state.time >= model.end_time
                 if last:
                     state = _stopped(model, _concluded(model, state))
                 save = last or (state.time >= until and until in model.saves)
