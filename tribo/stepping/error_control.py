@@ -37,20 +37,22 @@ def step_errors(
     depth_tolerance: float,
     pressure_tolerance: float,
 ) -> tuple[float, float, float]:
-    """Return the step's depth, pressure and volume errors as multiples of their tolerances.
+    """Return a step's errors of depth and volume and its change of pressure, over their tolerances.
 
     The local error of backward Euler in depth is half the difference between
     its wear and forward Euler's. It is weighted with the load, since the
     largest difference is always at newly touched edge cells, and compared
     with the depth worn so far (and a part of the first approach, below which
-    wear does not alter the contact). The pressure lags by about a quarter of
-    the relative increment of distance, so its load-weighted relative change
-    Σ|Δp|/Σp is limited too.
+    wear does not alter the contact).
 
     Where a body wore too little in depth, the load shifts there and corrects
     it: errors of depth do not add up. Errors of volume add up, with one sign,
     for a law that is not linear in pressure or has a state. So the error of
     the volume is compared with the volume that the step itself wears.
+
+    The pressure lags by about a quarter of the relative increment of distance. So its
+    load-weighted relative change Σ|Δp|/Σp limits the next step; the step itself may stay, whose
+    depth has an error of its own, and of whose change on a coarse grid much is cells that touch.
     """
     contacts, shares = after.contacts, [position.share for position in model.cycle]
     pressures = [(share, c.pressure) for share, c in zip(shares, contacts, strict=True)]
@@ -78,12 +80,12 @@ def step_errors(
             volume_error = max(volume_error, share * missed / float(np.sum(own)))
     return (
         depth_error / depth_tolerance,
-        change / load / pressure_tolerance,
         volume_error / (VOLUME * depth_tolerance),
+        change / load / pressure_tolerance,
     )
 
 
-def increment_factor(depth: float, pressure: float, volume: float) -> float:
+def increment_factor(depth: float, volume: float, pressure: float) -> float:
     """Return the factor for the next increment, by the errors of a step."""
     # The depth error of a step grows as its square, the two others in proportion.
     wanted = SAFETY * min(

@@ -34,7 +34,6 @@ from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     SMALLEST,
     accepted,
-    load_changes,
     time_at,
     worn_by,
     worn_depths,
@@ -45,9 +44,6 @@ if TYPE_CHECKING:
 
 MAX_REJECTIONS = 40
 """In a row: shortened by a tenth each time, a hundredth of the step is left."""
-AT_REST, FEW = 1e-9, 3
-"""Sliding distance of a step over a rest, over the distance until the next stop; and the steps
-rejected in a row, while the load changes, after which such a step is tried."""
 LEFT_OVER = 0.02
 """Change of the gap that passes may leave, in pressure tolerances times the deformation."""
 
@@ -75,7 +71,8 @@ class Implicit(Scheme):
     """Largest local error of the wear depth in one step, relative to the depth worn so far; five
     times as much is allowed of the volume, relative to what the step wears."""
     pressure_tolerance: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.05
-    """Largest load-weighted relative change of pressure in one step."""
+    """Load-weighted relative change of pressure at which one step leaves the next its length: a
+    longer change shortens it."""
     settle: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.01
     """Length of the last step before a save, relative to the distance slid by then."""
     nonlinear_tolerance: Annotated[float, Quantity("1", above=0, at_most=1e-3)] = 1e-8
@@ -103,16 +100,13 @@ class Implicit(Scheme):
             time = until if last else time_at(model, state, state.distance + increment, until)
             try:
                 after, slid, forward = self._attempt(model, state, increment, time)
-                errors = depth, pressure, volume = step_errors(
+                depth, volume, pressure = step_errors(
                     model, state, after, forward, self.depth_tolerance, self.pressure_tolerance
                 )
-                exact = max(errors) <= 1
-                changes = not exact and load_changes(model, state, after)
-                # The load changes over a rest, however short the step.
-                if exact or (changes and increment < AT_REST * target and depth <= 1):
+                if max(depth, volume) <= 1:
                     ended = with_friction_work(model, state, after, slid)
                     break
-                factor = SHRINK if changes and rejected >= FEW else increment_factor(*errors)
+                factor = increment_factor(depth, volume, pressure)
                 failure: NumericalError | None = None
             except (StepRejected, BadValues) as error:
                 factor, failure = SHRINK, error
@@ -122,18 +116,18 @@ class Implicit(Scheme):
                     raise failure
                 raise NumericalError(
                     f"steps down to {increment:.3g} m at {state.distance:.6g} m still miss their "
-                    f"tolerances (depth error {depth:.3g}, pressure change {pressure:.3g}, volume "
-                    f"error {volume:.3g} times what is allowed); raise stepping.depth_tolerance or "
-                    "pressure_tolerance"
+                    f"tolerances (depth error {depth:.3g}, volume error {volume:.3g} times what is "
+                    "allowed); raise stepping.depth_tolerance"
                 )
             natural = factor * increment
         # A step cut short to meet a save says little about the next: keep the longer of the two.
         proposal = max(
-            increment_factor(*errors) * increment, natural if increment < natural else 0.0
+            increment_factor(depth, volume, pressure) * increment,
+            natural if increment < natural else 0.0,
         )
         return replace(
             ended,
-            increment=proposal if exact else 0.0,
+            increment=proposal,
             rejected_steps=state.rejected_steps + rejected,
         )
 

@@ -28,8 +28,6 @@ from tribo.stepping.plastic_groove import settled, yielded, yields
 if TYPE_CHECKING:
     from tribo.model.model import Model
 
-ONE_LOAD = 1e-3
-"""Relative change of the load above which the load, not the wear, moves the pressure."""
 SMALLEST = 1e-12
 """Shortest step over the distance until the next stop: rounding dominates shorter steps."""
 
@@ -62,12 +60,6 @@ def time_at(model: Model, state: State, distance: float, until: float) -> float:
             f"does not lie between {state.time:g} s and {until:g} s"
         )
     return time
-
-
-def load_changes(model: Model, before: State, after: State) -> bool:
-    """Whether the load, and so the pressure, changes between two states."""
-    first, last = model.loads(before).after(before.time), model.loads(after).before(after.time)
-    return abs(last - first) > ONE_LOAD * first
 
 
 def rested(model: Model, state: State, time: float) -> State:
