@@ -31,6 +31,7 @@ from tribo.contact.winkler import Winkler
 from tribo.core.grid import Grid
 from tribo.motion.closed_track import Rotating, Unidirectional
 from tribo.stepping.explicit import Explicit
+from tribo.stepping.implicit import Implicit
 from tribo.surfaces.forms import Cylinder
 from tribo.surfaces.relief import Waves
 from tribo.surfaces.surface import Surface
@@ -48,6 +49,7 @@ def flats():
         grid=Grid(("64 um", "64 um"), (16, 16)),
         load=1.0,
         contact=Periodic(tolerance=1e-12),
+        stepping=Implicit(cycle_tolerance=1e-5),
         kinematics=slides,
         bodies=[
             named("ball", waves, steel(), archard()),

@@ -23,7 +23,7 @@ from tribo_inverse.adjoint.view import Seeds
 from tribo_inverse.increment.across import held
 from tribo_inverse.increment.carriers import carriers_between, carriers_of
 from tribo_inverse.increment.increment import Before, Increment, increment
-from tribo_inverse.recording.local import WatchedLaw
+from tribo_inverse.recording.local import watched
 from tribo_inverse.recording.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
 
 JUST = 1e-9
@@ -95,8 +95,8 @@ class Backwards:
     """
 
     def __init__(self, model: Model, chains: Sequence[Chain], touched: Box) -> None:
-        self.laws = {name: WatchedLaw(law) for name, law in model.laws.wear.items()}
-        self.model = model = held(model.with_laws(self.laws))
+        self.seen = set[str]()
+        self.model = model = held(watched(model, self.seen))
         self.chains, self.touched = chains, touched
         cells, positions = model.grid.cells, len(model.cycle)
         self.shares = np.array([position.share for position in model.cycle])
@@ -215,9 +215,8 @@ class Backwards:
 
     def _wear(self, slid: Slid, part: Increment, before: Before) -> None:
         """Carry the adjoint through the wear of a step under given contacts."""
-        seen = {name: law.seen for name, law in self.laws.items()}
         for at, chain in enumerate(self.chains):
-            for weight, other in chain.by_wear(slid, seen, self.carriers):
+            for weight, other in chain.by_wear(slid, self.seen, self.carriers):
                 self.sums[at] += weight * part.through(before, other)
         for name, factor in before.factor.items():
             self.wear_rate[name] += factor

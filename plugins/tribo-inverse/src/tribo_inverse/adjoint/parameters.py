@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 from pydantic import ValidationError
-from tribo import Array, CaseError, Mask, Operator, TriboError
+from tribo import Array, CaseError, Mask, Material, Operator, TriboError
 from tribo.kernel_api import Interval, Memory, Model, assemble
 
 from tribo_inverse.adjoint.numbers import ANY, changed
@@ -18,11 +18,11 @@ from tribo_inverse.increment.breaks import unreached
 from tribo_inverse.increment.carriers import Carrier, carriers_of
 from tribo_inverse.increment.increment import Other
 from tribo_inverse.increment.response import ASIDE, NUDGE
-from tribo_inverse.recording.local import SPEED, localised
+from tribo_inverse.recording.local import OF_CONTACT, OF_MOTION, localised
 from tribo_inverse.recording.tape import Pressed, Slid
 
 LAW = "law"
-"""Marks a number that enters a law itself."""
+"""Marks a number that enters a law or an effect itself."""
 CONTACT = ("young", "poisson", "hardness")
 """Numbers of a material that contacts depend on."""
 MOVES = "it moves the positions of the cycle by whole cells"
@@ -74,9 +74,9 @@ class Chain:
     """The derivatives in the number at a path of a case, by differences of models.
 
     The weighted sum over `variants` is the derivative; `base` is the model of the case itself, and
-    `stops` are its stops. `wears` has the bodies whose wear under given contacts changes, and
-    through what: the `LAW` itself, or only properties of their material or the `SPEED`. `spreads`
-    is whether K changes its shape too, and not only its size.
+    `stops` are its stops. `wears` has what changes the wear under given contacts: the laws and
+    effects themselves (`LAW`), or the named inputs of these. `spreads` is whether K changes its
+    shape too, and not only its size.
     """
 
     path: str
@@ -84,7 +84,7 @@ class Chain:
     variants: Sequence[Variant]
     base: Model
     stops: Stops
-    wears: Mapping[str, Set[str]]
+    wears: Set[str]
     spreads: bool
 
     def until(self, end: float) -> Chain:
@@ -134,16 +134,16 @@ class Chain:
         )
 
     def by_wear(
-        self, slid: Slid, seen: Mapping[str, Set[str]], carriers: Mapping[str, Carrier]
+        self, slid: Slid, seen: Set[str], carriers: Mapping[str, Carrier]
     ) -> Iterator[tuple[float, Other]]:
         """Yield the changed increments of a step under given contacts, with their weights.
 
-        `seen` has the inputs that each law read, and `carriers` the carriers of the case.
+        `seen` has the inputs that laws and effects read, and `carriers` the carriers of the case.
         """
-        # A law that the number does not enter need not be evaluated again.
-        asks = any(through & {LAW, *seen[name]} for name, through in self.wears.items())
-        wears = asks or any(SPEED in through for through in self.wears.values())
-        for each in self.variants if wears else ():
+        # Rates that the number does not enter need not be evaluated again.
+        asks = not self.wears.isdisjoint({LAW, *seen})
+        # Points that slide further wear more, whatever their law looks at.
+        for each in self.variants if asks or self.wears & OF_MOTION else ():
             if each.stops is self.stops:
                 # In a one-sided difference, the case itself.
                 continue
@@ -292,9 +292,8 @@ def of_length(model: Model, end: float) -> Chain:
         Variant(model, 0.5 * by / step, Stops.at(model, [*before, end + by * step]), None)
         for by in (1, -1)
     ]
-    wears = dict.fromkeys(model.laws.wear, frozenset({LAW}))
     own = Stops.at(model, [*before, end])
-    return Chain("stop.depth", end, variants, model, own, wears, False)
+    return Chain("stop.depth", end, variants, model, own, frozenset({LAW}), False)
 
 
 def _varied(
@@ -329,39 +328,32 @@ def _varied(
     return model
 
 
-def _wears(base: Model, model: Model) -> dict[str, frozenset[str]]:
-    """Return the bodies whose wear under given contacts changes, and through what."""
+def _wears(base: Model, model: Model) -> frozenset[str]:
+    """Return what changes the wear under given contacts: `LAW`, or inputs of laws and effects."""
     one, other, laws = base.case, model.case, model.laws
     same = np.array_equal(Stops.of(base).times, Stops.of(model).times)
     moves = one.kinematics != other.kinematics or not same
-    bodies = {name: (was, other.bodies[name]) for name, was in one.bodies.items()}
-    # An effect may look at all of this; what is remembered follows a load that changes in a step.
-    looks = moves or base.contact.system != model.contact.system
-    looks = looks or any(
-        (was.wear, was.layers, was.material) != (now.wear, now.layers, now.material)
-        for was, now in bodies.values()
-    )
+    bodies = [(was, other.bodies[name]) for name, was in one.bodies.items()]
+    # What is remembered follows a load that changes in a step.
     keeps = laws.between or any(law.initial_state for law in laws.wear.values())
     if (
         (one.friction, one.effects) != (other.friction, other.effects)
+        or any((was.wear, was.layers) != (now.wear, now.layers) for was, now in bodies)
         or (keeps and one.load != other.load and not isinstance(one.load.normal, float))
-        or (laws.effects and looks)
         or (moves and any(position.reach is not None for position in model.cycle))
     ):
-        return dict.fromkeys(laws.wear, frozenset({LAW}))
-    if moves:
-        # Points that slide further wear more, whatever their law looks at.
-        return dict.fromkeys(laws.wear, frozenset({SPEED}))
-    found = {}
-    for name in laws.wear:
-        was, now = bodies[name]
-        if (was.wear, was.layers) != (now.wear, now.layers):
-            found[name] = frozenset({LAW})
-        elif was.material != now.material:
-            found[name] = frozenset(
-                key for key, value in was.material if value != getattr(now.material, key)
-            )
-    return found
+        return frozenset({LAW})
+    pairs: list[tuple[Any, Any, Iterable[str]]] = [
+        (base.contact.system, model.contact.system, OF_CONTACT),
+        *((was.material, now.material, Material.model_fields) for was, now in bodies),
+    ]
+    changed = {
+        name
+        for was, now, names in pairs
+        for name in names
+        if getattr(was, name) != getattr(now, name)
+    }
+    return frozenset(changed | (OF_MOTION if moves else set()))
 
 
 def _check_smooth(higher: Model, base: Model, lower: Model, path: str) -> None:

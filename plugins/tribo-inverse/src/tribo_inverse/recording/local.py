@@ -2,16 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
-from tribo import Array, CaseError, LocalConditions, Material, WearRate
-from tribo.kernel_api import PLACE_X, PLACE_Y, GuardedLaw, Model, times
+from tribo import (
+    Array,
+    CaseError,
+    ContactConditions,
+    ContactSystem,
+    LocalConditions,
+    Material,
+    WearRate,
+)
+from tribo.kernel_api import PLACE_X, PLACE_Y, GuardedEffect, GuardedLaw, Model, times
 
-SPEED = "speed"
-"""The input of a law from the motion."""
+OF_MOTION = frozenset({"speed", "time", "distance", "track"})
+"""Inputs of laws and effects from the motion."""
+OF_CONTACT = frozenset({"modulus", "load", "cap", "curvature", "coatings"})
+"""Inputs of effects from the contact, beside its materials."""
+
+P = ParamSpec("P")
+T = TypeVar("T")
 
 
 class LocalLaw(GuardedLaw):
@@ -49,34 +62,70 @@ class LocalLaw(GuardedLaw):
 
 
 class WatchedLaw(GuardedLaw):
-    """A law of a body that notes in `seen` which properties of its material, and `SPEED`, it read.
+    """A law of a body that notes in `seen` which inputs it read: names of numbers that may change.
 
-    Copying its input counts as reading it.
+    Copying its input counts as reading all of it.
     """
 
-    def __init__(self, law: GuardedLaw) -> None:
+    def __init__(self, law: GuardedLaw, seen: set[str]) -> None:
         vars(self).update(vars(law))
-        self._law = law
-        self.seen: set[str] = set()
+        self._law, self._seen = law, seen
 
     def rate(self, local: LocalConditions) -> WearRate:
         """Return the law's rate."""
-        material: Any = _Watched(local.material, self.seen)
-        told = _WatchedConditions(**{**vars(local), "material": material}, seen=self.seen)
-        return self._law.rate(told)
+        material: Any = _WatchedMaterial(local.material, self._seen)
+        told = {**vars(local), "material": material}
+        return self._law.rate(_WatchedLocal(**told, seen=self._seen))
+
+
+class WatchedEffect(GuardedEffect):
+    """An effect that notes in `seen` which inputs it read, as a `WatchedLaw`."""
+
+    def __init__(self, effect: GuardedEffect, seen: set[str]) -> None:
+        vars(self).update(vars(effect))
+        self._seen = seen
+
+    def ask(self, method: Callable[P, T], *given: P.args, **named: P.kwargs) -> T:
+        """Call a method of the effect."""
+        told: Any = [self._watched(of) if isinstance(of, ContactConditions) else of for of in given]
+        return super().ask(method, *told, **named)
+
+    def _watched(self, contact: ContactConditions) -> ContactConditions:
+        seen, system = self._seen, contact.system
+        materials: Any = {
+            name: _WatchedMaterial(material, seen) for name, material in system.materials.items()
+        }
+        parts = {**vars(system), "materials": materials}
+        told = {**vars(contact), "system": _WatchedSystem(**parts, seen=seen)}
+        return _WatchedContact(**told, seen=seen)
 
 
 @dataclass(frozen=True, kw_only=True)
-class _WatchedConditions(LocalConditions):
+class _Watched:
     seen: set[str]
 
     def __getattribute__(self, name: str) -> Any:
-        if name == SPEED:
+        if name in (*OF_MOTION, *OF_CONTACT):
             self.seen.add(name)
         return super().__getattribute__(name)
 
 
-class _Watched:
+@dataclass(frozen=True, kw_only=True)
+class _WatchedLocal(_Watched, LocalConditions):
+    pass
+
+
+@dataclass(frozen=True, kw_only=True)
+class _WatchedContact(_Watched, ContactConditions):
+    pass
+
+
+@dataclass(frozen=True, kw_only=True)
+class _WatchedSystem(_Watched, ContactSystem):
+    pass
+
+
+class _WatchedMaterial:
     def __init__(self, material: Material, seen: set[str]) -> None:
         self._material, self._seen = material, seen
 
@@ -84,6 +133,14 @@ class _Watched:
         fields = Material.model_fields
         self._seen.update([name] if name in fields else fields)
         return getattr(self._material, name)
+
+
+def watched(model: Model, seen: set[str]) -> Model:
+    """Return a model whose laws and effects note in `seen` which of their inputs they read."""
+    laws = {name: WatchedLaw(law, seen) for name, law in model.laws.wear.items()}
+    effects = tuple(WatchedEffect(effect, seen) for effect in model.laws.effects)
+    model = model.with_laws(laws)
+    return replace(model, laws=replace(model.laws, effects=effects))
 
 
 def localised(model: Model, factors: Mapping[str, Array]) -> Model:
