@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from paper_models import archard, foundation, half_space, pair, power, small
+from paper_models import archard, foundation, half_space, last, pair, power, small
 
 from tribo.core.contact import ContactProblem
 from tribo.stepping.contacts import undeformed
@@ -42,3 +42,13 @@ def test_a_step_is_exact_backward_euler(laws, contact):
         ContactProblem(model.contact.system, undeformed(model, state)[0], model.contact.system.load)
     )
     np.testing.assert_allclose(again.pressure, pressure, atol=2e-5 * pressure.max())
+
+
+def test_a_change_of_pressure_shortens_the_next_step_and_rejects_none():
+    def end(tolerance):
+        stepping = Implicit(pressure_tolerance=tolerance, depth_tolerance=0.1)
+        return last(small(contact=foundation(), stepping=stepping))
+
+    loose, tight = end(1.0), end(0.02)
+    assert loose.rejected_steps == tight.rejected_steps == 0
+    assert tight.steps > 3 * loose.steps
