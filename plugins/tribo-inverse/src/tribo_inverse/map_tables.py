@@ -75,17 +75,16 @@ def maps_table(found: FittedMaps, level: float) -> DataTable:
 
 
 def write_maps(found: FittedMaps, level: float, output: Path) -> None:
-    """Write the maps as a NumPy archive, and pictures of each beside it."""
+    """Write the maps as a NumPy archive, and a picture of each beside it."""
     from tribo.kernel_api import write_figures
 
-    from tribo_inverse.pictures import coefficient_map, depth_fit
+    from tribo_inverse.pictures import coefficient_map
 
     arrays: dict[str, Any] = {}
     pictures: dict[str, Callable[[], Figure]] = {}
     for name, each in found.maps.items():
         arrays |= {f"{name}_{key}": value for key, value in _arrays(each, level).items()}
         pictures[f"{output.stem}-{name}"] = partial(coefficient_map, each, level, name)
-        pictures[f"{output.stem}-{name}-fit"] = partial(depth_fit, each, name)
     image = BytesIO()
     np.savez_compressed(image, **arrays)
     write_file(output, image.getbuffer())
