@@ -51,6 +51,12 @@ def test_the_expected_interval_is_that_of_a_calibration():
     kinds = np.array([whole[:2].T @ whole[:2], whole[-2:].T @ whole[-2:]])
     halves, freedom = Search(kinds, 0.1, 0.95, True).expected(counts)
     assert freedom == pytest.approx([here.degrees_of_freedom(axis) for axis in np.eye(2)], rel=1e-6)
+    # Satterthwaite's formula by the residuals of the scatter of each test.
+    scatter, inverse = here.weights.weigh(made.by_test(effects[of])), np.linalg.pinv(whole)
+    left = scatter.T @ (scatter - whole @ (inverse @ scatter))
+    slopes = np.sum((inverse @ scatter) ** 2, axis=1)
+    variances = np.diag(inverse @ inverse.T)
+    assert freedom == pytest.approx((variances / slopes) ** 2 * np.sum(left**2), rel=1e-6)
     deviations = np.sqrt(np.sum(root_covariance(whole) ** 2, axis=1))
     assert halves == pytest.approx(t.ppf(0.975, freedom) * deviations, rel=1e-6)
 

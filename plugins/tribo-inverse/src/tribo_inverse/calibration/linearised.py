@@ -187,21 +187,15 @@ class Linearised:
     def degrees_of_freedom(self, direction: Array) -> float:
         """Return the degrees of freedom of the variance of direction · point.
 
-        2 g²/Var(g) for a variance g (Satterthwaite 1946, Biometrics Bulletin 2, 110-114);
-        infinite if the repeatability is stated.
+        Infinite if the repeatability is stated.
         """
         if self.problem.repeatability is not None:
             return np.inf
-        jacobian = self.jacobian()
-        scatter = self.weights.weigh(self.problem.by_test(self.effects(self.point)))
-        directions = np.linalg.svd(jacobian, full_matrices=False)[0]
-        left = scatter - directions @ (directions.T @ scatter)
+        jacobian, specimen = self.jacobian(), self.problem.specimen
+        tests = [jacobian[specimen == one] for one in np.unique(specimen)]
         root = root_covariance(jacobian)
-        effect = np.sum(jacobian * np.sum(root * (direction @ root), axis=1), axis=1)
-        slope = np.sum((effect @ scatter) ** 2)
-        variance = np.sum((direction @ root) ** 2)
-        information = np.sum((left.T @ left) ** 2)
-        return float(variance**2 * information / slope**2) if slope > 0 else np.inf
+        information = np.array([own.T @ own for own in tests])
+        return float(satterthwaite(information, np.ones(len(tests)), root @ root.T, direction))
 
     def deviance(self, point: Array) -> float:
         """Return −2 ln L at a point."""
@@ -241,3 +235,23 @@ def root_covariance(jacobian: Array) -> Array:
     """Return a root B of the covariance (JᵀJ)⁻¹ = B Bᵀ, shape (p, p); finite for a singular J."""
     size, values, directions = normalised(jacobian)
     return np.asarray(directions.T / np.sqrt(values**2 + RIDGE) / size[:, None])
+
+
+def satterthwaite(information: Array, counts: Array, covariance: Array, directions: Array) -> Array:
+    """Return the degrees of freedom of the variance of each of the directions · point.
+
+    2 g²/Var(g) for a variance g (Satterthwaite 1946, Biometrics Bulletin 2, 110-114), which is
+    estimated from the scatter of tests, each with its Fisher information, shape (tests, p, p), and
+    made as often as `counts` says.
+    """
+    twice, thrice = (
+        np.sum(counts[:, None, None] * np.linalg.matrix_power(information, power), axis=0)
+        for power in (2, 3)
+    )
+    scattered = twice @ covariance
+    left = np.trace(twice) - 2 * np.trace(thrice @ covariance) + np.sum(scattered * scattered.T)
+    along = directions @ covariance
+    variances = np.sum(along * directions, axis=-1)
+    slopes = np.sum((along @ twice) * along, axis=-1)
+    freedom = np.full(np.shape(variances), np.inf)
+    return np.divide(variances**2 * max(left, 0.0), slopes**2, out=freedom, where=slopes > 0)

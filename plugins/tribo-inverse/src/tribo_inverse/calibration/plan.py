@@ -14,7 +14,7 @@ from tribo import Array, Case, CaseError, Finding
 
 from tribo_inverse.calibration.experiment import Experiment
 from tribo_inverse.calibration.fit import FEWEST_DEGREES_OF_FREEDOM, check_effect, differenced
-from tribo_inverse.calibration.linearised import RIDGE
+from tribo_inverse.calibration.linearised import RIDGE, satterthwaite
 from tribo_inverse.calibration.measured import Measurements, read_measurements
 from tribo_inverse.calibration.quantities import plain
 from tribo_inverse.findings import unresolved
@@ -168,23 +168,12 @@ class Search:
     """Whether the repeatability is estimated, which costs degrees of freedom."""
 
     def expected(self, counts: Array) -> tuple[Array, Array]:
-        """Return half-widths and degrees of freedom expected of a number of tests of each kind.
-
-        As `Linearised.degrees_of_freedom`, with the weighted slopes J of a test that scatters by
-        J Jᵀ.
-        """
-        twice, thrice = self._summed(counts, 2), self._summed(counts, 3)
+        """Return half-widths and degrees of freedom expected of a number of tests of each kind."""
         covariance = self._covariance(counts)
         variances = np.diag(covariance)
         freedom = np.full(len(variances), np.inf)
         if self.scatters:
-            scattered = twice @ covariance
-            information = np.trace(twice) - 2 * np.trace(thrice @ covariance)
-            information += np.sum(scattered * scattered.T)
-            slopes = np.diag(covariance @ scattered)
-            np.divide(
-                variances**2 * max(information, 0.0), slopes**2, out=freedom, where=slopes > 0
-            )
+            freedom = satterthwaite(self.kinds, counts, covariance, np.eye(len(variances)))
         part = 0.5 + 0.5 * self.level
         unknown = freedom < FEWEST_DEGREES_OF_FREEDOM
         quantiles = np.where(
@@ -209,14 +198,9 @@ class Search:
             "more on what is fitted, or leave a parameter out of fit"
         )
 
-    def _summed(self, counts: Array, power: int) -> Array:
-        """Return the sum of a power of the information of each test."""
-        powers = np.linalg.matrix_power(self.kinds, power)
-        return np.asarray(np.sum(counts[:, None, None] * powers, axis=0))
-
     def _covariance(self, counts: Array) -> Array:
         """Return the covariance of the parameters after a number of tests of each kind."""
-        once = self._summed(counts, 1)
+        once = np.sum(counts[:, None, None] * self.kinds, axis=0)
         return np.linalg.inv(once + RIDGE * np.trace(once) * np.eye(len(once)))
 
     def _size(self, counts: Array) -> float:
