@@ -30,7 +30,7 @@ from scipy.fft import idctn
 from scipy.ndimage import shift as moved
 from tribo_inverse import View
 from tribo_inverse.calibration.cells import cell_means
-from tribo_inverse.calibration.maps import fit_maps
+from tribo_inverse.calibration.maps import fit_map
 from tribo_inverse.calibration.prior import Prior
 from tribo_inverse.calibration.scar_shift import PRIOR_SHIFT
 from tribo_inverse.recording.local import localised
@@ -94,13 +94,12 @@ def spot(cells: int, contact: str) -> dict[str, object]:
     alone = process_time() - began
     noisy = cell_means(depth) + NOISE * np.random.default_rng(1).standard_normal(depth.shape)
     started = process_time()
-    fitted = fit_maps(test, {"ball": (noisy, NOISE)}, {"ball": PRIOR}, products=150)
+    found = fit_map(test, "ball", noisy, NOISE, PRIOR, products=150)
     spent = process_time() - started
     # The machine may be slower by now.
     started = process_time()
     worn(model, true)
     alone = 0.5 * (alone + process_time() - started)
-    found = fitted.maps["ball"]
     factor, deep = found.factor, depth > DEEP * depth.max()
     inside, rest = apart < RADIUS - cell, (apart > RADIUS + cell) & deep
     lower = (factor < np.sqrt(SPOT)) & deep
@@ -109,16 +108,16 @@ def spot(cells: int, contact: str) -> dict[str, object]:
     return {
         "cells": cells,
         "unknowns": depth.size,
-        "runs": fitted.gradients + fitted.products,
-        "gradients": fitted.gradients,
+        "runs": found.gradients + found.products,
+        "gradients": found.gradients,
         "time_in_runs": spent / alone,
         "in_spot": [float(np.mean(factor[inside]) / SPOT), float(np.std(factor[inside]) / SPOT)],
         "rest": [float(np.mean(factor[rest])), float(np.std(factor[rest]))],
         "spot_cells": [int(np.sum(true < 1)), int(np.sum(lower))],
         "both": int(np.sum((true < 1) & lower)),
         "covered": float(np.mean(((low < true) & (true < high))[deep])),
-        "misfit_per_cell": fitted.chi_square / depth.size,
-        "p_value": fitted.p_value,
+        "misfit_per_cell": found.chi_square / depth.size,
+        "p_value": found.p_value,
         "half_width_um": 0.5e6 * model.grid.size[0],
         "factor": np.round(shown.mean(axis=(1, 3)), 3).tolist(),
     }
@@ -143,18 +142,16 @@ def coverage(labs: int, cells: int, off: float) -> Iterator[dict[str, object]]:
     for lab in range(labs):
         logs = scale * idctn(waves * random.standard_normal(waves.shape), norm="ortho")
         depth = worn(model, np.exp(logs))
-        means, placed = cell_means(depth), {}
+        means, placed = cell_means(depth), (0.0, 0.0)
         if off:
             means = moved(means, off * random.standard_normal(2), order=3, mode="nearest")
-            placed = {"ball": [PRIOR_SHIFT * size for size in model.grid.size]}
+            placed = (PRIOR_SHIFT * model.grid.size[0], PRIOR_SHIFT * model.grid.size[1])
         noisy = means + NOISE * random.standard_normal(depth.shape)
-        fitted = fit_maps(
-            test, {"ball": (noisy, NOISE)}, {"ball": prior}, placed=placed, products=400
-        )
-        low, high = fitted.maps["ball"].interval(LEVEL)
+        found = fit_map(test, "ball", noisy, NOISE, prior, placed=placed, products=400)
+        low, high = found.interval(LEVEL)
         covered = (low < np.exp(logs)) & (np.exp(logs) < high)
         shares.append([np.mean(covered[depth > DEEP * depth.max()]), np.mean(covered)])
-        misfits.append(fitted.p_value)
+        misfits.append(found.p_value)
         if lab % 10 == 9:
             deep, everywhere = (float(share) for share in np.mean(shares, axis=0))
             print(f"{lab + 1}: {deep}, {everywhere}, {process_time() - began:.0f} s", flush=True)

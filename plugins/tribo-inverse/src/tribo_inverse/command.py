@@ -138,23 +138,22 @@ def _fit_local(
     force: bool,
     as_json: bool,
 ) -> None:
-    """Fit local coefficients to depth maps."""
-    from tribo_inverse.calibration.mapped import calibrate_maps
-    from tribo_inverse.map_tables import maps_json, maps_table, write_maps
+    """Fit local coefficients to a depth map."""
+    from tribo_inverse.calibration.mapped import calibrate_map
+    from tribo_inverse.map_tables import map_json, map_table, write_map
 
     if output is not None:
         if output.suffix != ".npz":
             named = f"name it {output.stem}.npz"
             raise CaseError(f"{output}: maps are written as a NumPy archive; {named}")
         check_new(output, force)
-    mapped = {f"map.{i}": entry for i, entry in enumerate(measurements.map, 1)}
-    found = calibrate_maps(tables, mapped, on_run=_print_pass)
+    found = calibrate_map(tables, measurements.map[0], on_run=_print_pass)
     if as_json:
-        echo_json(maps_json(found, level))
+        echo_json(map_json(found, level))
     else:
-        print_all([maps_table(found, level)], found.findings)
+        print_all([map_table(found, level)], found.findings)
     if output is not None:
-        write_maps(found, level, output)
+        write_map(found, level, output)
 
 
 def _files(output: Path, measurements: Measurements, force: bool) -> tuple[dict[str, Path], Path]:

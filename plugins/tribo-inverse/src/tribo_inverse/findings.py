@@ -16,7 +16,7 @@ from tribo_inverse.calibration.linearised import COLLINEAR, normalised
 from tribo_inverse.calibration.quantities import in_si, in_words, p_words
 
 if TYPE_CHECKING:
-    from tribo_inverse.calibration.maps import FittedMaps
+    from tribo_inverse.calibration.maps import FittedMap
 
 UNLIKELY = 0.01
 """p-value below which data and model disagree."""
@@ -143,7 +143,7 @@ def named(entry: Any) -> str:
     return f"{entry.quantity}{f' of {entry.body!r}' if entry.body else ''}{where}{when}"
 
 
-def of_maps(found: FittedMaps) -> Iterator[Finding]:
+def of_map(found: FittedMap) -> Iterator[Finding]:
     """Return the findings on the fit of local coefficients."""
     chi_square, freedom = found.chi_square, found.degrees_of_freedom
     if found.is_refuted:
@@ -155,15 +155,14 @@ def of_maps(found: FittedMaps) -> Iterator[Finding]:
             value=chi_square,
             limit=freedom,
         )
-    for name, each in found.maps.items():
-        if (silent := int(np.sum(~each.told))) > 0:
-            yield Finding(
-                "unknown",
-                f"{name}: the data do not determine {silent} cells, mostly where nothing was "
-                "worn or measured: there the coefficient is the case's, as uncertain as before",
-                value=silent,
-                place=name,
-            )
+    if (silent := int(np.sum(~found.told))) > 0:
+        yield Finding(
+            "unknown",
+            f"{found.body}: the data do not determine {silent} cells, mostly where nothing was "
+            "worn or measured: there the coefficient is the case's, as uncertain as before",
+            value=silent,
+            place=found.body,
+        )
 
 
 def chosen(case: str, by: float, limit: float, p_value: float | None) -> Finding:

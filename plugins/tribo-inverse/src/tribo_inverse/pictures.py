@@ -7,13 +7,13 @@ from matplotlib.figure import Figure
 from tribo import Array
 from tribo.kernel_api import house_style, new_figure
 
-from tribo_inverse.calibration.maps import LocalMap
+from tribo_inverse.calibration.maps import FittedMap
 
 DOUBLE = 140.0
 """Width of a picture with two panels, in mm."""
 
 
-def coefficient_map(found: LocalMap, level: float, title: str = "") -> Figure:
+def coefficient_map(found: FittedMap, level: float, title: str = "") -> Figure:
     """Draw the factor on a wear coefficient, and its standard deviation relative to the prior's.
 
     The factor is left blank where the data do not narrow the prior. Of one row both are curves
@@ -52,7 +52,7 @@ def coefficient_map(found: LocalMap, level: float, title: str = "") -> Figure:
     return figure
 
 
-def _places(found: LocalMap) -> Array:
+def _places(found: FittedMap) -> Array:
     """Return the positions of the cells of a row along y, in µm."""
     cells = np.arange(found.logs.size) - 0.5 * (found.logs.size - 1)
     return np.asarray(1e6 * found.spacing[1] * cells)

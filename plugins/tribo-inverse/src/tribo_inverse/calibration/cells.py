@@ -4,19 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.ndimage import correlate1d
-from tribo import Array, CaseError, Heights, read_heights
-from tribo.kernel_api import located
+from tribo import Array, CaseError, Heights
 
 ROUNDING = 1e-6
 """Relative rounding of pixel pitch and cell size."""
 COVERED = 0.5 - 1e-6
 """Part of a cell that must be measured."""
-
-
-def read_map(file: str, pitch: float | None, place: str) -> Heights:
-    """Read measured depths; CaseError, at their place, if they cannot be."""
-    with located(f"{place}.depth"):
-        return read_heights(file, None if pitch is None else (pitch, pitch))
 
 
 def cell_means(depth: Array) -> Array:

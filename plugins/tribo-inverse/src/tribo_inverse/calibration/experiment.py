@@ -59,7 +59,7 @@ class Experiment:
         """Read a case and measured values; CaseError if they are wrong or do not fit together."""
         tables, measurements = case_tables(case), read_measurements(measured)
         if measurements.map:
-            raise CaseError("asks for local coefficients; see calibrate_maps", "map")
+            raise CaseError("asks for local coefficients; see calibrate_map", "map")
         base = validate_case(tables)
         data = measurements.table()
         setups = find_setups(tables, measurements.tests, data)

@@ -1,9 +1,9 @@
-"""Local wear coefficients from depth maps: the most probable map, and its standard deviation."""
+"""Local wear coefficients from a depth map: the most probable map, and its standard deviation."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -24,7 +24,7 @@ from tribo_inverse.calibration.lanczos import eigenpairs
 from tribo_inverse.calibration.linearised import Weights
 from tribo_inverse.calibration.prior import Prior
 from tribo_inverse.calibration.quantities import EDGE_CELL_SIGMA, edge_sigma
-from tribo_inverse.findings import UNLIKELY, of_maps
+from tribo_inverse.findings import UNLIKELY, of_map
 from tribo_inverse.recording.local import factor_shape, localised
 from tribo_inverse.recording.tape import Tape, recorded
 
@@ -39,14 +39,16 @@ SILENT = 0.9
 
 
 @dataclass(frozen=True, eq=False)
-class LocalMap:
+class FittedMap:
     """The factor on a body's wear coefficient at each cell of its surface, shape (rows, ny)."""
 
+    body: str
+    """Name of the body."""
     logs: Array
     """Most probable ln(k/k₀)."""
     deviation: Array
     """Its standard deviation."""
-    prior: Array
+    prior: float
     """Standard deviation of the prior."""
     spacing: tuple[float, float]
     """Edge lengths of a cell, in m."""
@@ -56,6 +58,16 @@ class LocalMap:
     """Depth of the fit, in m."""
     uncertainty: Array
     """Standard deviation of their difference, in m."""
+    gradients: int
+    """Number of gradients."""
+    products: int
+    """Number of products with the Fisher information."""
+    chi_square: float
+    degrees_of_freedom: float
+    """Measured cells, less Σ λ/(1 + λ) over the eigenvalues λ of the information, and less one for
+    each unknown coordinate of the position of the map."""
+    findings: tuple[Finding, ...] = ()
+    """Findings on the map and the fit."""
 
     @property
     def factor(self) -> Array:
@@ -71,24 +83,6 @@ class LocalMap:
         """Return the ends of the interval of the factor at each cell."""
         far = float(ndtri(0.5 + 0.5 * level)) * self.deviation
         return np.exp(self.logs - far), np.exp(self.logs + far)
-
-
-@dataclass(frozen=True, eq=False)
-class FittedMaps:
-    """Local coefficients fitted to depth maps."""
-
-    maps: Mapping[str, LocalMap]
-    """By the name of the body."""
-    gradients: int
-    """Number of gradients."""
-    products: int
-    """Number of products with the Fisher information."""
-    chi_square: float
-    degrees_of_freedom: float
-    """Measured cells, less Σ λ/(1 + λ) over the eigenvalues λ of the information, and less one for
-    each unknown coordinate of the position of a map."""
-    findings: tuple[Finding, ...] = ()
-    """Findings on the maps and the fit."""
 
     @property
     def p_value(self) -> float:
@@ -106,16 +100,18 @@ class FittedMaps:
         return [each.words for each in self.findings]
 
 
-def fit_maps(
+def fit_map(
     case: Case | Mapping[str, Any] | str | Path | Model,
-    depths: Mapping[str, tuple[Array, Array | float]],
-    priors: Mapping[str, Prior],
+    body: str,
+    depth: Array,
+    sigma: Array | float,
+    prior: Prior,
     *,
-    placed: Mapping[str, Sequence[float]] | None = None,
+    placed: tuple[float, float] = (0.0, 0.0),
     products: int = 60,
     on_run: Callable[[int, float], None] = lambda count, misfit: None,
-) -> FittedMaps:
-    """Fit local factors on the wear coefficients of bodies to maps of their depth.
+) -> FittedMap:
+    """Fit local factors on the wear coefficient of a body to a map of its depth.
 
     The maximum of the posterior is found by L-BFGS with exact gradients, in cosine modes of the
     prior. The posterior's standard deviation is linearised: the Fisher information Jᵀ V⁻¹ J is
@@ -124,11 +120,10 @@ def fit_maps(
     standard deviation, which is too large rather than too small. The information also
     preconditions L-BFGS.
 
-    `depths` has, by the name of the body, the mean depth of each cell at the end, in m, of the
-    shape of `View.wear`, NaN where missing, and their standard deviations, to which `edge_sigma`
-    is added. `placed` has the standard deviations of a map's position along and across the sliding
-    direction, in m, by body; 0 by default. `on_run` is called after each gradient or product with
-    their number and χ², NaN for a product.
+    `depth` is the mean depth of each cell at the end, in m, of the shape of `View.wear`, NaN where
+    missing, and `sigma` its standard deviation, to which `edge_sigma` is added. `placed` has the
+    standard deviations of the map's position along and across the sliding direction, in m.
+    `on_run` is called after each gradient or product with their number and χ², NaN for a product.
     """
     misfits: list[float] = []
 
@@ -136,7 +131,7 @@ def fit_maps(
         misfits.append(misfit)
         on_run(len(misfits), misfit)
 
-    posterior = _Posterior(Simulation(case).model, depths, priors, tell, placed or {})
+    posterior = _Posterior(Simulation(case).model, body, depth, sigma, prior, tell, placed)
     z, basis, values = posterior.fitted(products)
     logs = posterior.logs(z)
     fit = posterior.run(logs)
@@ -144,63 +139,52 @@ def fit_maps(
         value / (1 + value) * posterior.logs(vector) ** 2
         for vector, value in zip(basis, values, strict=True)
     )
-    maps = {}
-    for name, part in posterior.parts.items():
-        shape, prior = posterior.shapes[name], np.full(posterior.shapes[name], priors[name].spread)
-        variance = prior**2 - reduction[part].reshape(shape)
-        maps[name] = LocalMap(
-            logs[part].reshape(shape),
-            np.sqrt(np.maximum(variance, 0.0)),
-            prior,
-            posterior.model.grid.spacing,
-            depths[name][0],
-            cell_means(fit.wear(name)),
-            posterior.weights[name].sigma.reshape(shape),
-        )
-    read = sum(int(np.sum(~np.isnan(depth))) for depth, _ in depths.values())
-    of_places = sum(weights.vectors.shape[1] for weights in posterior.weights.values())
-    made = int(np.sum(np.isnan(misfits)))
-    found = FittedMaps(
-        maps=maps,
+    weights, made = posterior.weights, int(np.sum(np.isnan(misfits)))
+    freedom = np.sum(~np.isnan(depth)) - np.sum(values / (1 + values)) - weights.vectors.shape[1]
+    found = FittedMap(
+        body=body,
+        logs=logs.reshape(depth.shape),
+        deviation=np.sqrt(np.maximum(prior.spread**2 - reduction, 0.0)).reshape(depth.shape),
+        prior=prior.spread,
+        spacing=posterior.model.grid.spacing,
+        measured=depth,
+        computed=cell_means(fit.wear(body)),
+        uncertainty=weights.sigma.reshape(depth.shape),
         gradients=len(misfits) - made,
         products=made,
         chi_square=2 * posterior.misfit(fit)[0],
-        degrees_of_freedom=read - float(np.sum(values / (1 + values))) - of_places,
+        degrees_of_freedom=float(freedom),
     )
-    return replace(found, findings=tuple(of_maps(found)))
+    return replace(found, findings=tuple(of_map(found)))
 
 
 class _Posterior:
-    """The posterior of maps, in cosine modes whose prior amplitudes are independent N(0, 1)."""
+    """The posterior of a map, in cosine modes whose prior amplitudes are independent N(0, 1)."""
 
     def __init__(
         self,
         model: Model,
-        depths: Mapping[str, tuple[Array, Array | float]],
-        priors: Mapping[str, Prior],
+        body: str,
+        depth: Array,
+        sigma: Array | float,
+        prior: Prior,
         tell: Callable[[float], None],
-        placed: Mapping[str, Sequence[float]],
+        placed: tuple[float, float],
     ) -> None:
-        self.model, self.depths, self.priors, self.tell = model, depths, priors, tell
-        self.placed = placed
-        self.shapes = {name: factor_shape(model, name) for name in depths}
-        self.amplitudes, self.scales, self.parts, self.size = {}, {}, {}, 0
-        for name, shape in self.shapes.items():
-            if depths[name][0].shape != shape:
-                raise CaseError(
-                    f"the depth map of {name} has the shape {depths[name][0].shape}, its surface "
-                    f"{shape}"
-                )
-            self.amplitudes[name] = priors[name].amplitudes(shape, model.grid.spacing)
-            self.scales[name] = priors[name].scale(self.amplitudes[name])
-            self.parts[name] = slice(self.size, self.size + shape[0] * shape[1])
-            self.size = self.parts[name].stop
-        self.weights: dict[str, Weights] = {}
-        self.gradient = ValueAndGradient(model, self.misfit, (), list(depths))
+        self.model, self.body, self.depth, self.sigma = model, body, depth, sigma
+        self.tell, self.placed = tell, placed
+        if depth.shape != (shape := factor_shape(model, body)):
+            raise CaseError(
+                f"the depth map of {body} has the shape {depth.shape}, its surface {shape}"
+            )
+        self.amplitudes = prior.amplitudes(shape, model.grid.spacing)
+        self.scale = prior.scale(self.amplitudes)
+        self.weights = Weights.of(np.ones(depth.size))
+        self.gradient = ValueAndGradient(model, self.misfit, (), [body])
 
     def fitted(self, products: int) -> tuple[Array, Array, Array]:
         """Return the most probable amplitudes, and the eigenpairs of the information."""
-        near, none = np.zeros(self.size), np.zeros((0, self.size))
+        near, none = np.zeros(self.depth.size), np.zeros((0, self.depth.size))
         self.weigh(near)
         near = self.least(near, none, none[:, 0], FIRST_ITERATIONS)
         self.weigh(near)
@@ -231,48 +215,35 @@ class _Posterior:
 
     def logs(self, z: Array) -> Array:
         """Return ln(k/k₀) of amplitudes."""
-        found = np.empty(self.size)
-        for name, part in self.parts.items():
-            waves = self.amplitudes[name] * z[part].reshape(self.shapes[name])
-            found[part] = (self.scales[name] * idctn(waves, norm="ortho")).ravel()
-        return found
+        waves = self.amplitudes * z.reshape(self.depth.shape)
+        return np.asarray((self.scale * idctn(waves, norm="ortho")).ravel())
 
     def adjoint(self, slope: Array) -> Array:
         """Return derivatives by the amplitudes from derivatives by ln(k/k₀): adjoint of `logs`."""
-        found = np.empty(self.size)
-        for name, part in self.parts.items():
-            scaled = self.scales[name] * slope[part].reshape(self.shapes[name])
-            waves = dctn(scaled, norm="ortho")
-            found[part] = (self.amplitudes[name] * waves).ravel()
-        return found
+        waves = dctn(self.scale * slope.reshape(self.depth.shape), norm="ortho")
+        return np.asarray((self.amplitudes * waves).ravel())
 
     def weigh(self, z: Array) -> None:
-        """Set the weights of the maps, with edges and slopes of the scars of these amplitudes."""
-        view, spacing = self.run(self.logs(z)), self.model.grid.spacing
-        for name, (depth, sigma) in self.depths.items():
-            worn, placed = view.wear(name), self.placed.get(name, (0.0, 0.0))
-            total = np.hypot(sigma, edge_sigma(worn, EDGE_CELL_SIGMA))
-            axes = [axis for axis in (0, 1) if placed[axis] and worn.shape[axis] > 1]
-            mean = cell_means(worn)
-            moves = [placed[axis] * np.gradient(mean, spacing[axis], axis=axis) for axis in axes]
-            columns = np.array([np.where(np.isnan(depth), 0.0, each).ravel() for each in moves])
-            self.weights[name] = Weights.of(total.ravel(), columns.reshape(-1, depth.size).T)
+        """Set the weights of the map, with edges and slopes of the scar of these amplitudes."""
+        worn, spacing = self.run(self.logs(z)).wear(self.body), self.model.grid.spacing
+        total = np.hypot(self.sigma, edge_sigma(worn, EDGE_CELL_SIGMA))
+        axes = [axis for axis in (0, 1) if self.placed[axis] and worn.shape[axis] > 1]
+        mean = cell_means(worn)
+        moves = [self.placed[axis] * np.gradient(mean, spacing[axis], axis=axis) for axis in axes]
+        columns = np.array([np.where(np.isnan(self.depth), 0.0, each).ravel() for each in moves])
+        self.weights = Weights.of(total.ravel(), columns.reshape(-1, self.depth.size).T)
 
     def misfit(self, view: View) -> tuple[float, Seeds]:
         """Return half of the weighed sum of the squared residuals, and its derivative."""
-        value, seeds = 0.0, {}
-        for name, (depth, _) in self.depths.items():
-            residuals = np.nan_to_num(cell_means(view.wear(name)) - depth)
-            value += 0.5 * float(np.sum(self.weights[name].weigh(residuals.ravel()) ** 2))
-            seeds[name] = self.seed(name, residuals)
-        return value, Seeds(seeds)
+        residuals = np.nan_to_num(cell_means(view.wear(self.body)) - self.depth)
+        value = 0.5 * float(np.sum(self.weights.weigh(residuals.ravel()) ** 2))
+        return value, self.seeds(residuals)
 
-    def seed(self, name: str, residuals: Array) -> Array:
-        """Return the derivative of half the weighed sum of squares of residuals, in m, of a map."""
-        weights = self.weights[name]
-        weighed = weights.weigh_transposed(weights.weigh(residuals.ravel()))
+    def seeds(self, residuals: Array) -> Seeds:
+        """Return the derivative of half the weighed sum of squares of residuals, in m."""
+        weighed = self.weights.weigh_transposed(self.weights.weigh(residuals.ravel()))
         # `cell_means` is its own adjoint.
-        return cell_means(weighed.reshape(residuals.shape))
+        return Seeds({self.body: cell_means(weighed.reshape(residuals.shape))})
 
     def local(self, logs: Array) -> Model:
         """Return the model with local factors, given as ln(k/k₀)."""
@@ -289,19 +260,15 @@ class _Posterior:
         logs = self.logs(z)
         model, time = self.local(logs), self.model.end_time
         with closing(Tape()) as tape:
-            end = View(model, recorded(model, [time], tape)[time])
+            end = View(model, recorded(model, [time], tape)[time]).wear(self.body)
 
             def product(vector: Array) -> Array:
                 move = self.logs(vector)
                 step = STEP / np.max(np.abs(move))
-                moved, seeds = self.run(logs + step * move), {}
-                for name, (depth, _) in self.depths.items():
-                    change = cell_means(moved.wear(name) - end.wear(name)) / step
-                    seeds[name] = self.seed(name, np.where(np.isnan(depth), 0.0, change))
-                found = swept_back(model, tape, {time: Seeds(seeds)}, [])
+                change = cell_means(self.run(logs + step * move).wear(self.body) - end) / step
+                seeds = self.seeds(np.where(np.isnan(self.depth), 0.0, change))
+                found = swept_back(model, tape, {time: seeds}, [])
                 self.tell(math.nan)
-                return self.adjoint(
-                    np.concatenate([found.wear_rate[name].ravel() for name in seeds])
-                )
+                return self.adjoint(found.wear_rate[self.body].ravel())
 
-            return eigenpairs(product, self.size, products)
+            return eigenpairs(product, self.depth.size, products)

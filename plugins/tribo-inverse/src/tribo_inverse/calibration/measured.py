@@ -44,7 +44,7 @@ def _beside(name: str, info: ValidationInfo) -> str:
 BesideFile = Annotated[str, AfterValidator(_beside)]
 """Name of a file; a relative one starts at the folder of the file of measured values."""
 
-LOCAL = "local coefficients are fitted to maps of one test: give [[map]] in a file of its own"
+LOCAL = "local coefficients are fitted to one map: give one [[map]], in a file of its own"
 UNSEEN = "half the limit of detection stands for what was not seen, with that uncertainty"
 
 
@@ -259,7 +259,7 @@ class Measurements(Table):
     test: tuple[TestEntry, ...] = ()
     """Tests that differ from it."""
     map: tuple[MapEntry, ...] = ()
-    """Depth maps, instead, to which local coefficients are fitted."""
+    """A depth map, instead, to which local coefficients are fitted."""
     repeatability: Annotated[float, Quantity("1", at_least=0, below=3)] | None = None
     """Relative standard deviation of the parameters from test to test; estimated if left out."""
 
@@ -294,7 +294,8 @@ class Measurements(Table):
 
     @model_validator(mode="after")
     def _some(self, info: ValidationInfo) -> Self:
-        if self.map and (self.tests or self.fit or self.repeatability is not None):
+        others = self.tests or self.fit or self.repeatability is not None
+        if self.map and (others or len(self.map) > 1):
             raise ValueError(LOCAL)
         if self.map:
             return self
