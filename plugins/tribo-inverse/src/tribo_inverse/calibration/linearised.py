@@ -254,4 +254,5 @@ def satterthwaite(information: Array, counts: Array, covariance: Array, directio
     variances = np.sum(along * directions, axis=-1)
     slopes = np.sum((along @ twice) * along, axis=-1)
     freedom = np.full(np.shape(variances), np.inf)
-    return np.divide(variances**2 * max(left, 0.0), slopes**2, out=freedom, where=slopes > 0)
+    np.divide(variances**2 * max(left, 0.0), slopes**2, out=freedom, where=slopes > 0)
+    return freedom

@@ -50,7 +50,8 @@ def calibrate_map(
             f"{PLACE}.length",
         )
     with located(f"{PLACE}.depth"):
-        heights = read_heights(entry.depth, entry.pitch and (entry.pitch, entry.pitch))
+        pitch = None if entry.pitch is None else (entry.pitch, entry.pitch)
+        heights = read_heights(entry.depth, pitch)
         depth, noise = on_cells(heights, worn.shape, spacing, find_shift(heights, worn, spacing))
         _check_volume(entry, depth, worn)
     try:
