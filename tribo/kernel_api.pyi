@@ -140,7 +140,6 @@ from tribo.simulation.march import begin as begin
 from tribo.simulation.march import march as march
 from tribo.simulation.predict import WIDER as WIDER
 from tribo.simulation.predict import coarsened as coarsened
-from tribo.study.runs import file_names as file_names
 from tribo.study.side_by_side import comparison_table as comparison_table
 from tribo.study.sweeping.summary import column_heading as column_heading
 from tribo.study.sweeping.summary import is_text as is_text

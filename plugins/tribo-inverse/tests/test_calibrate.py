@@ -63,7 +63,7 @@ def test_json_is_finite_and_in_si_units(asked):
     keys += "repeatability repeatability_estimated correlation singular_values fitted"
     assert sorted(data) == sorted(keys.split())
     ball, _ = data["parameters"]
-    assert tomllib.loads(data["fitted"][""])["bodies"]["ball"]["wear"]["k"] == pytest.approx(
+    assert tomllib.loads(data["fitted"])["bodies"]["ball"]["wear"]["k"] == pytest.approx(
         ball["value"], rel=1e-6, abs=0
     )
     estimate = "path unit value lower upper held"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -21,7 +21,6 @@ from tribo.kernel_api import (
     apply_settings,
     check_new,
     echo_json,
-    file_names,
     read_toml,
     to_toml,
     write_file,
@@ -56,7 +55,7 @@ from tribo_inverse.tables import choice_tables, fit_tables, plan_tables, print_a
     "-o",
     "--output",
     type=PATH,
-    help="Write the fitted case to a file, one for each test, and a picture of the fit.",
+    help="Write the fitted case to a file, and a picture of the fit beside it.",
 )
 @click.option("--force", is_flag=True, help="Replace existing files.")
 @click.option(
@@ -110,18 +109,19 @@ def calibrate(
     elif measurements.map:
         _fit_local(tables, measurements, level, output, force, as_json)
     else:
-        files = None if output is None else _files(output, measurements, force)
+        picture = None if output is None else output.with_name(f"{output.stem}-fit.png")
+        for path in filter(None, (output, picture)):
+            check_new(path, force)
         progress = partial(_print_run, "run")
         found = fit_numbers(tables, measurements, level=level, on_run=progress)
-        if files is not None:
-            _write(found, *files)
+        if output and picture:
+            _write(found, output, picture)
         _show(found, fit_tables(found), found.findings, as_json)
         if as_json:
             return
-        if files is not None:
-            click.echo(f"Wrote {files[1]}")
-            for name in found.fitted:
-                click.echo(f"Run it: tribo run {shlex.quote(str(files[0][name]))}")
+        if output:
+            click.echo(f"Wrote {picture}")
+            click.echo(f"Run it: tribo run {shlex.quote(str(output))}")
             return
         settings = [word for each in overrides for word in ("--set", each)]
         settings += [word for file in added_files() for word in ("--plugin", file)]
@@ -147,7 +147,9 @@ def _fit_local(
             named = f"name it {output.stem}.npz"
             raise CaseError(f"{output}: maps are written as a NumPy archive; {named}")
         check_new(output, force)
-    found = calibrate_map(tables, measurements.map[0], on_run=_print_pass)
+    found = calibrate_map(
+        tables, measurements.map[0], on_run=partial(_print_run, "run and pass back")
+    )
     if as_json:
         echo_json(map_json(found, level))
     else:
@@ -156,26 +158,12 @@ def _fit_local(
         write_map(found, level, output)
 
 
-def _files(output: Path, measurements: Measurements, force: bool) -> tuple[dict[str, Path], Path]:
-    """Return new files for the fitted cases, by test, and for the picture of the fit."""
-    names = list(dict.fromkeys(test.name for test in measurements.tests.values()))
-    cases = {
-        name: output.with_name(f"{output.stem}-{Path(file).stem}.toml") if name else output
-        for name, file in zip(names, file_names(names), strict=True)
-    }
-    picture = output.with_name(f"{output.stem}-fit.png")
-    for path in (*cases.values(), picture):
-        check_new(path, force)
-    return cases, picture
-
-
-def _write(found: Calibration, cases: Mapping[str, Path], picture: Path) -> None:
+def _write(found: Calibration, case: Path, picture: Path) -> None:
     from tribo.kernel_api import write_figures
 
     from tribo_inverse.fitted import fit_picture
 
-    for name, tables in found.fitted.items():
-        write_file(cases[name], to_toml(tables))
+    write_file(case, to_toml(found.fitted))
     write_figures({picture.stem: lambda: fit_picture(found.data)}, picture.parent)
 
 
@@ -199,11 +187,3 @@ def _print_run_of_case(name: str, run: int, misfit: float) -> None:
 def _print_run(what: str, run: int, misfit: float = math.nan) -> None:
     chi_square = "" if math.isnan(misfit) else f": misfit χ² {misfit:.3g}"
     click.echo(f"{what} {run}{chi_square}", err=True)
-
-
-def _print_pass(count: int, misfit: float) -> None:
-    """Print the number of a run with adjoint, for the map or for its standard deviation."""
-    if math.isnan(misfit):
-        click.echo(f"run and pass back {count}: for standard deviations", err=True)
-    else:
-        _print_run("run and pass back", count, misfit)

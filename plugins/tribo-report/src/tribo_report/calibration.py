@@ -54,7 +54,7 @@ def _read(found: dict[str, Any]) -> Calibration:
         del found[name]
     for name in ("correlation", "singular_values"):
         found[name] = np.array(found[name], dtype=float)
-    found["fitted"] = {name: tomllib.loads(text) for name, text in found.get("fitted", {}).items()}
+    found["fitted"] = tomllib.loads(found.get("fitted", ""))
     found["findings"] = tuple(Finding(**each) for each in found["findings"])
     return Calibration(**tables, **found)
 
@@ -72,7 +72,7 @@ def calibration_page(found: Calibration, title: str) -> str:
         notes=found.notes,
         stills=stills({"fit, relative to the measured values": partial(fit_picture, found.data)}),
         **made_here(),
-        case="\n".join(_cases(found)),
+        case=to_toml(found.fitted),
         whose=" as fitted",
         facts=_facts(found),
     )
@@ -101,13 +101,7 @@ def _answers(found: Calibration) -> Iterator[str]:
 
 
 def _facts(found: Calibration) -> list[tuple[str, str]]:
-    """Return the facts of the first case that loads; none if plugins or files are missing."""
-    for tables in found.fitted.values():
-        with suppress(CaseError):
-            return facts(case_tables(validate_case(tables)))
+    """Return the facts of the fitted case; none if plugins or files are missing."""
+    with suppress(CaseError):
+        return facts(case_tables(validate_case(found.fitted)))
     return []
-
-
-def _cases(found: Calibration) -> Iterator[str]:
-    for name, tables in found.fitted.items():
-        yield (f"# {name}\n" if name else "") + to_toml(tables)

@@ -74,8 +74,8 @@ class Calibration:
     """Relative standard deviation of the parameters from test to test."""
     repeatability_estimated: bool
     """Whether it is estimated from repeated tests, rather than stated or 0."""
-    fitted: Mapping[str, Mapping[str, Any]]
-    """The tables of each test's case with the estimates, by the name of the test."""
+    fitted: Mapping[str, Any]
+    """The tables of the case with the estimates."""
     correlation: Array
     """Correlation matrix of the logarithms of the parameters."""
     singular_values: Array
@@ -114,10 +114,9 @@ class Calibration:
         return float(chdtrc(self.degrees_of_freedom, self.chi_square))
 
     def as_json(self) -> dict[str, Any]:
-        """Return it as plain data in SI units, the fitted cases as TOML; NaN stands for none."""
-        fitted = {name: to_toml(tables) for name, tables in self.fitted.items()}
+        """Return it as plain data in SI units, the fitted case as TOML; NaN stands for none."""
         findings = [asdict(each) for each in self.findings]
-        more = {"p_value": self.p_value, "fitted": fitted, "notes": self.notes}
+        more = {"p_value": self.p_value, "fitted": to_toml(self.fitted), "notes": self.notes}
         return plain(self) | more | {"findings": findings}
 
 
@@ -232,7 +231,7 @@ def _outcome(fitted: Linearised, experiment: Experiment, level: float) -> Calibr
         degrees_of_freedom=freedom,
         repeatability=fitted.repeatability,
         repeatability_estimated=scatters,
-        fitted={each.name: apply_settings(each.case, settled) for each in experiment.setups},
+        fitted=apply_settings(experiment.tables, settled),
         correlation=root @ root.T / np.outer(deviations, deviations),
         singular_values=np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64),
         bic=fitted.deviance(fitted.point) + (len(held) + scatters) * math.log(len(data)),

@@ -39,6 +39,8 @@ unit makes 1000."""
 class Experiment:
     """Parameters of a case, its tests, and the measured data."""
 
+    tables: Mapping[str, Any]
+    """Of the case."""
     setups: list[Setup]
     parameters: list[Parameter]
     data: pd.DataFrame
@@ -70,7 +72,7 @@ class Experiment:
         repeatability = measurements.repeatability
         if repeatability is None and not np.any(seen.nunique() > 1):
             repeatability = 0.0
-        return cls(setups, parameters, data, unmeasured(setups, data), repeatability)
+        return cls(tables, setups, parameters, data, unmeasured(setups, data), repeatability)
 
     @property
     def start(self) -> Array:

@@ -41,10 +41,8 @@ class Setup:
 
     name: str
     """Name of the first test."""
-    case: Mapping[str, Any]
-    """Tables of the case."""
     tables: Mapping[str, Any]
-    """The same, saved at the times of the readings."""
+    """Tables of the case, saved at the times of the readings."""
     model: Model
 
 
@@ -91,11 +89,6 @@ def _setup(
 ) -> Setup:
     """Return the setup of tests that have the same case."""
     changed = apply_settings(tables, tests[0].set)
-    given = validate_case(tables).output.save_times
-    moments = map(model.motion.moment, given)
-    reached = [time for time, at in zip(given, moments, strict=True) if at <= model.end_time]
-    if len(reached) < len(given):
-        changed = apply_settings(changed, {"output.save_times": reached})
     entries = [entry for test in tests for entry in test.measured]
     times = sorted({entry.time for entry in entries if entry.time is not None})
     # An observer that may end a run belongs to it.
@@ -105,8 +98,7 @@ def _setup(
     if model.case.kinematics != case.kinematics:
         # Its positions were chosen.
         kept["kinematics.positions"] = model.data["kinematics"]["positions"]
-    ready = apply_settings(changed, kept)
-    return Setup(tests[0].name, changed, ready, model)
+    return Setup(tests[0].name, apply_settings(changed, kept), model)
 
 
 def unmeasured(setups: Sequence[Setup], data: pd.DataFrame) -> pd.DataFrame:
