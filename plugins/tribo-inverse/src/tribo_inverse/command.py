@@ -110,8 +110,8 @@ def calibrate(
         _fit_local(tables, measurements, level, output, force, as_json)
     else:
         picture = None if output is None else output.with_name(f"{output.stem}-fit.png")
-        for path in filter(None, (output, picture)):
-            check_new(path, force)
+        for file in filter(None, (output, picture)):
+            check_new(file, force)
         progress = partial(_print_run, "run")
         found = fit_numbers(tables, measurements, level=level, on_run=progress)
         if output and picture:
@@ -124,7 +124,7 @@ def calibrate(
             click.echo(f"Run it: tribo run {shlex.quote(str(output))}")
             return
         settings = [word for each in overrides for word in ("--set", each)]
-        settings += [word for file in added_files() for word in ("--plugin", file)]
+        settings += [word for added in added_files() for word in ("--plugin", added)]
         for path, value in found.settings.items():
             settings += ["--set", f"{path}={value:.4g}"]
         click.echo(f"Run it: {shlex.join(['tribo', 'run', str(cases[0]), *settings])}")

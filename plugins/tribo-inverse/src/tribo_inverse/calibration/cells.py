@@ -63,7 +63,7 @@ def on_cells(
 
 def _edges(count: int) -> Array:
     """Return the edges of cells of length 1 about 0."""
-    return np.arange(count + 1) - 0.5 * count
+    return np.asarray(np.arange(count + 1) - 0.5 * count, dtype=np.float64)
 
 
 def _integrals(pixels: Array, ends: Array, edges: Array, axis: int) -> Array:
