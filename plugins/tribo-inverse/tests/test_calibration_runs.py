@@ -177,8 +177,9 @@ def test_numbers_that_the_data_cannot_tell_apart_stay_near_their_start(true_run)
     width = measured("ball", "scar_across", width, 0.01)
     paths = [BALL_K, DISK_K, "load.normal"]
     data = {"measured": [BALL_LOSS, DISK_LOSS, width], "fit": fitting(*paths)}
-    found = calibrate(CASE, data)
-    assert found.runs <= 9
+    # Errors of longer steps would seem to separate them.
+    found = calibrate(apply_settings(CASE, {"stepping.pressure_tolerance": 0.1}), data)
+    assert found.runs <= 8
     assert found.settings["load.normal"] == pytest.approx(LOAD, rel=0.1)
     (collinear,) = of_kind(found, "collinear")
     assert collinear.place == ", ".join(paths)
