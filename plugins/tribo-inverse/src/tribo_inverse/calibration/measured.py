@@ -175,13 +175,6 @@ def _given(entry: Mapping[str, Any]) -> Array:
     return np.array([] if value is None else value, dtype=float).reshape(-1)
 
 
-def _list(value: Any, info: ValidationInfo) -> Any:
-    """Refuse a table where a list of tables is needed."""
-    if isinstance(value, Mapping):
-        raise ValueError(f"write [[{info.field_name}]] at the beginning of each, also of one")
-    return value
-
-
 class FitEntry(Table):
     """One parameter to fit."""
 
@@ -219,8 +212,6 @@ class TestEntry(Table):
     """Settings in which it differs from the case, by path, as ``load.normal = "50 N"``."""
     measured: tuple[MeasuredEntry, ...]
     """Values measured in it. The nth values of all lists are of the nth test."""
-
-    _are_many = field_validator("measured", mode="before")(_list)
 
     @field_validator("set", mode="before")
     @classmethod
@@ -262,8 +253,6 @@ class Measurements(Table):
     """A depth map, instead, to which local coefficients are fitted."""
     repeatability: Annotated[float, Quantity("1", at_least=0, below=3)] | None = None
     """Relative standard deviation of the parameters from test to test; estimated if left out."""
-
-    _are_many = field_validator("fit", "measured", "test", "map", mode="before")(_list)
 
     @property
     def tests(self) -> dict[str, TestEntry]:
