@@ -23,10 +23,11 @@ from tribo_inverse.adjoint.view import View
 from tribo_inverse.calibration import mapped
 from tribo_inverse.calibration.cells import on_cells
 from tribo_inverse.calibration.mapped import calibrate_map
-from tribo_inverse.calibration.maps import _Posterior, fit_map
+from tribo_inverse.calibration.maps import FittedMap, _Posterior, fit_map
 from tribo_inverse.calibration.measured import MapEntry, read_measurements
 from tribo_inverse.calibration.prior import Prior
 from tribo_inverse.calibration.scar_shift import find_shift
+from tribo_inverse.pictures import coefficient_map
 from tribo_inverse.recording.local import localised
 
 CASE = apply_settings(
@@ -270,6 +271,15 @@ def test_a_map_that_is_not_of_the_case_is_refused(tmp_path, monkeypatch, scale, 
     entry = MapEntry(**entry, uncertainty=NOISE, length=1e-4)
     with pytest.raises(TriboError, match=words):
         calibrate_map(apply_settings(CASE, {"bodies.disk.wear.k": k}), entry)
+
+
+def test_the_picture_of_a_line_shows_its_whole_interval():
+    line, counts = np.linspace(-0.5, 0.5, 16)[None], (1, 1, 1.0, 1.0)
+    found = FittedMap("disk", line, 0.3 + 0 * line, 0.4, (1e-5, 1e-5), line, line, line, *counts)
+    low, high = coefficient_map(found, 0.95).axes[0].get_ylim()
+    ends = found.interval(0.95)
+    assert low < np.min(ends[0])
+    assert high > np.max(ends[1])
 
 
 def test_uniform_wear_tells_no_place():

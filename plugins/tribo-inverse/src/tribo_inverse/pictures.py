@@ -49,6 +49,7 @@ def coefficient_map(found: FittedMap, level: float, title: str = "") -> Figure:
     if len(found.logs) == 1:
         band = (known(each)[0] for each in found.interval(level))
         figure.axes[0].fill_between(_places(found), *band, color="#d0d0d0", lw=0)
+        figure.axes[0].autoscale(axis="y")
     return figure
 
 
