@@ -17,14 +17,12 @@ from tribo_inverse.adjoint.view import Seeds
 from tribo_inverse.increment.breaks import unreached
 from tribo_inverse.increment.carriers import Carrier, carriers_of
 from tribo_inverse.increment.increment import Other
-from tribo_inverse.increment.response import ASIDE, NUDGE
+from tribo_inverse.increment.response import ASIDE
 from tribo_inverse.recording.local import OF_CONTACT, OF_MOTION, localised
 from tribo_inverse.recording.tape import Pressed, Slid
 
 LAW = "law"
 """Marks a number that enters a law or an effect itself."""
-CONTACT = ("young", "poisson", "hardness")
-"""Numbers of a material that contacts depend on."""
 MOVES = "it moves the positions of the cycle by whole cells"
 TURNS = (
     "has no derivative: the motion turns where it would be taken, at speed 0; "
@@ -204,16 +202,11 @@ def chain(
     """
     if value == 0:
         raise CaseError("is 0, of which no part can be taken as a difference", path)
-    moves = places[0][0] == "kinematics"
-    # Numbers of the motion may be at any phase of many cycles.
-    step = value * (ASIDE if moves else NUDGE)
+    step, moves = ASIDE * value, places[0][0] == "kinematics"
     error: Exception | None = None
-    central, upper = [(1, 0.5), (-1, -0.5)], [(0, -1.5), (1, 2.0), (2, -0.5)]
-    if all(map(_only_wears, places)):
-        # Only the wear under given contacts depends on it, which is known for the case itself.
-        step, central, upper = ASIDE * value, [], [(0, -1.0), (1, 1.0)]
-    lower = [(-by, -weight) for by, weight in upper]
-    for scheme in filter(None, (central, upper, lower)):
+    both, above, below = [(1, 0.5), (-1, -0.5)], [(1, 1.0), (0, -1.0)], [(0, 1.0), (-1, -1.0)]
+    # Numbers of the motion may be at any phase of many cycles.
+    for scheme in (both, above, below) if moves else (above, below):
         try:
             models = [
                 _varied(base, places, value + by * step, factors) if by else base
@@ -222,7 +215,7 @@ def chain(
         except (TriboError, ValidationError) as failed:
             error = error or failed
             continue
-        if scheme is central:
+        if scheme is both:
             _check_smooth(models[0], base, models[1], path)
         own = Stops.of(base)
         variants = [
@@ -234,7 +227,8 @@ def chain(
             )
             for model, (_, weight) in zip(models, scheme, strict=True)
         ]
-        wears, spreads = _wears(base, models[-1]), _spreads(base, models[-1])
+        other = next(model for model in models if model is not base)
+        wears, spreads = _wears(base, other), _spreads(base, other)
         return Chain(path, value, variants, base, own, wears, spreads)
     why = error.errors()[0]["msg"] if isinstance(error, ValidationError) else str(error)
     for place in (path, *(".".join(map(str, place)) for place in places)):
@@ -266,12 +260,6 @@ def _turns(model: Model, time: float) -> bool:
     near, far = (last - motion.distance_at(time - by * short) for by in (1, 2))
     # At a constant speed it is 2 times as far; where the speed falls to 0, 4 times.
     return far > 3 * near
-
-
-def _only_wears(place: Sequence[Any]) -> bool:
-    """Whether a number at a place of a case changes no contact, but only the wear under it."""
-    of_material = place[2:3] == ["material"] and place[3] not in CONTACT
-    return place[0] in ("effects", "friction") or "wear" in place[2:] or of_material
 
 
 def _moved(model: Model, base: Model) -> Mapping[str, Carrier] | None:
