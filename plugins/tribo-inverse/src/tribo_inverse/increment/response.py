@@ -10,11 +10,9 @@ from tribo import Array
 from tribo.kernel_api import CELLS, over
 
 NUDGE = 3e-5
-"""Part of a value by which it is varied up and down for a derivative, or for a second one."""
+"""Part of the pressures by which they are varied up and down."""
 ASIDE = 1e-7
-"""The same where it is varied to one side only, or a derivative may soon change."""
-EVENLY = 1e-6
-"""Part of a pressure by which it is varied up and down where a rate depends on it alone."""
+"""Part of a value by which it is varied to one side for a derivative."""
 LEAST = 0.1
 """Part of a cell's pressure that must be varied for a derivative in it."""
 
@@ -52,14 +50,6 @@ def back(seeds: Sequence[Field], responses: Sequence[Response]) -> Field:
     return found
 
 
-def central(rates: Rates, pressure: Array) -> list[Response]:
-    """Return the responses of rates that depend on the pressure of their own cell alone."""
-    higher, lower = (1 + EVENLY) * pressure, (1 - EVENLY) * pressure
-    by = np.where(higher == lower, np.inf, higher - lower)
-    pairs = zip(rates(higher), rates(lower), strict=True)
-    return [Response((above - below) / by) for above, below in pairs]
-
-
 def aside(
     rates: Rates,
     found: Arrays,
@@ -83,56 +73,40 @@ def shared(rates: Rates, pressure: Array) -> list[Response]:
 
     Such rates come from effects that share the load, or that are uniform over the contact.
     """
-    stripes = _balanced(pressure)
-    steeper = pressure**2 / over(np.max(pressure, CELLS))
-    ways = [stripes * pressure, pressure, steeper]
-    of_stripes, of_all, of_steeper = (
+    stripes = np.where(np.indices(pressure.shape[-2:]).sum(axis=0) % 2, -1.0, 1.0)
+    steep = pressure / over(np.max(pressure, CELLS))
+    parts = [stripes * np.ones_like(steep), np.ones_like(steep), steep]
+    slopes = [
         [
             (higher - lower) / (2 * NUDGE)
             for higher, lower in zip(
-                rates(pressure + NUDGE * way), rates(pressure - NUDGE * way), strict=True
+                rates((1 + NUDGE * part) * pressure),
+                rates((1 - NUDGE * part) * pressure),
+                strict=True,
             )
         ]
-        for way in ways
+        for part in parts
+    ]
+    load, square = np.sum(pressure, CELLS), np.sum(pressure**2, CELLS)
+    # What each part changes of the load and of Σp², relative to them.
+    of_stripes, *of_others = (
+        np.stack([np.sum(pressure * p, CELLS) / load, np.sum(pressure**2 * p, CELLS) / square], -1)
+        for p in parts
     )
-    moved = np.where(np.abs(stripes) > LEAST, ways[0], np.inf)
-    moved = np.where(pressure > 0, moved, np.inf)
-    # What both ways change of both sums, relative to the first's: alike where pressures are even.
-    sums, squares = _sums(ways[1:]), _sums([pressure * way for way in ways[1:]])
-    inverse = _inverse(sums[1] / sums[0], squares[1] / squares[0])
+    # Where pressures are even, the last two parts change both alike.
+    inverse = np.linalg.pinv(np.stack(of_others, -2), rcond=1e-9)
+    even, steeper = (over(np.sum(of_stripes * inverse[..., at], -1)) for at in (0, 1))
+    # Stripes that change neither.
+    balanced = stripes - even - steeper * steep
+    varied = (np.abs(balanced) > LEAST) & (pressure > 0)
     found = []
-    for by_stripes, *others in zip(of_stripes, of_all, of_steeper, strict=True):
-        own = by_stripes / moved
-        left = [other - own * way for other, way in zip(others, ways[1:], strict=True)]
-        load, square = (
-            over(inverse[..., row, 0] / total) * left[0]
-            + over(inverse[..., row, 1] / total) * left[1]
-            for row, total in enumerate((sums[0], squares[0]))
+    for by_stripes, by_all, by_steep in zip(*slopes, strict=True):
+        change = by_stripes - even * by_all - steeper * by_steep
+        own = change / np.where(varied, balanced * pressure, np.inf)
+        left = by_all - own * pressure, by_steep - own * steep * pressure
+        of_load, of_square = (
+            sum(over(row[..., at] / total) * left[at] for at in (0, 1))
+            for row, total in ((inverse[..., 0, :], load), (inverse[..., 1, :], square))
         )
-        found.append(Response(own, load, square))
+        found.append(Response(own, of_load, of_square))
     return found
-
-
-def _balanced(pressure: Array) -> Array:
-    """Return signs that alternate, so that neither the load nor Σp² changes by them."""
-    signs = np.where(np.indices(pressure.shape[-2:]).sum(axis=0) % 2, -1.0, 1.0)
-    part = pressure / over(np.max(pressure, CELLS))
-    first, second, third = _sums([part, part**2, part**3])
-    of_sum, of_squares = _sums([part * signs, part**2 * signs])
-    inverse = _inverse(second / first, third / second)
-    even, steep = (
-        over(inverse[..., row, 0] * of_sum + inverse[..., row, 1] * of_squares) / over(total)
-        for row, total in enumerate((first, second))
-    )
-    return np.where(pressure > 0, signs - even - steep * part, 0.0)
-
-
-def _sums(fields: Arrays) -> Arrays:
-    return [np.sum(field, CELLS) for field in fields]
-
-
-def _inverse(one: Array, other: Array) -> Array:
-    """Return the inverse of [[1, 1], [one, other]] at each position."""
-    ones = np.ones_like(one)
-    matrix: Array = np.stack([np.stack([ones, ones], -1), np.stack([one, other], -1)], -2)
-    return np.asarray(np.linalg.pinv(matrix, rcond=1e-9), dtype=np.float64)

@@ -21,7 +21,6 @@ from tribo_inverse.increment.response import (
     Response,
     aside,
     back,
-    central,
     shared,
 )
 from tribo_inverse.increment.stages import RateStage, Stages
@@ -149,7 +148,12 @@ class Sloping(Stages):
         if self.shares_load:
             return shared(rates, self.pressure)
         told = self.told(stage.passed)
-        responses = central(lambda told: self.rates(stage.states, stage.passed, told), told)
+        responses = aside(
+            lambda told: self.rates(stage.states, stage.passed, told),
+            stage.rates,
+            told,
+            ASIDE * told,
+        )
         if not self.loads_change:
             return responses
         # Along the increment pressures are told in proportion to the load.
