@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 from tribo import Array, Box
 from tribo.kernel_api import (
     CELLS,
-    Memory,
     Model,
     first_memory,
     over,
@@ -22,7 +21,7 @@ from tribo_inverse.adjoint.parameters import Chain
 from tribo_inverse.adjoint.view import Seeds
 from tribo_inverse.increment.across import held
 from tribo_inverse.increment.carriers import carriers_between, carriers_of
-from tribo_inverse.increment.increment import Before, Increment, increment
+from tribo_inverse.increment.increment import Before, Increment, States, increment
 from tribo_inverse.recording.local import watched
 from tribo_inverse.recording.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
 
@@ -106,13 +105,13 @@ class Backwards:
         self.height = {name: np.zeros(shape) for name, shape in own.items()}
         self.wear_rate = {name: np.zeros(own[name]) for name in model.laws.wear}
         self.between = carriers_between(model, self.carriers)
-        self.states = Memory(
-            {
-                name: {key: np.zeros(own[name]) for key in law.own_state}
-                for name, law in model.laws.wear.items()
-            },
-            {key: np.zeros_like(first) for key, first in first_memory(model).items()},
-        )
+        self.states: States = {
+            (name, key): np.zeros(own[name])
+            for name, law in model.laws.wear.items()
+            for key in law.own_state
+        }
+        for key, first in first_memory(model).items():
+            self.states[None, key] = np.zeros_like(first)
         self.plastic = {
             name: np.zeros(cells if self.carriers[name].weights is not None else own[name])
             for name, share in model.contact.plastic_share.items()
@@ -154,10 +153,9 @@ class Backwards:
             self._solve(record, looked, yielded, None)
             return
         part = increment(self.model, self.carriers, self.touched, record, slid)
-        if not slid.ahead:
-            self._solve(record, looked, yielded, part)
-        before = part.back(self.worn_before, self.states)
-        if slid.ahead:
+        before = None if slid.ahead else self._solve(record, looked, yielded, part)
+        if before is None:
+            before = part.back(self.worn_before, self.states)
             self.pressure = looked + over(self.shares) * before.pressure
         self._wear(slid, part, before)
 
@@ -167,10 +165,11 @@ class Backwards:
         looked: Array,
         yielded: Sequence[int],
         part: Increment | None,
-    ) -> None:
+    ) -> Before | None:
         """Carry the adjoint through one implicit contact solve, after its increment.
 
-        `looked` are the derivatives of the objective in its pressures.
+        `looked` are the derivatives of the objective in its pressures. Return the derivatives in
+        the inputs of the increment.
         """
         model, window = self.model, record.in_window(record.pressure, self.model.grid.cells)
         touching = np.any(window > 0, axis=0)
@@ -192,26 +191,27 @@ class Backwards:
         wear = None if part is None or whole else partial(self._of_wear, part, box)
         system = StepSystem(operator, box, self.shares, bodies, free, wear)
 
-        def given() -> Array:
-            found = looked / weights
-            if part is not None:
-                found = found + part.back(self.worn_before, self.states).pressure
-            return found[here]
+        def given() -> tuple[Before | None, Array]:
+            before = part.back(self.worn_before, self.states) if part else None
+            by_wear = before.pressure if before else 0.0
+            return before, (looked / weights + by_wear)[here]
 
-        z = system.solve(given(), fixed, self.start[here])
+        z = system.solve(given()[1], fixed, self.start[here])
         self.start = np.zeros_like(self.start)
         self.start[here] = z
         stiff = operator.apply(z)
         y = over(self.shares) * z
         self._shift(y, box)
         self.stiffness += float(np.sum(over(self.shares) * stiff * pressure))
-        left = given() - stiff
+        before, left = given()
+        left = left - stiff
         mean = np.sum(left * free, CELLS) / np.maximum(free.sum(CELLS), 1)
         self.cap += float(np.sum(over(self.shares) * (left - over(mean)) * full))
         by_load = self.shares * mean / model.grid.cell_area
         for at, chain in enumerate(self.chains):
             self.sums[at] += chain.by_load(record, by_load)
             self.sums[at] -= chain.by_spread(touching, y, pressure)
+        return before
 
     def _wear(self, slid: Slid, part: Increment, before: Before) -> None:
         """Carry the adjoint through the wear of a step under given contacts."""
@@ -221,42 +221,39 @@ class Backwards:
         for name, factor in before.factor.items():
             self.wear_rate[name] += factor
             self.worn_before[name] = before.wear[name]
-        self.states = before.states
+        self.states = dict(before.states)
 
     def _of_wear(self, increment: Increment, box: Box, z: Array) -> Array:
         """Return the contribution of wear and filling to the adjoint of K."""
-        y = over(self.shares) * z
-        wear = {name: self.carriers[name].gathered(y, box) for name in self.model.laws.wear}
-        zeros = [np.zeros_like(value) for value in self.states.values]
-        states = self._filled(self.states.with_values(iter(zeros)), y, box)
-        found: Array = increment.back(wear, states).pressure[(slice(None), *box.slices)]
+        wear, states = self._by_gaps(over(self.shares) * z, box)
+        filled = {of: -values for of, values in states.items()}
+        found: Array = increment.back(wear, filled).pressure[(slice(None), *box.slices)]
         return found
 
-    def _filled(self, states: Memory, y: Array, box: Box) -> Memory:
-        """Return derivatives in the states, including their effect as filling of the gap."""
-        for name, key in self.model.laws.filling:
-            carrier = self.between[key] if name is None else self.carriers[name]
-            of = states.between if name is None else states.laws[name]
-            new = {**of, key: of[key] - carrier.gathered(y, box)}
-            states = (
-                replace(states, between=new)
-                if name is None
-                else replace(states, laws={**states.laws, name: new})
-            )
-        return states
+    def _by_gaps(self, y: Array, box: Box) -> tuple[Mapping[str, Array], States]:
+        """Return derivatives in surfaces and in states that fill gaps, from those in gaps."""
+        filling = {
+            (name, key): self.between[key] if name is None else self.carriers[name]
+            for name, key in self.model.laws.filling
+        }
+        return (
+            {name: carrier.gathered(y, box) for name, carrier in self.carriers.items()},
+            {of: carrier.gathered(y, box) for of, carrier in filling.items()},
+        )
 
     def _shift(self, y: Array, box: Box) -> None:
         """Add the derivatives in the gaps of a contact solve."""
-        for name, carrier in self.carriers.items():
-            taken = carrier.gathered(y, box)
+        wear, states = self._by_gaps(y, box)
+        for name, taken in wear.items():
             self.worn_before[name] = self.worn_before[name] - taken
             self.height[name] = self.height[name] + taken
-            if name in self.plastic and carrier.weights is None:
+            if name in self.plastic and self.carriers[name].weights is None:
                 self.plastic[name] = self.plastic[name] - taken
             elif name in self.plastic:
                 self.plastic[name][box.slices] -= np.sum(y, axis=0)
         self.gap[:, *box.slices] -= y
-        self.states = self._filled(self.states, -y, box)
+        for of, values in states.items():
+            self.states[of] = self.states[of] + values
 
     def _gave(self, record: Pressed, places: Sequence[int]) -> Array:
         """Return the derivative in the overlap at each position, shape (positions, nx, ny)."""

@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 from tribo import Array, CaseError, Mask, Material, Operator, TriboError
-from tribo.kernel_api import Interval, Memory, Model, assemble
+from tribo.kernel_api import Interval, Model, assemble
 
 from tribo_inverse.adjoint.numbers import ANY, changed
 from tribo_inverse.adjoint.view import Seeds
 from tribo_inverse.increment.breaks import unreached
 from tribo_inverse.increment.carriers import Carrier, carriers_of
-from tribo_inverse.increment.increment import Other
+from tribo_inverse.increment.increment import Other, States
 from tribo_inverse.increment.response import ASIDE
 from tribo_inverse.recording.local import OF_CONTACT, OF_MOTION, localised
 from tribo_inverse.recording.tape import Pressed, Slid
@@ -160,7 +160,7 @@ class Chain:
         gap: Array,
         stiffness: float,
         cap: float,
-        states: Memory,
+        states: States,
     ) -> float:
         """Return the part through shapes, moduli, the hardness and first states."""
         total = 0.0
@@ -173,11 +173,13 @@ class Chain:
                 through -= stiffness * np.log(softness(model) / softness(self.base))
             if model.contact.system.cap is not None:
                 through += cap * model.contact.system.cap
-            for name, law in model.laws.wear.items():
-                for key, first in law.own_state.items():
-                    through += first * float(np.sum(states.laws[name][key]))
-            for key, (effect, field) in model.laws.between.items():
-                through += effect.initial_state[field.name] * float(np.sum(states.between[key]))
+            for (name, key), by in states.items():
+                if name is None:
+                    effect, field = model.laws.between[key]
+                    first = effect.initial_state[field.name]
+                else:
+                    first = model.laws.wear[name].own_state[key]
+                through += first * float(np.sum(by))
             total += each.weight * through
         return total
 

@@ -10,13 +10,11 @@ import numpy as np
 from tribo import WORN_DEPTH, Array, Box
 from tribo.kernel_api import (
     CELLS,
-    Memory,
     Model,
     Part,
     Stretch,
     Values,
     over,
-    own,
     retraced,
     transposed,
     whole,
@@ -29,6 +27,10 @@ from tribo_inverse.increment.response import Arrays, Field
 from tribo_inverse.increment.slopes import Slopes, Sloping
 from tribo_inverse.increment.stages import RateStage
 from tribo_inverse.recording.tape import Pressed, Slid
+
+Place = tuple[str | None, str]
+"""A state: the body whose law has it, None for effects, and its key."""
+States = dict[Place, Array]
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,7 @@ class Before:
     by_cell: Array
     pressure: Array
     wear: Mapping[str, Array]
-    states: Memory
+    states: States
     factor: Mapping[str, Array]
     rates: Sequence[Seeded]
     breaks: Mapping[int, Array]
@@ -83,14 +85,6 @@ class Increment:
 
     stages: Sloping
 
-    def back(self, wear: Mapping[str, Array], states: Memory) -> Before:
-        """Return derivatives before it from derivatives in the depths and states after."""
-        increment, laws = self.stages, self.stages.slid.before.laws
-        # The depth worn at the end of the increment counts as wear alone.
-        of_laws = [states.laws[name].get(key, 0.0) for name, of in laws.items() for key in of]
-        depths = [wear[name] for name in increment.model.laws.wear]
-        return self._back(depths, [*of_laws, *states.between.values()], wear)
-
     @cached_property
     def is_pointwise(self) -> bool:
         """Whether a point's depth depends on the pressures of its own cells and the load alone.
@@ -119,12 +113,10 @@ class Increment:
             each = zip(increment.own, start.by_pressure, strict=False)
             steep = [(of, length * of.part(increment.box) * by.own) for of, by in each]
             return [(of, self._in_window(by)) for of, by in steep]
-        found = []
-        for at, carrier in enumerate(increment.own):
-            seeds: list[Field] = [0.0] * len(increment.own)
-            seeds[at] = np.ones((carrier.rows, increment.box.window[1]))
-            found.append((carrier, self._back(seeds, [0.0] * len(increment.kept), {}).by_cell))
-        return found
+        return [
+            (of, self.back({name: np.ones((of.rows, increment.box.window[1]))}, {}).by_cell)
+            for name, of in zip(increment.model.laws.wear, increment.own, strict=True)
+        ]
 
     def through(self, found: Before, other: Other) -> float:
         """Return the change of the objective with an increment of another model."""
@@ -189,11 +181,14 @@ class Increment:
         used = {id(rates) for part in done for rates in part.stages}
         return done, {at: increment.sloped(asked[at][1]) for at in used}
 
-    def _back(
-        self, depth: Sequence[Field], after: Sequence[Field], wear: Mapping[str, Array]
-    ) -> Before:
+    def back(self, wear: Mapping[str, Array], states: States) -> Before:
         """Return derivatives before it from derivatives in the depths and states after."""
-        increment = self.stages
+        increment, memory = self.stages, self.stages.slid.before
+        own = [(name, key) for name, of in memory.laws.items() for key in of]
+        places: list[Place] = [*own, *((None, key) for key in memory.between)]
+        # The depth worn at the end of the increment counts as wear alone.
+        after: list[Field] = [states.get(of, 0.0) for of in places]
+        depth: list[Field] = [wear.get(name, 0.0) for name in increment.model.laws.wear]
         total: list[Field] = [0.0] * (3 + len(depth))
         seeded, count = list[Seeded](), len(after)
         parts, slopes = self._retraced
@@ -209,17 +204,17 @@ class Increment:
         earlier, breaks = transposed(parts, after, sums, behind)
         pressure, load, square, *factors = total
         load = _summed(load) + _summed(square) * increment.pressure
-        before = increment.slid.before.with_values(map(np.asarray, earlier))
+        before = dict(zip(places, map(np.asarray, earlier), strict=True))
         through = {
-            name: wear[name] + of[WORN_DEPTH.name]
-            for name, of in before.laws.items()
-            if wear and WORN_DEPTH.name in of
+            name: wear.get(name, 0.0) + before.pop((name, key))
+            for name, key in own
+            if key == WORN_DEPTH.name
         }
         return Before(
             self._in_window(pressure),
             self._in_window(pressure + load),
             {**wear, **through},
-            replace(before, laws={name: own(of) for name, of in before.laws.items()}),
+            before,
             dict(zip(increment.model.laws.wear, map(np.asarray, factors), strict=True)),
             seeded,
             breaks,
