@@ -19,7 +19,7 @@ TOLERANCE = 1e-8
 ALIKE = 1e-9
 """Relative difference below which slopes are alike, which are differences of rates."""
 MOST, RESTART = 400, 60
-"""Iterations after which the method gives up, and after which GMRES restarts."""
+"""Iterations after which GMRES gives up, and after which it restarts."""
 
 
 @dataclass(frozen=True)
@@ -99,8 +99,7 @@ class StepSystem:
         # A uniform right side is balanced by μ alone, but for rounding.
         scale = max(_norm(given * self.free), _norm((given - left) * self.free))
         if scale > 0 and _norm(residual) > TOLERANCE * scale:
-            method = self._conjugate if self.is_symmetric else _minimal
-            z = z + method(applied, preconditioned, residual, TOLERANCE * scale)
+            z = z + _minimal(applied, preconditioned, residual, TOLERANCE * scale)
         return z
 
     @property
@@ -143,18 +142,6 @@ class StepSystem:
             for field in fields
         )
 
-    @property
-    def is_symmetric(self) -> bool:
-        """Whether A is symmetric in the product Σ ωₘ zₘᵀ qₘ."""
-        if self.wear is not None:
-            return False
-        for carrier, slope in self.bodies:
-            local = carrier.weights is None and len(self.shares) == 1
-            inside = slope[self.free]
-            if not local and inside.size and np.ptp(inside) > ALIKE * np.max(np.abs(inside)):
-                return False
-        return True
-
     def _symbols(self) -> tuple[Array, Array | None]:
         """Return eigenvalues of the preconditioner, and the addition to their inverse for the mean.
 
@@ -175,29 +162,6 @@ class StepSystem:
             return symbol + stays, None
         return symbol, 1 / (symbol + stays) - 1 / symbol
 
-    def _conjugate(
-        self, applied: Map, preconditioned: Map, residual: Array, tolerance: float
-    ) -> Array:
-        """Solve by conjugate gradients."""
-
-        def dot(a: Array, b: Array) -> float:
-            return float(np.sum(self.shares * np.sum(a * b, axis=CELLS)))
-
-        found = np.zeros_like(residual)
-        direction, before = np.zeros_like(residual), 1.0
-        for _ in range(MOST):
-            z = preconditioned(residual)
-            now = dot(residual, z)
-            direction = z + (now / before) * direction
-            response = applied(direction)
-            length = now / dot(direction, response)
-            found += length * direction
-            residual = residual - length * response
-            before = now
-            if _norm(residual) <= tolerance:
-                return found
-        raise _unsolved(residual, tolerance)
-
 
 def _minimal(applied: Map, preconditioned: Map, residual: Array, tolerance: float) -> Array:
     """Solve by GMRES with restarts."""
@@ -210,19 +174,21 @@ def _minimal(applied: Map, preconditioned: Map, residual: Array, tolerance: floa
             moved.append(preconditioned(basis[k]))
             ahead = applied(moved[k])
             for i, each in enumerate(basis):
-                upper[i, k] = float(np.sum(each * ahead))
+                upper[i, k] = np.einsum("mxy,mxy->", each, ahead)
                 ahead -= upper[i, k] * each
             upper[k + 1, k] = _norm(ahead)
             target = np.zeros(k + 2)
             target[0] = size
             parts, *_ = np.linalg.lstsq(upper[: k + 2, : k + 1], target)
             missed = target - np.sum(upper[: k + 2, : k + 1] * parts, axis=1)
-            if _norm(missed) <= 0.5 * tolerance or upper[k + 1, k] == 0:
+            if upper[k + 1, k] == 0:
                 break
             basis.append(ahead / upper[k + 1, k])
-        change = sum(part * each for part, each in zip(parts, moved, strict=True))
-        found += change
-        residual = residual - applied(change)
+            if _norm(missed) <= 0.5 * tolerance:
+                break
+        found += sum(part * each for part, each in zip(parts, moved, strict=True))
+        pairs = zip(missed, basis, strict=False)
+        residual = np.zeros_like(found) + sum(part * each for part, each in pairs)
         if _norm(residual) <= tolerance:
             return found
     raise _unsolved(residual, tolerance)
