@@ -23,7 +23,7 @@ from tribo_inverse.increment.across import held
 from tribo_inverse.increment.carriers import carriers_between, carriers_of
 from tribo_inverse.increment.increment import Before, Increment, States, increment
 from tribo_inverse.recording.local import watched
-from tribo_inverse.recording.tape import Enveloped, Gave, Pressed, Saved, Slid, Tape
+from tribo_inverse.recording.tape import Enveloped, Gave, Pressed, Saved, Tape
 
 JUST = 1e-9
 """Part of the largest pressure, or of the hardness, within which a cell just touches or yields."""
@@ -157,7 +157,7 @@ class Backwards:
         if before is None:
             before = part.back(self.worn_before, self.states)
             self.pressure = looked + over(self.shares) * before.pressure
-        self._wear(slid, part, before)
+        self._wear(part, before)
 
     def _solve(
         self,
@@ -213,11 +213,10 @@ class Backwards:
             self.sums[at] -= chain.by_spread(touching, y, pressure)
         return before
 
-    def _wear(self, slid: Slid, part: Increment, before: Before) -> None:
+    def _wear(self, part: Increment, before: Before) -> None:
         """Carry the adjoint through the wear of a step under given contacts."""
         for at, chain in enumerate(self.chains):
-            for weight, other in chain.by_wear(slid, self.seen, self.carriers):
-                self.sums[at] += weight * part.through(before, other)
+            self.sums[at] += chain.by_wear(part, before, self.seen)
         for name, factor in before.factor.items():
             self.wear_rate[name] += factor
             self.worn_before[name] = before.wear[name]

@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from pydantic import ValidationError
-from tribo import Array, CaseError, Mask, Material, Operator, TriboError
+from tribo import Array, CaseError, Mask, Operator, TriboError
 from tribo.kernel_api import Interval, Model, assemble
 
 from tribo_inverse.adjoint.numbers import ANY, changed
 from tribo_inverse.adjoint.view import Seeds
 from tribo_inverse.increment.breaks import unreached
 from tribo_inverse.increment.carriers import Carrier, carriers_of
-from tribo_inverse.increment.increment import Other, States
+from tribo_inverse.increment.increment import Before, Increment, States
 from tribo_inverse.increment.response import ASIDE
 from tribo_inverse.recording.local import OF_CONTACT, OF_MOTION, localised
-from tribo_inverse.recording.tape import Pressed, Slid
+from tribo_inverse.recording.tape import Pressed
 
-LAW = "law"
-"""Marks a number that enters a law or an effect itself."""
+OF_LAW = frozenset({"wear", "layers", "effects", "friction"})
+"""Keys of a case whose numbers enter a law or an effect itself."""
 MOVES = "it moves the positions of the cycle by whole cells"
 TURNS = (
     "has no derivative: the motion turns where it would be taken, at speed 0; "
@@ -72,8 +72,8 @@ class Chain:
     """The derivatives in the number at a path of a case, by differences of models.
 
     The weighted sum over `variants` is the derivative; `base` is the model of the case itself, and
-    `stops` are its stops. `wears` has what changes the wear under given contacts: the laws and
-    effects themselves (`LAW`), or the named inputs of these. `spreads` is whether K changes its
+    `stops` are its stops. `wears` has what changes the wear under given contacts: keys of the
+    numbers, some `OF_LAW`, or inputs of laws and effects. `spreads` is whether K changes its
     shape too, and not only its size.
     """
 
@@ -131,29 +131,29 @@ class Chain:
             if self.spreads
         )
 
-    def by_wear(
-        self, slid: Slid, seen: Set[str], carriers: Mapping[str, Carrier]
-    ) -> Iterator[tuple[float, Other]]:
-        """Yield the changed increments of a step under given contacts, with their weights.
+    def by_wear(self, part: Increment, before: Before, seen: Set[str]) -> float:
+        """Return the part through an increment under given contacts.
 
-        `seen` has the inputs that laws and effects read, and `carriers` the carriers of the case.
+        `before` has the derivatives in its inputs, and `seen` the inputs that laws and effects
+        read.
         """
         # Rates that the number does not enter need not be evaluated again.
-        asks = not self.wears.isdisjoint({LAW, *seen})
+        asks, total = not self.wears.isdisjoint(OF_LAW | seen), 0.0
+        own, carriers = part.stages.slid.interval, part.stages.carriers
         # Points that slide further wear more, whatever their law looks at.
         for each in self.variants if asks or self.wears & OF_MOTION else ():
             if each.stops is self.stops:
-                # In a one-sided difference, the case itself.
                 continue
-            own = slid.interval
             begun, ended = (self._then(each, time) for time in (own.time, own.end_time))
             began, end = (
                 float(np.interp(place, self.stops.distances, each.stops.distances))
                 for place in (own.distance, own.end.distance)
             )
             slides = 0.0 if own.rests else end - began
-            then = replace(slid, interval=Interval(begun, began, ended, slides))
-            yield each.weight, Other(each.model, each.carriers or carriers, then, asks)
+            then = Interval(begun, began, ended, slides)
+            moved = each.carriers or carriers
+            total += each.weight * part.through(before, each.model, moved, then, asks=asks)
+        return total
 
     def by_rest(
         self,
@@ -230,7 +230,7 @@ def chain(
             for model, (_, weight) in zip(models, scheme, strict=True)
         ]
         other = next(model for model in models if model is not base)
-        wears, spreads = _wears(base, other), _spreads(base, other)
+        wears, spreads = _wears(base, other, places), _spreads(base, other)
         return Chain(path, value, variants, base, own, wears, spreads)
     why = error.errors()[0]["msg"] if isinstance(error, ValidationError) else str(error)
     for place in (path, *(".".join(map(str, place)) for place in places)):
@@ -283,7 +283,7 @@ def of_length(model: Model, end: float) -> Chain:
         for by in (1, -1)
     ]
     own = Stops.at(model, [*before, end])
-    return Chain("stop.depth", end, variants, model, own, frozenset({LAW}), False)
+    return Chain("stop.depth", end, variants, model, own, OF_LAW, False)
 
 
 def _varied(
@@ -318,32 +318,23 @@ def _varied(
     return model
 
 
-def _wears(base: Model, model: Model) -> frozenset[str]:
-    """Return what changes the wear under given contacts: `LAW`, or inputs of laws and effects."""
+def _wears(base: Model, model: Model, places: Sequence[Sequence[Any]]) -> frozenset[str]:
+    """Return what changes the wear under given contacts: see `Chain`."""
     one, other, laws = base.case, model.case, model.laws
     same = np.array_equal(Stops.of(base).times, Stops.of(model).times)
     moves = one.kinematics != other.kinematics or not same
-    bodies = [(was, other.bodies[name]) for name, was in one.bodies.items()]
+    wears = {str(key) for place in places for key in place}
+    wears |= {
+        name
+        for name in OF_CONTACT
+        if getattr(base.contact.system, name) != getattr(model.contact.system, name)
+    }
     # What is remembered follows a load that changes in a step.
     keeps = laws.between or any(law.initial_state for law in laws.wear.values())
-    if (
-        (one.friction, one.effects) != (other.friction, other.effects)
-        or any((was.wear, was.layers) != (now.wear, now.layers) for was, now in bodies)
-        or (keeps and one.load != other.load and not isinstance(one.load.normal, float))
-        or (moves and any(position.reach is not None for position in model.cycle))
-    ):
-        return frozenset({LAW})
-    pairs: list[tuple[Any, Any, Iterable[str]]] = [
-        (base.contact.system, model.contact.system, OF_CONTACT),
-        *((was.material, now.material, Material.model_fields) for was, now in bodies),
-    ]
-    changed = {
-        name
-        for was, now, names in pairs
-        for name in names
-        if getattr(was, name) != getattr(now, name)
-    }
-    return frozenset(changed | (OF_MOTION if moves else set()))
+    follows = keeps and one.load != other.load and not isinstance(one.load.normal, float)
+    if follows or (moves and any(position.reach is not None for position in model.cycle)):
+        wears |= OF_LAW
+    return frozenset(wears | OF_MOTION if moves else wears)
 
 
 def _check_smooth(higher: Model, base: Model, lower: Model, path: str) -> None:

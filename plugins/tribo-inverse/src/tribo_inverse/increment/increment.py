@@ -10,6 +10,7 @@ import numpy as np
 from tribo import WORN_DEPTH, Array, Box
 from tribo.kernel_api import (
     CELLS,
+    Interval,
     Model,
     Part,
     Stretch,
@@ -67,19 +68,6 @@ class Before:
 
 
 @dataclass(frozen=True)
-class Other:
-    """An increment under the same contacts, of a model with another number.
-
-    Whether it `asks` for the rates again, since they may differ.
-    """
-
-    model: Model
-    carriers: Mapping[str, Carrier]
-    slid: Slid
-    asks: bool
-
-
-@dataclass(frozen=True)
 class Increment:
     """An increment of the wearing bodies of a model, and the rates at its stages."""
 
@@ -118,24 +106,35 @@ class Increment:
             for name, of in zip(increment.model.laws.wear, increment.own, strict=True)
         ]
 
-    def through(self, found: Before, other: Other) -> float:
-        """Return the change of the objective with an increment of another model."""
+    def through(
+        self,
+        found: Before,
+        model: Model,
+        carriers: Mapping[str, Carrier],
+        interval: Interval,
+        *,
+        asks: bool,
+    ) -> float:
+        """Return the change of the objective with the increment of a model with another number.
+
+        It has the same contacts. Whether it `asks` for the rates again, since they may differ.
+        """
         increment = self.stages
         own = increment.slid
-        total = (other.slid.interval.length / own.interval.length - 1) * found.by_length
+        total = (interval.length / own.interval.length - 1) * found.by_length
         for at, by in found.breaks.items():
-            deeper = moved_breaks(other.model, increment.model, own.before, at)
+            deeper = moved_breaks(model, increment.model, own.before, at)
             total += sum(float(np.sum(of)) * far for of, far in zip(by, deeper, strict=True))
         # Rates depend on the length where loads change along it.
-        asks = other.asks or increment.loads_change
-        moves = other.carriers is not increment.carriers
+        asks = asks or increment.loads_change
+        moves = carriers is not increment.carriers
         if not (asks or moves):
             return total
         others = replace(
             increment,
-            model=with_breaks(other.model, increment.model),
-            carriers=other.carriers,
-            slid=replace(other.slid, before=own.before),
+            model=with_breaks(model, increment.model),
+            carriers=carriers,
+            slid=replace(own, interval=interval),
         )
         shares = over(increment.shares)
         for each in found.rates:
