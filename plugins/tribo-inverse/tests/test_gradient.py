@@ -30,6 +30,7 @@ from tribo.contact.periodic import Periodic
 from tribo.contact.winkler import Winkler
 from tribo.core.grid import Grid
 from tribo.motion.closed_track import Rotating, Unidirectional
+from tribo.motion.planar import Planar
 from tribo.stepping.explicit import Explicit
 from tribo.stepping.implicit import Implicit
 from tribo.surfaces.forms import Cylinder
@@ -83,6 +84,7 @@ class Brisk(Archard):
         return times(np.sqrt(1e9 * local.speed / local.material.hardness), super().rate(local))
 
 
+CIRCLE = {"path": "circle", "extent": (1e-4, 1e-4), "speed": 0.02, "revolutions": 9000}
 KINDS = {
     "average": kind(Deepest("disk"), [*BASE, *SHAPE, "kinematics.stroke"], 1e-4),
     "pressure": kind(Pressure(2e-5, 0), [*BASE, *SHAPE], 1e-4),
@@ -155,6 +157,13 @@ KINDS = {
         bodies=pair(FRESH, SMOOTH),
         stepping=LONG,
         save_times=(2.0,),
+    ),
+    "around a circle": kind(
+        Depth("disk", x=1e-4),
+        [*SHAPE, "load.normal", "kinematics.speed"],
+        grid=MIDDLE,
+        kinematics=Planar(**CIRCLE, positions="cells"),
+        stepping=few(cycle_tolerance=1e-12),
     ),
     "ends at a depth, positions, yields": kind(
         end_distance,

@@ -15,7 +15,6 @@ from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.effects.effect import Effect
-from tribo.motion.planar import Planar
 from tribo.motion.reciprocating import Reciprocating
 from tribo.simulation import march
 from tribo.simulation.positions import composed
@@ -56,7 +55,6 @@ EVENLY = {"load": {"normal": STAGES}, "save_times": (9.0,)}
 HARD_PAIR = pair(archard(), archard(), ("2 GPa", "2 GPa"))
 COATING = Layer(thickness="1 um", wear=archard(), hardness="1 GPa")
 COATED = [("ball", HARD_PAIR[0][1].model_copy(update={"layers": (COATING,)})), HARD_PAIR[1]]
-ACROSS = {"path": "circle", "extent": (1e-4, 1e-4), "speed": 0.02, "revolutions": 9}
 REFUSED = {
     "contact.tolerance: is a number of the numerics": ({}, ["contact.tolerance"]),
     "grid.size.1: is a number of the numerics": ({}, ["grid.size.1"]),
@@ -75,10 +73,6 @@ REFUSED = {
     "load.normal.2.until: has .*: a change of it separates events that coincide at 9 s": (
         EVENLY,
         ["load.normal.2.until"],
-    ),
-    "disk moves across as well as along x": (
-        {"kinematics": Planar(**ACROSS, positions="cells")},
-        [],
     ),
     r"observers\.1: .*far enough": ({"observers": [Ends()]}, []),
 }

@@ -100,7 +100,7 @@ class Backwards:
         cells, positions = model.grid.cells, len(model.cycle)
         self.shares = np.array([position.share for position in model.cycle])
         self.carriers = carriers_of(model)
-        own = {name: (carrier.rows, cells[1]) for name, carrier in self.carriers.items()}
+        own = {name: carrier.shape for name, carrier in self.carriers.items()}
         self.worn_before = {name: np.zeros(shape) for name, shape in own.items()}
         self.height = {name: np.zeros(shape) for name, shape in own.items()}
         self.wear_rate = {name: np.zeros(own[name]) for name in model.laws.wear}

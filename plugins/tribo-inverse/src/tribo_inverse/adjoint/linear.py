@@ -111,7 +111,7 @@ class StepSystem:
         # The middle position mirrors itself.
         shares[-1] *= 0.5
         bodies = [
-            (replace(carrier, starts=carrier.starts[: self._half]), slope[: self._half])
+            (replace(carrier, cells=carrier.cells[: self._half]), slope[: self._half])
             for carrier, slope in self.bodies
         ]
         return replace(
@@ -130,9 +130,10 @@ class StepSystem:
         ):
             return False
         for carrier, _ in self.bodies:
-            rest = carrier.rows - self.box.window[0]
-            pairs = zip(carrier.starts, reversed(carrier.starts), strict=True)
-            if carrier.weights is None and any((a + b - rest) % carrier.rows for a, b in pairs):
+            rows = carrier.shape[0]
+            pairs = zip(carrier.cells, reversed(carrier.cells), strict=True)
+            off = ((a + b - rows + self.box.window[0]) % rows or c - d for (a, c), (b, d) in pairs)
+            if carrier.weights is None and any(off):
                 return False
         # Laws are asked in a region around the contact that need not mirror itself.
         pressed = [given * self.free, *(slope * self.free for _, slope in self.bodies)]
@@ -151,7 +152,8 @@ class StepSystem:
         for carrier, slope in self.bodies:
             inside = slope[self.free]
             mean = max(float(np.mean(inside)), 0.0) if inside.size else 0.0
-            passed = max(carrier.starts) - min(carrier.starts)
+            starts = [row for row, _ in carrier.cells]
+            passed = max(starts) - min(starts)
             if carrier.weights is not None:
                 symbol[0] += mean * self.box.shape[0]
             elif passed:

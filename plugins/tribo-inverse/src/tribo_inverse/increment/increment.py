@@ -102,7 +102,7 @@ class Increment:
             steep = [(of, length * of.part(increment.box) * by.own) for of, by in each]
             return [(of, self._in_window(by)) for of, by in steep]
         return [
-            (of, self.back({name: np.ones((of.rows, increment.box.window[1]))}, {}).by_cell)
+            (of, self.back({name: np.ones(of.shape)}, {}).by_cell)
             for name, of in zip(increment.model.laws.wear, increment.own, strict=True)
         ]
 

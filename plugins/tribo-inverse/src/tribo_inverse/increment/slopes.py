@@ -192,7 +192,7 @@ class Sloping(Stages):
                 changed = localised(self.model, {name: factor})
                 return self.rates(stage.states, stage.passed, model=changed)
 
-            ones = np.ones((carrier.rows, self.model.grid.cells[1]))
+            ones = np.ones(carrier.shape)
             seen = self._seen_by(carrier)
             of_bodies.append(aside(rates, stage.rates, ones, ASIDE * ones, seen))
         return of_bodies
