@@ -31,29 +31,21 @@ JUST = 1e-9
 
 @dataclass(frozen=True)
 class Derivatives:
-    """The derivatives of an objective: in each parameter, and by body at each cell of its surface.
+    """The derivatives of an objective: in each parameter, and by kind and body on its surface.
 
-    These are in a factor on its `wear_rate`, in its `height` outward and in the depth
-    `worn_before`.
+    The kinds are a factor on its `wear_rate`, its `height` outward and the depth `worn_before`.
     """
 
     parameters: Array
-    wear_rate: Mapping[str, Array]
-    height: Mapping[str, Array]
-    worn_before: Mapping[str, Array]
+    maps: Mapping[str, Mapping[str, Array]]
 
     def plus(self, by: float, other: Derivatives) -> Derivatives:
         """Return the derivatives of this objective plus `by` times another."""
-
-        def both(maps: Mapping[str, Array], others: Mapping[str, Array]) -> Mapping[str, Array]:
-            return {name: each + by * others[name] for name, each in maps.items()}
-
-        return Derivatives(
-            self.parameters + by * other.parameters,
-            both(self.wear_rate, other.wear_rate),
-            both(self.height, other.height),
-            both(self.worn_before, other.worn_before),
-        )
+        maps = {
+            kind: {name: each + by * other.maps[kind][name] for name, each in of_bodies.items()}
+            for kind, of_bodies in self.maps.items()
+        }
+        return Derivatives(self.parameters + by * other.parameters, maps)
 
 
 def swept_back(
@@ -83,7 +75,8 @@ def swept_back(
             back.spread_out(record)
         else:
             back.press(record)
-    return Derivatives(back.parameters, back.wear_rate, back.height, back.worn_before)
+    kinds = ("wear_rate", "height", "worn_before")
+    return Derivatives(back.parameters, {kind: vars(back)[kind] for kind in kinds})
 
 
 class Backwards:

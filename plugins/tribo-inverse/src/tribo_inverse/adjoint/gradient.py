@@ -195,9 +195,7 @@ def _differentiated(
         parameters[each.path] = float(through + direct)
     scaled = {each.path: parameters[each.path] * each.value for each in chains}
     relative = {path: each / total if total else float("nan") for path, each in scaled.items()}
-    return Gradient(
-        total, parameters, relative, found.wear_rate, found.height, found.worn_before, refused
-    )
+    return Gradient(total, parameters, relative, **found.maps, refused=refused)
 
 
 def covered(model: Model) -> Model:

@@ -274,6 +274,6 @@ class _Posterior:
                 seeds = self.seeds(np.where(np.isnan(self.depth), 0.0, change))
                 found = swept_back(model, tape, {time: seeds}, [])
                 self.tell(math.nan)
-                return self.adjoint(found.wear_rate[self.body].ravel())
+                return self.adjoint(found.maps["wear_rate"][self.body].ravel())
 
             return eigenpairs(product, self.depth.size, products)
