@@ -14,7 +14,7 @@ from tribo.kernel_api import Interval, Model, assemble
 
 from tribo_inverse.adjoint.numbers import ANY, changed
 from tribo_inverse.adjoint.view import Seeds
-from tribo_inverse.increment.breaks import unreached
+from tribo_inverse.increment.breaks import check_breaks, unreached
 from tribo_inverse.increment.carriers import Carrier, carriers_of
 from tribo_inverse.increment.increment import Before, Increment, States
 from tribo_inverse.increment.response import ASIDE
@@ -293,7 +293,9 @@ def _varied(
     case = base.case
     for place in places:
         case = changed(case, place, number)
-    model = unreached(localised(assemble(case), factors), base)
+    model = localised(assemble(case), factors)
+    check_breaks(model, base)
+    model = unreached(model, base)
     if not base.laws.effects:
         # Effects of the motion too: no law depends on them.
         model = replace(model, laws=replace(model.laws, effects=()))

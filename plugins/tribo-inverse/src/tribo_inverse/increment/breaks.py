@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from tribo import WORN_DEPTH, Array, CaseError, LocalConditions, WearRate
-from tribo.kernel_api import DEPTH_ACCURACY, GuardedLaw, Memory, Model, kept_in
+from tribo import WORN_DEPTH, CaseError, LocalConditions, WearRate
+from tribo.kernel_api import DEPTH_ACCURACY, GuardedLaw, Model
 
 
 class SidedLaw(GuardedLaw):
@@ -34,42 +34,31 @@ class SidedLaw(GuardedLaw):
         return self._law.rate(replace(local, state={**local.state, WORN_DEPTH.name: told}))
 
 
-def moved_breaks(model: Model, base: Model, before: Memory, state: int) -> Array:
-    """Return by how much higher the breaks of a state, by number, are in a model.
-
-    Raises
-    ------
-    CaseError
-        If breaks of a state other than the depth worn move.
-    """
-    own, other = (kept_in(each, before)[state] for each in (base, model))
-    moved = np.subtract(other.breaks, own.breaks)
-    if own.name != WORN_DEPTH.name and np.any(moved):
+def check_breaks(model: Model, base: Model) -> None:
+    """Refuse a model that moves breaks of a state other than the bottoms of layers."""
+    moved = [
+        f"{law}"
+        for name, law in model.laws.wear.items()
+        for field, own in zip(law.state_fields, base.laws.wear[name].state_fields, strict=True)
+        if field.breaks != own.breaks and (law.follows_depth or field.name != WORN_DEPTH.name)
+    ]
+    moved += [
+        f"{effect}"
+        for key, (effect, field) in model.laws.between.items()
+        if field.breaks != base.laws.between[key][1].breaks
+    ]
+    if moved:
         raise CaseError(
-            f"moves the breaks of {own}; a gradient follows breaks of layers alone",
-            f"bodies.{body}.wear" if (body := before.bodies[state]) else "effects",
+            f"it moves where the rate of {moved[0]} jumps; a gradient follows jumps at layers "
+            "alone, of laws that do not depend on the depth"
         )
-    return moved
 
 
 def with_breaks(model: Model, base: Model) -> Model:
-    """Return a model whose laws jump at the breaks of the base.
-
-    Raises
-    ------
-    CaseError
-        If a number moves the breaks of a law that also depends on the depth between them.
-    """
+    """Return a model whose laws jump at the breaks of the base."""
     laws = dict(model.laws.wear)
     for name, law in laws.items():
-        breaks = base.laws.wear[name].breaks
-        if law.breaks != breaks:
-            if law.follows_depth:
-                raise CaseError(
-                    f"moves the depths at which the rate of {law} jumps; a gradient follows jumps "
-                    "at layers alone, of laws that do not depend on the depth",
-                    f"bodies.{name}.wear",
-                )
+        if law.breaks != (breaks := base.laws.wear[name].breaks):
             laws[name] = SidedLaw(law, breaks)
     return model.with_laws(laws)
 

@@ -15,6 +15,7 @@ from tribo.kernel_api import (
     Part,
     Stretch,
     Values,
+    kept_in,
     over,
     retraced,
     transposed,
@@ -22,7 +23,7 @@ from tribo.kernel_api import (
 )
 
 from tribo_inverse.increment.across import held_effects
-from tribo_inverse.increment.breaks import moved_breaks, with_breaks
+from tribo_inverse.increment.breaks import with_breaks
 from tribo_inverse.increment.carriers import Carrier
 from tribo_inverse.increment.response import Arrays, Field
 from tribo_inverse.increment.slopes import Slopes, Sloping
@@ -123,7 +124,8 @@ class Increment:
         own = increment.slid
         total = (interval.length / own.interval.length - 1) * found.by_length
         for at, by in found.breaks.items():
-            deeper = moved_breaks(model, increment.model, own.before, at)
+            was, now = (kept_in(each, own.before)[at].breaks for each in (increment.model, model))
+            deeper = np.subtract(now, was)
             total += sum(float(np.sum(of)) * far for of, far in zip(by, deeper, strict=True))
         # Rates depend on the length where loads change along it.
         asks = asks or increment.loads_change
