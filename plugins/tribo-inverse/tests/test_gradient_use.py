@@ -256,7 +256,7 @@ def test_a_depth_that_is_worn_off_before_the_run_is_refused(tmp_path):
     parts = {"grid": Grid(("0.5 mm", "0.5 mm"), (24, 24)), "kinematics": motion(duration=10)}
     run(**parts).run(tmp_path / "first")
     stops = run(**parts, begin=tmp_path / "first", stop=Stop(depth="0.2 um"))
-    with pytest.raises(CaseError, match=r"stop\.depth: is reached before the run begins"):
+    with pytest.raises(CaseError, match=r"stop\.depth: a depth ends the run at 0 s"):
         gradient(stops, EndTime(), [])
 
 

@@ -142,8 +142,6 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
                 each.place,
             )
     missing = [time for time in looked_at if time not in states]
-    if missing and state.time == 0:
-        raise CaseError("is reached before the run begins; give a larger depth", "stop.depth")
     if missing and state.time < missing[0] <= model.end_time:
         raise CaseError(
             f"a depth ends the run at {state.time:g} s, before the time {missing[0]:g} s of an "
