@@ -18,8 +18,8 @@ TOLERANCE = 1e-8
 """Residual of a system, relative to its right side, as for the contacts of a run."""
 ALIKE = 1e-9
 """Relative difference below which slopes are alike, which are differences of rates."""
-MOST, RESTART = 400, 60
-"""Iterations after which GMRES gives up, and after which it restarts."""
+MOST = 400
+"""Iterations after which GMRES gives up."""
 
 
 @dataclass(frozen=True)
@@ -166,34 +166,30 @@ class StepSystem:
 
 
 def _minimal(applied: Map, preconditioned: Map, residual: Array, tolerance: float) -> Array:
-    """Solve by GMRES with restarts."""
-    found = np.zeros_like(residual)
-    for _ in range(MOST // RESTART):
-        size = _norm(residual)
-        basis, moved = [residual / size], []
-        upper = np.zeros((RESTART + 1, RESTART))
-        for k in range(RESTART):
-            moved.append(preconditioned(basis[k]))
-            ahead = applied(moved[k])
-            for i, each in enumerate(basis):
-                upper[i, k] = np.einsum("mxy,mxy->", each, ahead)
-                ahead -= upper[i, k] * each
-            upper[k + 1, k] = _norm(ahead)
-            target = np.zeros(k + 2)
-            target[0] = size
-            parts, *_ = np.linalg.lstsq(upper[: k + 2, : k + 1], target)
-            missed = target - np.sum(upper[: k + 2, : k + 1] * parts, axis=1)
-            if upper[k + 1, k] == 0:
-                break
-            basis.append(ahead / upper[k + 1, k])
-            if _norm(missed) <= 0.5 * tolerance:
-                break
-        found += sum(part * each for part, each in zip(parts, moved, strict=True))
-        pairs = zip(missed, basis, strict=False)
-        residual = np.zeros_like(found) + sum(part * each for part, each in pairs)
-        if _norm(residual) <= tolerance:
-            return found
-    raise _unsolved(residual, tolerance)
+    """Solve by GMRES."""
+    size = left = _norm(residual)
+    basis, moved = [residual / size], list[Array]()
+    upper = np.zeros((MOST + 1, MOST))
+    for k in range(MOST):
+        moved.append(preconditioned(basis[k]))
+        ahead = applied(moved[k])
+        for i, each in enumerate(basis):
+            upper[i, k] = np.einsum("mxy,mxy->", each, ahead)
+            ahead -= upper[i, k] * each
+        upper[k + 1, k] = _norm(ahead)
+        target = np.zeros(k + 2)
+        target[0] = size
+        parts, *_ = np.linalg.lstsq(upper[: k + 2, : k + 1], target)
+        left = _norm(target - np.sum(upper[: k + 2, : k + 1] * parts, axis=1))
+        if left <= 0.5 * tolerance:
+            return np.asarray(sum(part * each for part, each in zip(parts, moved, strict=True)))
+        if upper[k + 1, k] == 0:
+            break
+        basis.append(ahead / upper[k + 1, k])
+    raise NumericalError(
+        f"the gradient of a step did not converge: its residual is {left:.1e}, wanted "
+        f"{tolerance:.1e}"
+    )
 
 
 def _both(values: Array) -> Array:
@@ -204,10 +200,3 @@ def _both(values: Array) -> Array:
 
 def _norm(values: Array) -> float:
     return float(np.sqrt(np.sum(values * values)))
-
-
-def _unsolved(residual: Array, tolerance: float) -> NumericalError:
-    return NumericalError(
-        f"the gradient of a step did not converge: its residual is {_norm(residual):.1e}, wanted "
-        f"{tolerance:.1e}"
-    )

@@ -293,12 +293,11 @@ def _varied(
     case = base.case
     for place in places:
         case = changed(case, place, number)
-    model = localised(assemble(case), factors)
-    check_breaks(model, base)
-    model = unreached(model, base)
+    model = unreached(localised(assemble(case), factors), base)
     if not base.laws.effects:
         # Effects of the motion too: no law depends on them.
         model = replace(model, laws=replace(model.laws, effects=()))
+    check_breaks(model, base)
     ways, others = (
         [(e.rows, [*map(e.first_cell, range(len(each.cycle)))]) for e in each.cycle.maps.values()]
         for each in (base, model)
