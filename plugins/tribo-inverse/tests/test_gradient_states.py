@@ -1,5 +1,6 @@
 """The gradient of a run whose laws keep a state, or whose bodies have layers."""
 
+import numpy as np
 import pytest
 from gradients import (
     CLOSE,
@@ -21,6 +22,7 @@ from gradients import (
     run,
 )
 from paper_models import Faster, K, archard, motion, pair
+from tribo import WearLaw, WearRate
 from tribo.contact.winkler import Winkler
 from tribo.wear.running_in import RunningIn
 
@@ -34,6 +36,16 @@ FLEETING = SMOOTH.model_copy(update={"law": archard(4 * K), "depth": 5e-9})
 """Of which a cell, in a step of many parts, would lose many times the roughness there is."""
 OF_BALL = ["bodies.ball.layers.1.thickness", "bodies.ball.layers.1.wear.law.k"]
 OF_LAYER = ["bodies.disk.layers.1.thickness", "bodies.disk.layers.1.wear.over"]
+
+
+class Stiff(WearLaw):
+    """A wear law that reads Young's modulus of the material that wears."""
+
+    type = "stiff"
+
+    def rate(self, local):
+        k = K * local.material.young / 2e11
+        return WearRate(k * local.pressure, np.full_like(local.pressure, k))
 
 
 def exact(objective, paths, part=1e-5, **changes):
@@ -52,6 +64,11 @@ KINDS = {
         load=RAMP[:2],
         kinematics=motion(duration=5),
         bodies=pair(OF_SPEED),
+    ),
+    "layers, reads its material below": exact(
+        Depth("disk"),
+        ["bodies.disk.material.young"],
+        bodies=layered(None, ("0.01 um", archard()), archard(), Stiff()),
     ),
     "layers, remembers": exact(
         Depth("disk"),

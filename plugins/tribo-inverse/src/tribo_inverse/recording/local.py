@@ -70,6 +70,9 @@ class WatchedLaw(GuardedLaw):
     def __init__(self, law: GuardedLaw, seen: set[str]) -> None:
         vars(self).update(vars(law))
         self._law, self._seen = law, seen
+        if law.bottoms:
+            # The law of each layer gets a material of its own.
+            seen.update(Material.model_fields)
 
     def rate(self, local: LocalConditions) -> WearRate:
         """Return the law's rate."""
