@@ -56,11 +56,12 @@ def check_breaks(model: Model, base: Model) -> None:
 
 def with_breaks(model: Model, base: Model) -> Model:
     """Return a model whose laws jump at the breaks of the base."""
-    laws = dict(model.laws.wear)
-    for name, law in laws.items():
-        if law.breaks != (breaks := base.laws.wear[name].breaks):
-            laws[name] = SidedLaw(law, breaks)
-    return model.with_laws(laws)
+    laws = {
+        name: SidedLaw(law, base.laws.wear[name].breaks)
+        for name, law in model.laws.wear.items()
+        if law.breaks != base.laws.wear[name].breaks
+    }
+    return model.with_laws({**model.laws.wear, **laws}) if laws else model
 
 
 def unreached(model: Model, base: Model) -> Model:

@@ -31,7 +31,7 @@ class Carrier:
             row = np.sum(parts, axis=(0, 1))
             own[0, self._columns(box)] = row if self.shape[1] > 1 else np.sum(row)
             return own
-        for part, place in zip(parts, self._places(box), strict=True):
+        for part, place in zip(parts, self._places(own, box), strict=True):
             own[place] += part
         return own
 
@@ -41,8 +41,8 @@ class Carrier:
         if self.weights is not None:
             return np.broadcast_to(own[:, self._columns(box)], shape)
         if len({*self.cells}) == 1:
-            return np.broadcast_to(own[next(self._places(box))], shape)
-        return np.stack([own[place] for place in self._places(box)])
+            return np.broadcast_to(own[next(self._places(own, box))], shape)
+        return np.stack([own[place] for place in self._places(own, box)])
 
     def part(self, box: Box) -> Array | float:
         """Return the weight of each cell of a box in the mean rate of its point."""
@@ -51,11 +51,11 @@ class Carrier:
     def _columns(self, box: Box) -> slice:
         return box.slices[1] if self.shape[1] > 1 else slice(None)
 
-    def _places(self, box: Box) -> Iterator[Any]:
+    def _places(self, own: Array, box: Box) -> Iterator[Any]:
         """Return the part of the points that lies in a box, at each position."""
         row, column = box.first
         for at, across in self.cells:
-            yield region(np.broadcast_to(0.0, self.shape), (at + row, across + column), box.shape)
+            yield region(own, (at + row, across + column), box.shape)
 
 
 def carriers_between(model: Model, of_bodies: Mapping[str, Carrier]) -> dict[str, Carrier]:
