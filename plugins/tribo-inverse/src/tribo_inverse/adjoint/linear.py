@@ -19,7 +19,7 @@ TOLERANCE = 1e-8
 ALIKE = 1e-9
 """Relative difference below which slopes are alike, which are differences of rates."""
 MOST = 400
-"""Iterations after which GMRES gives up."""
+"""Iterations after which the method gives up."""
 
 
 @dataclass(frozen=True)
@@ -166,28 +166,27 @@ class StepSystem:
 
 
 def _minimal(applied: Map, preconditioned: Map, residual: Array, tolerance: float) -> Array:
-    """Solve by GMRES."""
-    size = left = _norm(residual)
-    basis, moved = [residual / size], list[Array]()
-    upper = np.zeros((MOST + 1, MOST))
-    for k in range(MOST):
-        moved.append(preconditioned(basis[k]))
-        ahead = applied(moved[k])
-        for i, each in enumerate(basis):
-            upper[i, k] = np.einsum("mxy,mxy->", each, ahead)
-            ahead -= upper[i, k] * each
-        upper[k + 1, k] = _norm(ahead)
-        target = np.zeros(k + 2)
-        target[0] = size
-        parts, *_ = np.linalg.lstsq(upper[: k + 2, : k + 1], target)
-        left = _norm(target - np.sum(upper[: k + 2, : k + 1] * parts, axis=1))
-        if left <= 0.5 * tolerance:
-            return np.asarray(sum(part * each for part, each in zip(parts, moved, strict=True)))
-        if upper[k + 1, k] == 0:
+    """Solve by generalised conjugate residuals: the iterates of GMRES."""
+    found, basis = np.zeros_like(residual), list[tuple[Array, Array]]()
+    for _ in range(MOST):
+        direction = preconditioned(residual)
+        response = applied(direction)
+        for before, answer in basis:
+            part = np.einsum("mxy,mxy->", answer, response)
+            direction -= part * before
+            response -= part * answer
+        size = _norm(response)
+        if size == 0:
             break
-        basis.append(ahead / upper[k + 1, k])
+        direction, response = direction / size, response / size
+        basis.append((direction, response))
+        step = np.einsum("mxy,mxy->", response, residual)
+        found += step * direction
+        residual = residual - step * response
+        if _norm(residual) <= tolerance:
+            return found
     raise NumericalError(
-        f"the gradient of a step did not converge: its residual is {left:.1e}, wanted "
+        f"the gradient of a step did not converge: its residual is {_norm(residual):.1e}, wanted "
         f"{tolerance:.1e}"
     )
 
