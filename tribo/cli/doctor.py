@@ -20,6 +20,7 @@ def doctor(as_json: bool) -> None:
     Example:
       tribo doctor
     """
+    from tribo.core.compiled import compiled
     from tribo.core.errors import NumericalError
     from tribo.registry.all_plugins import try_out
     from tribo.registry.plugins import installed
@@ -28,7 +29,8 @@ def doctor(as_json: bool) -> None:
     records = installed()
     try_out(records)
     found: dict[str, Any] = {**environment(), "plugins": [record.facts for record in records]}
-    lines = []
+    fast = compiled()
+    lines = [fast.check()] if fast else []
     for record in records:
         name = f"plugin {record} ({record.facts['entry_point']})"
         reason = f"{record.status}: {record.reason}".rstrip(": ")

@@ -9,12 +9,13 @@ from tribo.contact.operator import Operator, WornOperator
 from tribo.contact.projection import CELLS, balance, limits, over, project
 from tribo.contact.residuals import check_bearable, check_finite, dots, judged
 from tribo.core.arrays import Array, Mask
+from tribo.core.compiled import compiled
 from tribo.core.contact import ContactSolution, CycleCompliance, Residuals, WearCompliance
 from tribo.core.errors import NumericalError
 
-# Where the minimum along a step onto a bound lies beyond this part of the step, all of it is
-# taken; that lowers the energy if the part is more than 1/2.
-_NEAR_ENOUGH = 0.75
+NEAR_ENOUGH = 0.75
+"""Where the minimum along a step onto a bound lies beyond this part of the step, all of it is
+taken; that lowers the energy if the part is more than 1/2."""
 
 
 def solve_bounded(
@@ -120,7 +121,9 @@ def solve_together(
     total = np.asarray(load / cell_area)
     shares = compliance.shares if isinstance(compliance, CycleCompliance) else None
 
-    iterate = _Iterate(operator, gap, total, limit, start, shares)
+    fast = compiled()
+    iterates = fast.iterates(operator, gap.size) if fast else None
+    iterate: Iterate = (iterates or Iterate)(operator, gap, total, limit, start, shares)
     for iteration in range(max_iterations + 1):
         reached = iterate.judge()
         worst = max(each.worst for each in reached)
@@ -137,7 +140,7 @@ def solve_together(
     )
 
 
-class _Iterate:
+class Iterate:
     """A feasible pressure, its displacement, and the memory of the iteration."""
 
     def __init__(
@@ -166,7 +169,7 @@ class _Iterate:
         self.rate = 1.0 / float(self.symbol.max())
         self.lengthen = False
 
-    def dot(self, a: Array, b: Array) -> float:
+    def _dot(self, a: Array, b: Array) -> float:
         return float((self.shares * dots(a, b)).sum())
 
     def judge(self) -> list[Residuals]:
@@ -194,15 +197,15 @@ class _Iterate:
         modes /= self.symbol
         z = scipy.fft.irfft2(modes, s=residual.shape[-2:], overwrite_x=True)
         z = _centred(z, face, share, z)
-        decrease = self.dot(residual, z)
+        decrease = self._dot(residual, z)
         # Polak and Ribière's formula forgets by itself when the face changes. The direction before
         # is lost here, and forgotten unless this step is taken.
-        beta = max(0.0, (decrease - self.dot(z, self.gradient)) / self.decrease)
+        beta = max(0.0, (decrease - self._dot(z, self.gradient)) / self.decrease)
         self.decrease = np.inf
         direction = _centred(self.direction, face, share, self.direction)
         direction *= beta
         direction -= z
-        if self.dot(residual, direction) >= 0:
+        if self._dot(residual, direction) >= 0:
             np.negative(z, out=direction)
         # Not `ahead` less the pressure, of which little but rounding may be left.
         change = np.multiply(direction, self.length, out=self.change)
@@ -216,11 +219,11 @@ class _Iterate:
                 face[meets_bound],
             )
             change[meets_bound] = ahead[meets_bound] - self.pressure[meets_bound]
-        slope = self.dot(change, g)
+        slope = self._dot(change, g)
         if slope >= 0:
             return False
         response = self.operator.apply(change)
-        curvature = self.dot(change, response)
+        curvature = self._dot(change, response)
         if curvature <= 0:
             return False
         self.residual, self.gradient, self.decrease = self.gradient, residual, decrease
@@ -228,7 +231,7 @@ class _Iterate:
         self.length *= min(max(part, 0.5), 2.0)
         change *= part
         moved = np.add(self.pressure, change, out=self.moved)
-        if (meets_bound.any() and part >= _NEAR_ENOUGH) or self._leaves(moved).any():
+        if (meets_bound.any() and part >= NEAR_ENOUGH) or self._leaves(moved).any():
             # `ahead` lies within the bounds, and cells that meet one leave the face there.
             part, moved, self.ahead = 1.0, ahead, moved
         self.moved, self.pressure = self.pressure, balance(moved, self.total, self.limit)
@@ -248,15 +251,16 @@ class _Iterate:
         self.pressure = project(moved, self.total, self.limit, everywhere)
         self.displacement = self.operator.apply(self.pressure)
         change, response = self.pressure - before, self.displacement - displaced
-        curvature = self.dot(change, response)
+        curvature = self._dot(change, response)
         if curvature > 0:
-            long = self.dot(change, change) / curvature
-            short = curvature / self.dot(response, response)
+            long = self._dot(change, change) / curvature
+            short = curvature / self._dot(response, response)
             # Alternating the two keeps the steps from settling into a cycle.
             self.rate = long if self.lengthen else short
             self.lengthen = not self.lengthen
 
     def solutions(self, iterations: int, reached: list[Residuals]) -> list[ContactSolution]:
+        """Return the solution at each position."""
         overlap = np.where(self.full, np.maximum(-self.deformed, 0.0), 0.0)
         places = np.ndindex(self.gap.shape[:-2])
         return [

@@ -57,17 +57,17 @@ class HalfSpace:
         self.shape = shape
         self.spacing = spacing
         self.modulus = modulus
-        self._padded = tuple(scipy.fft.next_fast_len(2 * n - 1, real=True) for n in shape)
-        whole = self._padded[0], self._padded[1]
+        rows, columns = (scipy.fft.next_fast_len(2 * n - 1, real=True) for n in shape)
+        self.padded = whole = rows, columns
         kernel = wrapped_kernel(whole, spacing)
         # An even kernel has a real spectrum.
-        self._spectrum = scipy.fft.rfft2(kernel).real / modulus
+        self.spectrum = scipy.fft.rfft2(kernel).real / modulus
         (nx, ny), twice = shape, (2 * shape[0], 2 * shape[1])
         near = kernel if whole == twice else wrapped_kernel(twice, spacing)
         # On the box with its nearest images, each counted once.
         periodic = scipy.fft.rfft2(near.reshape(2, nx, 2, ny).sum(axis=(0, 2))).real
         if coatings:
-            self._spectrum += scipy.fft.rfft2(base_kernel(whole, spacing, coatings)).real
+            self.spectrum += scipy.fft.rfft2(base_kernel(whole, spacing, coatings)).real
             near = base_kernel(twice, spacing, coatings).reshape(2, nx, 2, ny)
             periodic += modulus * scipy.fft.rfft2(near.sum(axis=(0, 2))).real
         # The spectrum of a kernel that is cut off oscillates, and could become negative; the
@@ -75,7 +75,7 @@ class HalfSpace:
         self._symbol = np.maximum(periodic, 0.5 * nyquist_compliance(spacing)) / modulus
         # Kept, since new memory costs as much as the transforms; a thread takes one and returns it.
         self._buffers: list[NDArray[np.complex128]] = []
-        modes = self._padded[0] * (self._padded[1] // 2 + 1)
+        modes = self.padded[0] * (self.padded[1] // 2 + 1)
         self._at_once = max(1, _CACHED // modes)
 
     def apply(self, pressure: Array) -> Array:
@@ -95,14 +95,14 @@ class HalfSpace:
         return np.concatenate([self._apply(pressure[k : k + self._at_once]) for k in several])
 
     def _apply(self, pressure: Array) -> Array:
-        (nx, ny), length = self.shape, self._padded[1]
+        (nx, ny), length = self.shape, self.padded[1]
         buffer = self._take_buffer()
         modes = buffer[: len(pressure)]
         # Axis by axis, so that rows of padding are neither transformed nor kept.
         modes[:, :nx] = scipy.fft.rfft(pressure, length, axis=2)
         modes[:, nx:] = 0
         product = scipy.fft.fft(modes, axis=1, overwrite_x=True)
-        product *= self._spectrum
+        product *= self.spectrum
         product = scipy.fft.ifft(product, axis=1, overwrite_x=True)
         displacement: Array = scipy.fft.irfft(product[:, :nx], length, axis=2)[:, :, :ny]
         self._buffers.append(buffer)
@@ -112,7 +112,7 @@ class HalfSpace:
         try:
             return self._buffers.pop()
         except IndexError:
-            shape = (self._at_once, self._padded[0], self._padded[1] // 2 + 1)
+            shape = (self._at_once, self.padded[0], self.padded[1] // 2 + 1)
             return np.empty(shape, dtype=np.complex128)
 
     def symbol(self) -> Array:

@@ -32,26 +32,26 @@ class PeriodicHalfSpace:
         modulus: float,
         coatings: tuple[Coating, ...] = (),
     ) -> None:
-        self.shape = shape
+        self.shape = self.padded = shape
         self.spacing = spacing
         along = np.fft.fftfreq(shape[0], spacing[0])[:, None]
         across = np.fft.rfftfreq(shape[1], spacing[1])
         wavenumber = 2 * np.pi * np.hypot(along, across)
         wavenumber[0, 0] = np.inf
-        self._spectrum = 2.0 / (modulus * wavenumber)
+        self.spectrum = 2.0 / (modulus * wavenumber)
         finite = np.where(np.isinf(wavenumber), 0.0, wavenumber)
         for coating in coatings:
-            self._spectrum += 2.0 * coating.influence(finite) / (coating.modulus * wavenumber)
+            self.spectrum += 2.0 * coating.influence(finite) / (coating.modulus * wavenumber)
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement under `pressure`; see `Operator.apply`."""
         modes = scipy.fft.rfft2(pressure)
-        modes *= self._spectrum
+        modes *= self.spectrum
         return np.asarray(scipy.fft.irfft2(modes, s=self.shape, overwrite_x=True))
 
     def symbol(self) -> Array:
         """Return the eigenvalues, with the largest in place of the mean's, which is 0."""
-        symbol: Array = self._spectrum.copy()
+        symbol: Array = self.spectrum.copy()
         # A window of one cell has no modes but the mean.
         symbol[0, 0] = np.max(symbol) or 1.0
         return symbol

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from tribo.component import Component
+from tribo.core.compiled import compiled
 from tribo.core.distributions import entry_points
 
 _IDENTITY = ("class", "distribution", "version", "code", "facts")
@@ -35,10 +36,12 @@ def provenance(
 @cache
 def environment() -> Mapping[str, object]:
     """Return the versions of Python, the platform and the packages that matter."""
+    fast = compiled()
+    packages = {name: metadata.version(name) for name in PACKAGES}
     return {
         "python": platform.python_version(),
         "platform": platform.platform(),
-        "packages": {name: metadata.version(name) for name in PACKAGES},
+        "packages": packages | (fast.versions() if fast else {}),
     }
 
 
