@@ -15,6 +15,10 @@ from tribo.config.overrides import apply_settings as apply_settings
 from tribo.config.overrides import leaves as leaves
 from tribo.config.overrides import parse_value as parse_value
 from tribo.config.overrides import path_keys as path_keys
+from tribo.contact.bounded_cg import NEAR_ENOUGH as NEAR_ENOUGH
+from tribo.contact.bounded_cg import Iterate as Iterate
+from tribo.contact.operator import WornOperator as WornOperator
+from tribo.contact.periodic import PeriodicHalfSpace as PeriodicHalfSpace
 from tribo.contact.projection import CELLS as CELLS
 from tribo.contact.projection import over as over
 from tribo.contact.residuals import check_bearable as check_bearable
@@ -32,6 +36,7 @@ from tribo.core.errors import OutOfWindow as OutOfWindow
 from tribo.core.errors import about as about
 from tribo.core.errors import located as located
 from tribo.core.errors import unknown_body as unknown_body
+from tribo.core.errors import warn as warn
 from tribo.core.explain import case_error as case_error
 from tribo.core.fields import PLACE_X as PLACE_X
 from tribo.core.fields import PLACE_Y as PLACE_Y

@@ -1,0 +1,92 @@
+"""Contact solves of tribo in compiled code."""
+
+from __future__ import annotations
+
+import os
+import sys
+from contextlib import suppress
+from functools import cache
+from importlib import metadata
+from threading import Timer
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tribo import Operator
+
+    from tribo_fast.iterate import CompiledIterate
+
+_PACKAGES = ("tribo-fast", "numba", "rocket-fft")
+FEWEST = 1 << 15
+"""Cells of all positions from which on a solve is compiled: a run of smaller solves gains less than
+the 0.4 s that loading the compiled code takes."""
+_PATIENCE = 2.0
+"""Seconds after which a line states what takes so long: loading takes less, compiling more."""
+
+
+def iterates(operator: Operator, cells: int) -> type[CompiledIterate] | None:
+    """Return what iterates in compiled code on so many cells; None where NumPy does."""
+    if cells < FEWEST or _off():
+        return None
+    module, reason = _loaded()
+    if module is None:
+        _warn_once(reason)
+        return None
+    return module.CompiledIterate if module.serves(operator) else None
+
+
+def versions() -> dict[str, str]:
+    """Return the versions that a result states, of what is installed and takes part."""
+    found: dict[str, str] = {}
+    for name in () if _off() else _PACKAGES:
+        with suppress(metadata.PackageNotFoundError):
+            found[name] = metadata.version(name)
+    return found
+
+
+def check() -> tuple[str, bool, str]:
+    """Return a line of `tribo doctor`: whether compiled code loads, and its error beside NumPy."""
+    import numpy as np
+    from tribo import HalfSpace
+
+    name = "compiled contact solves"
+    if _off():
+        return name, True, "turned off by TRIBO_FAST=0"
+    module, reason = _loaded()
+    if module is None:
+        return name, False, reason
+    steel = HalfSpace(shape=(24, 20), spacing=(1e-5, 1e-5), modulus=115e9)
+    pressure = np.random.default_rng(0).random((2, 24, 20))
+    known = steel.apply(pressure)
+    answer = module.CompiledOperator(steel, module.Threads(1, 2)).apply(pressure)
+    error = float(np.max(np.abs(answer - known)) / np.max(known))
+    return name, error < 1e-12, f"off by {error:.0e}"
+
+
+def _off() -> bool:
+    return os.environ.get("TRIBO_FAST") == "0"
+
+
+@cache
+def _loaded() -> tuple[Any, str]:
+    """Return the compiled iteration, and why there is none if there is none."""
+    words = "tribo-fast compiles its code for this processor, once; that takes about 10 s"
+    waiting = Timer(_PATIENCE, lambda: print(words, file=sys.stderr, flush=True))
+    waiting.start()
+    try:
+        from tribo_fast import iterate
+    except Exception as error:  # Whatever a compiler stack raises that is not whole.
+        first, *_ = str(error).splitlines() or [""]
+        return None, f"{type(error).__name__}: {first}"
+    finally:
+        waiting.cancel()
+    return iterate, ""
+
+
+@cache
+def _warn_once(reason: str) -> None:
+    from tribo.kernel_api import warn
+
+    warn(
+        f"tribo-fast is installed but does not load: {reason}; contact solves use NumPy. Reinstall "
+        "numba and rocket-fft, or turn tribo-fast off by TRIBO_FAST=0"
+    )

@@ -1,0 +1,110 @@
+"""When compiled code is used, what says so, and what happens where it does not load."""
+
+import os
+import subprocess
+import sys
+from importlib import metadata
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tribo import CaseError, HalfSpace, solve_bounded
+from tribo.kernel_api import PeriodicHalfSpace, WornOperator
+
+import tribo_fast
+from tribo_fast.iterate import CompiledIterate
+
+ROOT = Path(__file__).parents[3]
+SHAPE, SPACING = (16, 12), (1e-5, 1e-5)
+SOLVE = """
+import sys, warnings
+import numpy as np
+import tribo
+grid = tribo.Grid("0.4 mm", 256)
+gap = -tribo.Sphere(radius="5 mm").height(grid)
+steel = tribo.HalfSpace(grid.cells, grid.spacing, modulus=115e9)
+with warnings.catch_warnings(record=True, category=tribo.TriboWarning) as caught:
+    warnings.simplefilter("always")
+    for load in (5.0, 10.0):
+        contact = tribo.solve_bounded(steel, gap, load)
+sys.stdout.buffer.write(contact.pressure.tobytes())
+print(*(each.message for each in caught), sep="\\n", file=sys.stderr, end="")
+"""
+WITHOUT = "import sys; sys.modules[{!r}] = None\n"
+
+
+def process(script, **variables):
+    done = subprocess.run(
+        [sys.executable, "-c", script], env={**os.environ, **variables}, capture_output=True
+    )
+    assert done.returncode == 0
+    return np.frombuffer(done.stdout), done.stderr.decode()
+
+
+@pytest.mark.parametrize("package", ["numba", "rocket_fft"])
+@pytest.mark.slow
+def test_a_broken_compiler_leaves_solves_to_numpy_with_one_warning(package):
+    known, _ = process(SOLVE, TRIBO_FAST="0")
+    pressure, warned = process(WITHOUT.format(package) + SOLVE)
+    assert (pressure == known).all()
+    assert len(warned.splitlines()) == 1
+    assert package in warned
+
+
+@pytest.mark.slow
+def test_a_large_solve_is_compiled_unless_it_is_turned_off():
+    (known, nothing), (pressure, _) = process(SOLVE, TRIBO_FAST="0"), process(SOLVE)
+    assert nothing == ""
+    assert not (pressure == known).all()
+    assert pressure == pytest.approx(known, rel=0, abs=1e-12 * float(known.max()))
+
+
+def test_it_takes_the_half_spaces_of_the_kernel_and_large_solves_only():
+    class Own(HalfSpace):
+        pass
+
+    for cls in (HalfSpace, PeriodicHalfSpace):
+        operator = cls(SHAPE, SPACING, 1e11)
+        for each in (operator, WornOperator(operator, None)):
+            assert tribo_fast.iterates(each, tribo_fast.FEWEST) is CompiledIterate
+            assert tribo_fast.iterates(each, tribo_fast.FEWEST - 1) is None
+    assert tribo_fast.iterates(Own(SHAPE, SPACING, 1e11), tribo_fast.FEWEST) is None
+
+
+@pytest.mark.parametrize("threads", ["two", "-1", "1.5"])
+def test_threads_are_a_number(threads, monkeypatch):
+    monkeypatch.setenv("TRIBO_FAST", threads)
+    monkeypatch.setattr(tribo_fast, "FEWEST", 0)
+    with pytest.raises(CaseError, match="TRIBO_FAST"):
+        solve_bounded(HalfSpace(SHAPE, SPACING, 1e11), np.zeros(SHAPE), 1.0)
+
+
+def test_doctor_checks_it_against_numpy():
+    _, well, detail = tribo_fast.check()
+    assert well
+    assert detail.startswith("off by")
+
+
+def test_the_provenance_states_what_is_installed_unless_it_is_turned_off(monkeypatch):
+    environment = "from tribo.result.provenance import environment; import sys\n"
+    said = environment + "print(*environment()['packages'], file=sys.stderr)"
+    (_, used), (_, not_used) = process(said), process(said, TRIBO_FAST="0")
+    assert set(used.split()) - set(not_used.split()) == {"tribo-fast", "numba", "rocket-fft"}
+    missing = metadata.PackageNotFoundError
+    monkeypatch.setattr(metadata, "version", lambda name: (_ for _ in ()).throw(missing(name)))
+    assert tribo_fast.versions() == {}
+
+
+@pytest.mark.slow
+def test_the_kernels_tests_of_contact_hold_where_all_solves_are_compiled(tmp_path):
+    (tmp_path / "everywhere.py").write_text("import tribo_fast\ntribo_fast.FEWEST = 0\n")
+    command = [sys.executable, "-m", "pytest", "-q", "-n", "0", "-p", "everywhere"]
+    tests = [ROOT / "tests" / "contact", ROOT / "tests" / "stepping" / "test_resolved.py"]
+    done = subprocess.run(
+        [*command, "-p", "no:cacheprovider", *tests],
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stdout
