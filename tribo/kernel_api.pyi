@@ -69,7 +69,6 @@ from tribo.evolution.rates import Rates as Rates
 from tribo.evolution.rates import rates_at_each as rates_at_each
 from tribo.evolution.states import Memory as Memory
 from tribo.evolution.states import first_memory as first_memory
-from tribo.evolution.states import own as own
 from tribo.evolution.states import place as place
 from tribo.guards.parts import GuardedEffect as GuardedEffect
 from tribo.guards.parts import GuardedLaw as GuardedLaw
