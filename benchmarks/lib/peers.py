@@ -2,20 +2,41 @@
 
 from __future__ import annotations
 
+import atexit
+import json
+import os
+import subprocess
 import warnings
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
+from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 
-from benchmarks.lib.problems import MODULUS, Contact, Verdict, judge
+from benchmarks.lib.common import SLIPPY, cpu_time
+from benchmarks.lib.problems import MODULUS, Contact, Verdict, judge, rough
 from tribo import Array, ContactProblem, ContactSolution, ContactSystem, Grid
 from tribo.registry.registry import default_registry
 
 MOST_ITERATIONS = 20000
+LOOSEST = 1e-4
+
+
+@contextmanager
+def compiled(threads: int) -> Iterator[None]:
+    """Let tribo-fast, where it is installed, use so many threads; with 0 NumPy solves."""
+    before = os.environ.get("TRIBO_FAST", "")
+    os.environ["TRIBO_FAST"] = str(threads)
+    try:
+        yield
+    finally:
+        os.environ["TRIBO_FAST"] = before
 
 
 @dataclass(frozen=True)
@@ -31,10 +52,27 @@ class Package(ABC):
     """A package set up for the window of `contact`, to be asked to `tolerance` of its own."""
 
     name: ClassVar[str]
+    module: ClassVar[str]
+    """What must be installed."""
 
     def __init__(self, contact: Contact, tolerance: float) -> None:
         self.contact = contact
         self.tolerance = tolerance
+
+    @classmethod
+    def present(cls) -> bool:
+        """Whether the package is installed."""
+        return find_spec(cls.module) is not None
+
+    @classmethod
+    def solves(cls, contact: Contact) -> bool:
+        """Whether the package has a solver for such a contact."""
+        return True
+
+    @property
+    def process(self) -> int:
+        """Number of the process that solves."""
+        return os.getpid()
 
     @abstractmethod
     def solve(self, gap: Array, start: Answer | None = None) -> Answer:
@@ -42,9 +80,11 @@ class Package(ABC):
 
 
 class Tribo(Package):
-    """tribo's `dcfft`, or `periodic`."""
+    """tribo's `dcfft`, or `periodic`, with NumPy."""
 
     name = "tribo"
+    module = "tribo"
+    threads: ClassVar[int] = 0
 
     def __init__(self, contact: Contact, tolerance: float) -> None:
         super().__init__(contact, tolerance)
@@ -58,8 +98,86 @@ class Tribo(Package):
     def solve(self, gap: Array, start: Answer | None = None) -> Answer:
         """Return the pressure; see `Package.solve`."""
         problem = ContactProblem(self.system, gap, self.contact.load)
-        found: ContactSolution = self.solver.solve(problem, start and start.raw)
+        with compiled(self.threads):
+            found: ContactSolution = self.solver.solve(problem, start and start.raw)
         return Answer(found.pressure, found.iterations, found)
+
+
+class TriboFast(Tribo):
+    """tribo with tribo-fast, on one thread."""
+
+    name = "tribo, compiled"
+    module = "tribo_fast"
+    threads = 1
+
+    @classmethod
+    @cache
+    def present(cls) -> bool:
+        """Whether tribo-fast is installed; its code is loaded, so that no timed solve loads it."""
+        if not super().present():
+            return False
+        contact = rough(256)
+        cls(contact, LOOSEST).solve(contact.gap)
+        return True
+
+
+class Aspher(Package):
+    """ASPHER on its one grid: Polonsky and Keer with its preconditioner; periodic windows only."""
+
+    name = "ASPHER, flat"
+    module = "aspher"
+
+    def __init__(self, contact: Contact, tolerance: float) -> None:
+        super().__init__(contact, tolerance)
+        self.solver: Any = import_module("aspher").ContactSolver(
+            len(contact.gap), backend="periodic"
+        )
+
+    @classmethod
+    def solves(cls, contact: Contact) -> bool:
+        """Whether the window repeats and pressures have no cap."""
+        return contact.periodic and contact.cap is None
+
+    def solve(self, gap: Array, start: Answer | None = None) -> Answer:
+        """Return the pressure; see `Package.solve`."""
+        found = self.solver.solve(
+            gap / self.contact.width,
+            self.contact.mean_pressure / MODULUS,
+            tol=self.tolerance,
+            max_iter=MOST_ITERATIONS,
+            precond="fourier",
+            p_init=None if start is None else start.pressure / MODULUS,
+        )
+        return _answer_of_aspher(found, gap)
+
+
+class AspherNested(Package):
+    """ASPHER from 64² cells on, doubled up to the window; it cannot start from an answer."""
+
+    name = "ASPHER, nested"
+    module = "aspher"
+
+    @classmethod
+    def solves(cls, contact: Contact) -> bool:
+        """Whether ASPHER does, and the window is 64 times a power of two."""
+        doublings = np.log2(len(contact.gap) / 64)
+        return Aspher.solves(contact) and doublings >= 0 and doublings.is_integer()
+
+    def solve(self, gap: Array, start: Answer | None = None) -> Answer:
+        """Return the pressure; see `Package.solve`."""
+        found = import_module("aspher").solve_nested(
+            grid_size=len(gap),
+            gap=gap / self.contact.width,
+            p_nominal=self.contact.mean_pressure / MODULUS,
+            backend="periodic",
+            tol=self.tolerance,
+        )
+        return _answer_of_aspher(found, gap)
+
+
+def _answer_of_aspher(found: Any, gap: Array) -> Answer:
+    pressure = np.asarray(found.pressure).reshape(gap.shape) * MODULUS
+    return Answer(pressure, int(found.iterations), None)
 
 
 class Tamaas(Package):
@@ -70,6 +188,7 @@ class Tamaas(Package):
     """
 
     name = "tamaas"
+    module = "tamaas"
     side: ClassVar[float] = 8.0
 
     def __init__(self, contact: Contact, tolerance: float) -> None:
@@ -99,7 +218,7 @@ class Tamaas(Package):
         np.multiply(gap, -self.scale, out=self.heights)
         traction = self.model.traction.reshape(gap.shape)
         traction[:] = 0.0 if start is None else start.pressure / MODULUS
-        self.solver.solve(self.contact.load / self.contact.width**2 / MODULUS)
+        self.solver.solve(self.contact.mean_pressure / MODULUS)
         return Answer(np.maximum(traction, 0.0) * MODULUS, None, None)
 
 
@@ -107,6 +226,7 @@ class ContactMechanics(Package):
     """ContactMechanics: Polonsky and Keer."""
 
     name = "ContactMechanics"
+    module = "ContactMechanics"
 
     def __init__(self, contact: Contact, tolerance: float) -> None:
         super().__init__(contact, tolerance)
@@ -145,10 +265,76 @@ class ContactMechanics(Package):
         return Answer(np.asarray(found.jac) / area, int(found.nit), None)
 
 
-def packages(only: str | None = None) -> list[type[Package]]:
-    """Return tribo and the peers that are installed, or those called `only`."""
-    every: tuple[type[Package], ...] = (Tribo, Tamaas, ContactMechanics)
-    return [p for p in every if find_spec(p.name) and only in (None, p.name)]
+class Slippy(Package):
+    """slippy: Polonsky and Keer, in a process of its own, which runs Python 3.9.
+
+    It gets E* = 1 and a window of unit edge: its first pressure has the load for a mean.
+    """
+
+    name = "slippy"
+
+    @classmethod
+    def present(cls) -> bool:
+        """Whether its interpreter is named."""
+        return SLIPPY in os.environ
+
+    @classmethod
+    def solves(cls, contact: Contact) -> bool:
+        """Whether pressures have no cap."""
+        return contact.cap is None
+
+    @property
+    def process(self) -> int:
+        """Number of the process that solves."""
+        return _slippy().pid
+
+    def solve(self, gap: Array, start: Answer | None = None) -> Answer:
+        """Return the pressure; see `Package.solve`."""
+        mean = self.contact.mean_pressure / MODULUS
+        guess = np.ones_like(gap) if start is None else start.pressure
+        request = {
+            "cells": len(gap),
+            "periodic": self.contact.periodic,
+            "mean": mean,
+            "tolerance": self.tolerance,
+            "most": MOST_ITERATIONS,
+        }
+        worker = _slippy()
+        assert worker.stdin is not None
+        assert worker.stdout is not None
+        worker.stdin.write(json.dumps(request).encode() + b"\n")
+        worker.stdin.write((gap / self.contact.width).tobytes() + guess.tobytes())
+        worker.stdin.flush()
+        reply = json.loads(worker.stdout.readline())
+        pressure = np.frombuffer(worker.stdout.read(gap.nbytes)).reshape(gap.shape)
+        cpu_time.elsewhere += reply["seconds"]
+        return Answer(pressure * MODULUS, reply["iterations"], None)
+
+
+@cache
+def _slippy() -> subprocess.Popen[bytes]:
+    """Return the process that solves with slippy; it ends with this one."""
+    script = Path(__file__).with_name("slippy_solves.py")
+    pipe = subprocess.PIPE
+    worker = subprocess.Popen([os.environ[SLIPPY], str(script)], stdin=pipe, stdout=pipe)
+    atexit.register(worker.communicate)
+    return worker
+
+
+EVERY: tuple[type[Package], ...] = (
+    Tribo,
+    TriboFast,
+    AspherNested,
+    Aspher,
+    Tamaas,
+    ContactMechanics,
+    Slippy,
+)
+
+
+def packages(contact: Contact) -> list[type[Package]]:
+    """Return tribo and the peers that are installed and solve such a contact."""
+    return [package for package in EVERY if package.present() and package.solves(contact)]
 
 
 @dataclass(frozen=True)
@@ -187,14 +373,14 @@ def meet(
     before : ndarray, optional
         Gap whose answer to start from; a cold start if left out.
     loosest : float, optional
-        Tolerance to begin with; 16 times the duty if left out.
+        Tolerance to begin with; 1e-4 if left out.
 
     Raises
     ------
     RuntimeError
         If no tolerance serves.
     """
-    tolerance = loosest or 16 * duty
+    tolerance = loosest or LOOSEST
     while tolerance > 1e-3 * duty:
         made = package(contact, tolerance)
         start = None if before is None else made.solve(before)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 import scipy.fft
@@ -52,6 +52,11 @@ class Contact:
     def spacing(self) -> float:
         """Edge of a cell, in m."""
         return self.width / len(self.gap)
+
+    @property
+    def mean_pressure(self) -> float:
+        """Load over the area of the window, in Pa."""
+        return self.load / self.width**2
 
     def worn(self, pressure: Array) -> Contact:
         """Return the contact after wear of `WEAR_STEP` at the reference pressure."""
@@ -102,11 +107,11 @@ def tight(load: float = LOAD) -> float:
     return 4 * hertz(load)[0]
 
 
-def rough(cells: int, *, periodic: bool = False) -> Contact:
-    """Return a self-affine surface pressed to about a tenth of contact.
+def rough(cells: int) -> Contact:
+    """Return a self-affine surface that repeats, pressed to about a twentieth of contact.
 
     Hurst exponent 0.8, wavelengths from a fourth of the window to eight cells,
-    root-mean-square slope 0.1, mean pressure 0.0047 E*.
+    root-mean-square slope 0.1, mean pressure 0.0022 E*.
     """
     wave = np.fft.fftfreq(cells, 1 / cells)
     number = np.hypot(wave[:, None], wave)
@@ -117,9 +122,13 @@ def rough(cells: int, *, periodic: bool = False) -> Contact:
     modes = amplitude * scipy.fft.fft2(noise)
     slope = 2 * np.pi / WINDOW * np.linalg.norm(number * modes) / cells**2
     heights = scipy.fft.ifft2(modes).real * (0.1 / slope)
-    load = 0.0047 * MODULUS * WINDOW**2
+    load = 0.0022 * MODULUS * WINDOW**2
     depth = float(np.std(heights))
-    return Contact(heights.max() - heights, WINDOW, load, depth, 0.05 * MODULUS, periodic=periodic)
+    return Contact(heights.max() - heights, WINDOW, load, depth, 0.05 * MODULUS, periodic=True)
+
+
+BALLS = {"ball, 2 mm": ball, "ball, 4a": partial(ball, width=tight())}
+CONTACTS = {**BALLS, "plastic": partial(ball, load=1000.0, cap=HARDNESS), "rough": rough}
 
 
 def judge(contact: Contact, pressure: Array) -> Verdict:

@@ -17,8 +17,7 @@ from collections.abc import Callable
 from benchmarks.lib.boxes import own_box, padded, round_trip, traced
 from benchmarks.lib.common import Row, Tables, interleaved, main
 from benchmarks.lib.peers import Tribo, meet
-from benchmarks.lib.problems import ball
-from benchmarks.speed.contact_solve import WINDOWS
+from benchmarks.lib.problems import BALLS
 from benchmarks.speed.hour import CASE
 from tribo import Simulation, load_case
 
@@ -33,14 +32,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def measure(options: argparse.Namespace) -> Tables:
     """Return the rows of cold solves, warm solves and the hour."""
     rows = []
-    for window, width in WINDOWS.items():
+    for name, make in BALLS.items():
         for cells in options.cells:
-            contact = ball(cells, width=width)
+            contact = make(cells)
             cold = meet(Tribo, contact, options.duty)
             worn = contact.worn(cold.answer.pressure)
             warm = meet(Tribo, worn, options.duty, before=contact.gap)
-            rows.append(_row(f"cold, {window}", cells, cold.again, options))
-            rows.append(_row(f"warm, {window}", cells, warm.again, options))
+            rows.append(_row(f"cold, {name}", cells, cold.again, options))
+            rows.append(_row(f"warm, {name}", cells, warm.again, options))
     cells = options.hour_cells
     hour = Simulation(load_case(CASE, overrides=[f"grid.cells={cells}"]))
     rows.append(_row("the paper's hour", cells, hour.run, options))

@@ -1,11 +1,8 @@
-"""How iterations, time and memory grow with the cells and with the distance slid.
+"""How iterations and time grow with the cells and with the distance slid.
 
 `exponent` is the slope of a straight line through the logarithms, `steepest`
 that between neighbours. Solves are those of the paper's contact at equal
-complementarity, on the window that `contact_solve.py` describes. Memory is the
-largest resident size (VmHWM, Linux only) of a process of its own, less what it
-had before the solve: in float64 arrays of the window, and in such arrays of the
-window doubled, which is the padded box where the contact fills the window.
+complementarity, in the windows that `contact_solve.py` describes.
 """
 
 from __future__ import annotations
@@ -16,12 +13,10 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from benchmarks.lib.boxes import padded
 from benchmarks.lib.common import Row, Tables, interleaved, main
-from benchmarks.lib.memory import peak_of_run, peak_of_solve
+from benchmarks.lib.memory import peak_of_run
 from benchmarks.lib.peers import Tribo, meet
-from benchmarks.lib.problems import HARDNESS, Contact, ball
-from benchmarks.speed.contact_solve import WINDOWS
+from benchmarks.lib.problems import BALLS, HARDNESS, Contact, ball
 from benchmarks.speed.hour import CASE
 from tribo import HalfSpace, Simulation, load_case, solve_bounded
 
@@ -41,15 +36,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def measure(options: argparse.Namespace) -> Tables:
-    """Return iterations, time and memory against cells, and both against distance."""
+    """Return iterations and time against cells, time and memory against distance."""
     return {
         "Iterations of a cold solve, 2 mm window": [
             _iterations(cells) for cells in options.iteration_cells
         ],
-        "Time of a solve": [row for window in WINDOWS for row in _solve_times(window, options)],
-        "Memory of a cold solve": [
-            _solve_memory(window, cells) for window in WINDOWS for cells in options.cells
-        ],
+        "Time of a solve": [row for name in BALLS for row in _solve_times(name, options)],
         "Sliding distance": [
             _distance("implicit", [], options),
             _distance("explicit", EXPLICIT, options),
@@ -75,10 +67,10 @@ def _plain(contact: Contact) -> int:
     return found.iterations
 
 
-def _solve_times(window: str, options: argparse.Namespace) -> list[Row]:
+def _solve_times(name: str, options: argparse.Namespace) -> list[Row]:
     actions: dict[str, dict[str, Callable[[], object]]] = {"cold": {}, "warm": {}}
     for cells in options.cells:
-        contact = ball(cells, width=WINDOWS[window])
+        contact = BALLS[name](cells)
         cold = meet(Tribo, contact, DUTY)
         warm = meet(Tribo, contact.worn(cold.answer.pressure), DUTY, before=contact.gap)
         actions["cold"][str(cells)] = cold.again
@@ -88,23 +80,12 @@ def _solve_times(window: str, options: argparse.Namespace) -> list[Row]:
         times = interleaved(solves, options.repeats, options.threads)
         rows.append(
             {
-                "solve": f"{start}, {window}",
+                "solve": f"{start}, {name}",
                 "cells": f"{options.cells[0]}² to {options.cells[-1]}²",
                 **_slope([n**2 for n in options.cells], list(times.values())),
             }
         )
     return rows
-
-
-def _solve_memory(window: str, cells: int) -> Row:
-    peak = peak_of_solve(cells, WINDOWS[window], DUTY)
-    nx, ny = padded((cells, cells))
-    return {
-        "window": window,
-        "cells": cells,
-        "arrays_of_window": peak and peak / (8 * cells**2),
-        "arrays_of_doubled_window": peak and peak / (8 * nx * ny),
-    }
 
 
 def _distance(kind: str, settings: list[str], options: argparse.Namespace) -> Row:

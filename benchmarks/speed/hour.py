@@ -1,11 +1,12 @@
 """The paper's hour: tribo's steps against an explicit loop of 0.25 s on each peer.
 
-tribo runs its template `ball_on_disk` at its default tolerances, at loose ones
-(--loose), and explicitly. The loop is Archard's law for both bodies, the disk's
-averaged over the stroke, on each package's contact solver: warm, at the loosest
-tolerance that a judge finds good to --duty in the first contact. Its hour is
-extrapolated: from the state of tribo's default run at each save it takes --steps
-steps, and the time of a step is integrated from save to save.
+tribo runs its template `ball_on_disk` at its default tolerances, with NumPy and
+with tribo-fast; at loose ones (--loose), and explicitly. The loop is Archard's
+law for both bodies, the disk's averaged over the stroke, on each package's
+contact solver: warm, at the loosest tolerance that a judge finds good to --duty
+in the first contact. Its hour is extrapolated: from the state of tribo's default
+run at each save it takes --steps steps, and the time of a step is integrated from
+save to save.
 
 Errors are against reference values good to 0.3 % in the depths and 1 % in the
 pressure at the centre, and the largest over saves and bodies. A loop's are those
@@ -26,12 +27,13 @@ import numpy as np
 import tribo.templates
 from benchmarks.lib.common import Row, Tables, interleaved, main, ratio
 from benchmarks.lib.explicit_loop import Block, blocks, states
-from benchmarks.lib.peers import packages
-from benchmarks.lib.problems import LOAD, WINDOW
+from benchmarks.lib.peers import TriboFast, compiled, packages
+from benchmarks.lib.problems import LOAD, WINDOW, ball
 from tribo import Result, Simulation, load_case
 
 CASE = Path(tribo.templates.__file__).with_name("ball_on_disk.toml")
 DEFAULT, LOOSE, EXPLICIT = "tribo, default", "tribo, loose", "tribo, explicit"
+FAST = "tribo, compiled"
 
 # An independent backward Euler run with increments of at most 0.25 m, on 128² to 192² cells
 # of 1.3 mm; the whole table is in examples/paper.py.
@@ -69,10 +71,13 @@ def measure(options: argparse.Namespace) -> Tables:
         LOOSE: _simulation(options, *options.loose),
         EXPLICIT: _simulation(options, *explicit),
     }
+    if TriboFast.present():
+        runs[FAST] = _simulation(options)
     results = {}
 
     def run(name: str) -> None:
-        results[name] = runs[name].run()
+        with compiled(int(name == FAST)):
+            results[name] = runs[name].run()
 
     run(DEFAULT)
     first = results[DEFAULT]
@@ -87,10 +92,10 @@ def measure(options: argparse.Namespace) -> Tables:
             steps=options.steps,
             time_step=options.time_step,
         )
-        for package in packages()
+        for package in packages(ball(options.cells))
     }
     actions: dict[str, Callable[[], object]] = {
-        name: partial(run, name) for name in (DEFAULT, LOOSE)
+        name: partial(run, name) for name in runs if name != EXPLICIT
     }
     for name, loop in loops.items():
         actions |= {f"{name} {save}": block.run for save, block in enumerate(loop)}

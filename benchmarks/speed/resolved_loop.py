@@ -21,7 +21,7 @@ import numpy as np
 
 from benchmarks.lib.common import Row, Tables, interleaved, main, ratio
 from benchmarks.lib.explicit_loop import SPEED, WEAR
-from benchmarks.lib.peers import Answer, Package, meet, packages
+from benchmarks.lib.peers import Answer, Package, TriboFast, compiled, meet, packages
 from benchmarks.lib.problems import LOAD, MODULUS, Contact, hertz
 from benchmarks.studies.resolved_hour import CASES, paper_case
 from tribo import Array, Simulation
@@ -35,7 +35,7 @@ from tribo.stepping.contacts import undeformed
 from tribo.stepping.explicit import Explicit, largest_stable_increment
 
 EQUAL = "equal coefficients"
-OWN, AVERAGED = "tribo, resolved", "tribo, averaged"
+OWN, FAST, AVERAGED = "tribo, resolved", "tribo, resolved, compiled", "tribo, averaged"
 CYCLE = 0.04
 """Duration of one, in s."""
 
@@ -44,6 +44,7 @@ class PlainNumPy(Package):
     """Polonsky and Keer (1999) with NumPy's transforms, on the whole window."""
 
     name = "numpy"
+    module = "numpy"
 
     def __init__(self, contact: Contact, tolerance: float) -> None:
         super().__init__(contact, tolerance)
@@ -120,6 +121,8 @@ def measure(options: argparse.Namespace) -> Tables:
         name: Simulation(paper_case(EQUAL, options.cells, positions, options.duration))
         for name, positions in ((OWN, options.positions), (AVERAGED, "average"))
     }
+    if TriboFast.present():
+        runs[FAST] = runs[OWN]
     model = runs[OWN].model
     begun = begin(model)
     states = [begun, *_at_saves(model, begun, options.saves)]
@@ -129,10 +132,12 @@ def measure(options: argparse.Namespace) -> Tables:
     makers: dict[str, Callable[[State], Callable[[float], Sequence[Any]]]] = {
         "steps of tribo": lambda state: partial(own_jumps, model, state, options.steps)
     }
-    for kind in (*packages(), PlainNumPy):
+    for kind in (*packages(contact), PlainNumPy):
         made = meet(kind, contact, options.duty).package
         makers[f"loop on {kind.name}"] = partial(_jumps, made, model, options.steps)
-    actions: dict[str, Callable[[], Any]] = {name: run.run for name, run in runs.items()}
+    actions: dict[str, Callable[[], Any]] = {
+        name: partial(_run, run, int(name == FAST)) for name, run in runs.items()
+    }
     for save, (state, limit) in enumerate(zip(states, limits, strict=True)):
         for name, maker in makers.items():
             jumps = maker(state)
@@ -153,6 +158,11 @@ def measure(options: argparse.Namespace) -> Tables:
             rows.append(_row(title, count, off, whole, spent[OWN]))
     limit = {"shortest_limit_s": min(limits) / SPEED, "longest_limit_s": max(limits) / SPEED}
     return {"resolved hour": rows, "limit": [limit]}
+
+
+def _run(simulation: Simulation, threads: int) -> None:
+    with compiled(threads):
+        simulation.run()
 
 
 def _jumps(

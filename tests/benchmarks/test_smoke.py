@@ -17,9 +17,8 @@ from tribo.contact import bounded_cg
 ROOT = Path(__file__).parents[2]
 SCRIPTS = sorted(f"{path.parent.name}.{path.stem}" for path in ROOT.glob("benchmarks/*/*.py"))
 RUNS = {
-    "speed.contact_solve": "--cells 16 32 --peers-up-to 16",
+    "speed.contact_solve": "--cells 32 64",
     "speed.hour": "--cells 32 --duration 200 --time-step 2 --steps 1",
-    "speed.plastic_and_rough": "--plastic-cells 32 --rough-cells 32",
     "speed.profile_run": "--cells 32 --set kinematics.duration=50 output.save_times=[0]",
     "speed.time_schemes": "--cells 16 --duration 100 --growth 0.4",
     "studies.resolved_hour": "--cells 16 --positions 37 --duration 0.2",
@@ -37,6 +36,7 @@ def module(monkeypatch):
     monkeypatch.setattr(common, "LEAST_TURN", 0.0)
     for name in common.BLAS:
         monkeypatch.setenv(name, "1")
+    monkeypatch.setenv("TRIBO_FAST", "0")
     return lambda name: importlib.import_module(f"benchmarks.{name}")
 
 
