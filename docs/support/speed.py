@@ -11,7 +11,9 @@ from typing import Any
 from IPython.display import Markdown
 
 Row = Mapping[str, Any]
-FIGURES = Path(os.environ["TRIBO_REPOSITORY"]) / "docs" / "_data" / "speed.json"
+REPOSITORY = Path(os.environ["TRIBO_REPOSITORY"])
+FIGURES = Path("docs") / "_data" / "speed.json"
+STARTS = ("cold", "warm")
 
 
 def table(
@@ -21,17 +23,33 @@ def table(
     keep: Callable[[Row], bool] = lambda _: True,
 ) -> Markdown:
     """Return the rows of one table that `keep` keeps; `columns` has a heading for each key."""
-    rows = [row for row in _measured()[benchmark]["tables"][title] if keep(row)]
-    lines = [list(columns.values()), ["---:"] * len(columns)]
-    lines += [[_cell(row[key]) for key in columns] for row in rows]
-    return Markdown("\n".join(f"| {' | '.join(line)} |" for line in lines))
+    rows = [row for row in _measured(REPOSITORY)[benchmark]["tables"][title] if keep(row)]
+    return _markdown(list(columns.values()), [[_cell(row[key]) for key in columns] for row in rows])
+
+
+def solves() -> Markdown:
+    """Return the ratios of all contact solves, cold / warm, with a column for each package."""
+    rows = _measured(REPOSITORY)["contact_solve"]["tables"]["Solves"]
+    ratios = {(r["contact"], r["cells"], r["package"], r["start"]): r["ratio"] for r in rows}
+    packages = list(dict.fromkeys(row["package"] for row in rows))
+    # Ratios over itself are 1.
+    packages.remove("tribo")
+    lines = [
+        [contact, f"{cells}²"]
+        + [
+            " / ".join(_cell(ratios.get((contact, cells, name, start))) for start in STARTS)
+            for name in packages
+        ]
+        for contact, cells in dict.fromkeys((row["contact"], row["cells"]) for row in rows)
+    ]
+    return _markdown(["contact", "cells", *packages], lines)
 
 
 def machine() -> Markdown:
     """Return on what and when the figures were measured, and how busy it was."""
     loads: dict[str, float] = {}
     times: dict[str, list[str]] = {}
-    for name, benchmark in _measured().items():
+    for name, benchmark in _measured(REPOSITORY).items():
         found = benchmark["machine"]
         times.setdefault(f"{found['date']}, commit {found['commit']}", []).append(f"`{name}`")
         versions = {"Python": found["python"], **found["packages"]}
@@ -43,9 +61,14 @@ def machine() -> Markdown:
     return Markdown("\n\n".join(lines))
 
 
-def _measured() -> dict[str, Any]:
-    measured: dict[str, Any] = json.loads(FIGURES.read_text(encoding="utf-8"))
+def _measured(repository: Path) -> dict[str, Any]:
+    measured: dict[str, Any] = json.loads((repository / FIGURES).read_text(encoding="utf-8"))
     return measured
+
+
+def _markdown(heading: list[str], rows: list[list[str]]) -> Markdown:
+    lines = [heading, ["---:"] * len(heading), *rows]
+    return Markdown("\n".join(f"| {' | '.join(line)} |" for line in lines))
 
 
 def _cell(value: object) -> str:
