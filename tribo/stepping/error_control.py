@@ -48,7 +48,8 @@ def step_errors(
     Where a body wore too little in depth, the load shifts there and corrects
     it: errors of depth do not add up. Errors of volume add up, with one sign,
     for a law that is not linear in pressure or has a state. So the error of
-    the volume is compared with the volume that the step itself wears.
+    the volume is compared with the volume that the step itself wears. A load
+    that effects change is held over the step, which misses half of its change.
 
     The pressure lags by about a quarter of the relative increment of distance. So its
     load-weighted relative change Σ|Δp|/Σp limits the next step; the step itself may stay, whose
@@ -61,6 +62,7 @@ def step_errors(
         share * float(np.sum(np.abs(p - was.pressure)))
         for (share, p), was in zip(pressures, before.contacts, strict=True)
     )
+    drift = abs(after.load_factor / before.load_factor - 1)
     depth_error = volume_error = 0.0
     for name, explicit in forward.items():
         worn = after.bodies[name].wear - before.bodies[name].wear
@@ -73,11 +75,12 @@ def step_errors(
         )
         depth_error = max(depth_error, 0.5 * late / scale)
         own = 0.5 * (worn + explicit)
-        # What points that pass a break lag behind is mended too: their load goes elsewhere.
-        if np.any(own > 0) and not model.laws.wear[name].breaks:
+        if np.any(own > 0):
             share = min(1.0, float(np.max(own)) / (LATE * scale))
-            missed = 0.5 * abs(float(np.sum(worn)) - float(np.sum(explicit)))
-            volume_error = max(volume_error, share * missed / float(np.sum(own)))
+            missed = abs(float(np.sum(worn)) - float(np.sum(explicit))) / float(np.sum(own))
+            # What points that pass a break lag behind is mended too: their load goes elsewhere.
+            missed = drift if model.laws.wear[name].breaks else missed + drift
+            volume_error = max(volume_error, 0.5 * share * missed)
     return (
         depth_error / depth_tolerance,
         volume_error / (VOLUME * depth_tolerance),
