@@ -79,6 +79,13 @@ def test_threads_are_a_number(threads, monkeypatch):
         solve_bounded(HalfSpace(SHAPE, SPACING, 1e11), np.zeros(SHAPE), 1.0)
 
 
+@pytest.mark.parametrize("none", ["0", "00"])
+def test_no_threads_turn_it_off(none, monkeypatch):
+    monkeypatch.setenv("TRIBO_FAST", none)
+    assert tribo_fast.iterates(HalfSpace(SHAPE, SPACING, 1e11), tribo_fast.FEWEST) is None
+    assert tribo_fast.versions() == {}
+
+
 def test_doctor_checks_it_against_numpy():
     _, well, detail = tribo_fast.check()
     assert well

@@ -25,7 +25,7 @@ _PATIENCE = 2.0
 
 def iterates(operator: Operator, cells: int) -> type[CompiledIterate] | None:
     """Return what iterates in compiled code on so many cells; None where NumPy does."""
-    if cells < FEWEST or _off():
+    if cells < FEWEST or not threads():
         return None
     module, reason = _loaded()
     if module is None:
@@ -37,7 +37,7 @@ def iterates(operator: Operator, cells: int) -> type[CompiledIterate] | None:
 def versions() -> dict[str, str]:
     """Return the versions that a result states, of what is installed and takes part."""
     found: dict[str, str] = {}
-    for name in () if _off() else _PACKAGES:
+    for name in _PACKAGES if threads() else ():
         with suppress(metadata.PackageNotFoundError):
             found[name] = metadata.version(name)
     return found
@@ -49,7 +49,7 @@ def check() -> tuple[str, bool, str]:
     from tribo import HalfSpace
 
     name = "compiled contact solves"
-    if _off():
+    if not threads():
         return name, True, "turned off by TRIBO_FAST=0"
     module, reason = _loaded()
     if module is None:
@@ -62,8 +62,20 @@ def check() -> tuple[str, bool, str]:
     return name, error < 1e-12, f"off by {error:.0e}"
 
 
-def _off() -> bool:
-    return os.environ.get("TRIBO_FAST") == "0"
+def threads() -> int:
+    """Return how many threads may share the positions of a cycle; 0 turns compiled code off."""
+    wanted = os.environ.get("TRIBO_FAST", "")
+    if not wanted:
+        from scipy.fft import get_workers
+
+        return int(get_workers())
+    if not wanted.isdecimal():
+        from tribo import CaseError
+
+        raise CaseError(
+            f"TRIBO_FAST is {wanted!r}; it must be a number of threads, or 0 to turn tribo-fast off"
+        )
+    return int(wanted)
 
 
 @cache

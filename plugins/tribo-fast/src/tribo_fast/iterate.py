@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
-import scipy
 from numpy.typing import NDArray
-from tribo import CaseError, ContactSolution, HalfSpace, Operator, Residuals
+from tribo import ContactSolution, HalfSpace, Operator, Residuals
 from tribo.kernel_api import NEAR_ENOUGH, Iterate, PeriodicHalfSpace, WornOperator
 
-from tribo_fast import passes
+from tribo_fast import passes, threads
 from tribo_fast.operator import CompiledOperator as CompiledOperator
 from tribo_fast.operator import Convolution, transposed
 from tribo_fast.operator import Threads as Threads
@@ -23,18 +20,6 @@ def serves(operator: Operator) -> bool:
     base = operator.base if isinstance(operator, WornOperator) else operator
     # Not a subclass, which may respond otherwise.
     return type(base) in (HalfSpace, PeriodicHalfSpace)
-
-
-def threads() -> int:
-    """Return how many threads may share the positions of a cycle."""
-    wanted = os.environ.get("TRIBO_FAST", "")
-    if not wanted:
-        return int(scipy.fft.get_workers())
-    if not wanted.isdecimal():
-        raise CaseError(
-            f"TRIBO_FAST is {wanted!r}; it must be a number of threads, or 0 to turn tribo-fast off"
-        )
-    return int(wanted)
 
 
 class CompiledIterate(Iterate):
