@@ -28,9 +28,13 @@ def doctor(as_json: bool) -> None:
 
     records = installed()
     try_out(records)
-    found: dict[str, Any] = {**environment(), "plugins": [record.facts for record in records]}
     fast = compiled()
     lines = [fast.check()] if fast else []
+    found: dict[str, Any] = {
+        **environment(),
+        "checks": [{"name": name, "ok": well, "detail": why} for name, well, why in lines],
+        "plugins": [record.facts for record in records],
+    }
     for record in records:
         name = f"plugin {record} ({record.facts['entry_point']})"
         reason = f"{record.status}: {record.reason}".rstrip(": ")

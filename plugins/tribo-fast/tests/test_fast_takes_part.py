@@ -1,5 +1,6 @@
 """When compiled code is used, what says so, and what happens where it does not load."""
 
+import json
 import os
 import subprocess
 import sys
@@ -90,6 +91,19 @@ def test_doctor_checks_it_against_numpy():
     _, well, detail = tribo_fast.check()
     assert well
     assert detail.startswith("off by")
+
+
+@pytest.mark.slow
+def test_doctor_states_in_json_why_it_does_not_load():
+    script = (
+        WITHOUT.format("numba")
+        + "from tribo.cli.main import main; sys.argv[1:] = ['doctor', '--json']; main()"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True)
+    assert done.returncode == 3
+    (compiled,) = json.loads(done.stdout)["checks"]
+    assert not compiled["ok"]
+    assert "numba" in compiled["detail"]
 
 
 def test_the_provenance_states_what_is_installed_unless_it_is_turned_off(monkeypatch):
