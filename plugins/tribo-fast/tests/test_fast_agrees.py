@@ -143,6 +143,20 @@ def test_bits_do_not_depend_on_threads(name, threads, everywhere, monkeypatch):
         assert a.approach == b.approach
 
 
+def test_fields_have_any_order_and_type(everywhere, monkeypatch):
+    gap, cap = np.float32(BALL), 2_000_000_000 + np.arange(BALL.size).reshape(CELLS)
+    wear = WearCompliance(np.asfortranarray(OWN.local), OWN.swept)
+    problem = free, np.asfortranarray(gap), LOAD, np.asfortranarray(cap), wear
+    known = free, np.float64(gap), LOAD, np.float64(cap), OWN
+    assert_equal(*(solved(monkeypatch, 1, *each) for each in (problem, known)))
+
+
+@pytest.mark.parametrize("threads", [0, 1])
+def test_a_gap_of_another_shape_is_refused(threads, everywhere, monkeypatch):
+    with pytest.raises(ValueError, match="broadcast"):
+        solved(monkeypatch, threads, free, BALL[:30], LOAD)
+
+
 @pytest.mark.parametrize("threads", [0, 1])
 def test_a_load_lost_in_rounding_is_refused(threads, everywhere, monkeypatch):
     gap = BALL + 1e8 * NUMBERS.random(CELLS)

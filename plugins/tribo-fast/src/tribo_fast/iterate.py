@@ -34,15 +34,19 @@ class CompiledIterate(Iterate):
         start: Array | None,
         shares: Array | None,
     ) -> None:
-        stacked = (-1, *gap.shape[-2:])
-        gap = np.array(gap).reshape(stacked)
+        stacked = (-1, *operator.shape)
+        # Compiled code checks no bounds, and takes one type and order only.
+        whole = np.broadcast_to(gap, (*gap.shape[:-2], *operator.shape))
+        gap = np.array(whole, dtype=float, order="C").reshape(stacked)
         self._threads = Threads(threads(), len(gap))
         self._compiled = CompiledOperator(operator, self._threads)
         super().__init__(
             self._compiled,
             gap,
             np.array(total).reshape(-1),
-            limit if isinstance(limit, float) else np.array(limit).reshape(stacked),
+            limit
+            if isinstance(limit, float)
+            else np.array(limit, dtype=float, order="C").reshape(stacked),
             None if start is None else start.reshape(stacked),
             shares,
         )

@@ -90,7 +90,7 @@ class _Wear:
     """The wear of a step at one position."""
 
     def __init__(self, wear: WearCompliance, shape: tuple[int, int], dx: float) -> None:
-        self._local = np.array(np.broadcast_to(wear.local, shape), dtype=float)
+        self._local = np.array(np.broadcast_to(wear.local, shape), dtype=float, order="C")
         self._swept = dx * np.broadcast_to(wear.swept, shape[1:])
 
     def add(self, pressure: Array, depth: Array, sums: Array) -> None:
