@@ -47,7 +47,21 @@ def test_another_format_is_refused_with_both_numbers(sound, tmp_path, number):
         Result.open(path)
 
 
-def test_a_result_left_open_does_no_harm_at_the_end(sound):
-    code = f"import tribo; result = tribo.open({str(sound)!r}); print(result.times)"
+NEVER_COLLECTED = """
+import ctypes
+from io import BytesIO
+from pathlib import Path
+from tribo import Result
+result = Result(BytesIO(Path({path!r}).read_bytes()), "it")
+ctypes.pythonapi.Py_IncRef(ctypes.py_object(result))
+result.pressure
+"""
+
+
+@pytest.mark.parametrize(
+    "code", ["import tribo; print(tribo.open({path!r}).times)", NEVER_COLLECTED]
+)
+def test_a_result_left_open_does_no_harm_at_the_end(sound, code):
+    code = code.format(path=str(sound))
     done = subprocess.run([sys.executable, "-c", code], capture_output=True)
     assert (done.returncode, done.stderr) == (0, b"")

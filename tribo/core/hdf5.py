@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import atexit
 from collections.abc import Iterator
+from functools import cache
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,7 +21,21 @@ def open_hdf5(file: Path | BytesIO, mode: str = "r") -> h5py.File:
     # Slow to import: a case that is only read or checked needs no file.
     import h5py
 
+    _close_at_exit()
     return h5py.File(file, mode)
+
+
+@cache
+def _close_at_exit() -> None:
+    """Let what is in memory be closed while Python is there: HDF5 would do so later, and crash."""
+    import h5py
+
+    def close() -> None:
+        for each in map(h5py.File, h5py.h5f.get_obj_ids(types=h5py.h5f.OBJ_FILE)):
+            if each.driver == "fileobj":
+                each.close()
+
+    atexit.register(close)
 
 
 def contained(file: h5py.File) -> Iterator[h5py.Dataset]:
