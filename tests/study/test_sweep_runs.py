@@ -162,7 +162,16 @@ def test_two_sweeps_do_not_share_a_folder(tmp_path):
         sweep(path, sweeps.LOADS, tmp_path / "out", executor=sweeps.Inline())
 
 
-def test_a_sweep_of_nothing_is_refused_before_anything_runs(tmp_path):
-    with pytest.raises(CaseError, match="nothing varies"):
-        sweep(sweeps.case(tmp_path), [], tmp_path / "out", executor=sweeps.Inline())
+@pytest.mark.parametrize(
+    ("vary", "message"),
+    [
+        ([], "nothing varies"),
+        ([("load.normal", 50)], "nothing varies"),
+        ({"load.normal": 50}, r"load.normal: 50 is no list of values; give \[50\]"),
+        ({"load.normal": "50 N"}, r"load.normal: '50 N' is no list"),
+    ],
+)
+def test_a_sweep_of_no_list_is_refused_before_anything_runs(tmp_path, vary, message):
+    with pytest.raises(CaseError, match=message):
+        sweep(sweeps.case(tmp_path), vary, tmp_path / "out", executor=sweeps.Inline())
     assert not (tmp_path / "out").exists()

@@ -54,7 +54,7 @@ def compare(
     from tribo.study.variation import read_axes
 
     stems = dict.fromkeys(path.stem for path in files)
-    folder = output or files[0].with_name("-".join([*stems, "compare"]))
+    folder = output or files[0].parent / "-".join([*stems, "compare"])
     with located("--at"):
         times = [Quantity("s", at_least=0).read(parse_value(text)) for text in at]
     if vary and len(files) > 1:

@@ -47,7 +47,7 @@ def export(output: Path, directory: Path | None, name: str, columns: str | None)
     write = None if name in OWN else choose("tribo_export_formats", name, "format", OWN).write
     if write and columns:
         raise CaseError(f"they belong to --format csv or xlsx, not to {name}", "--columns")
-    folder = directory or output.with_name(f"{output.stem}-{name}")
+    folder = directory or output.parent / f"{output.stem}-{name}"
     with Result.open(output) as result:
         lab = saves_table(result).to_dataframe()
         tables: dict[str, Any] = {"lab": lab[_chosen(columns, lab)] if columns else lab}

@@ -41,7 +41,7 @@ def plot(
     from tribo.plotting.figures import result_picture, save_figures, write_figures
     from tribo.result.read import Result
 
-    folder = directory or output.with_name(output.stem + "-plots")
+    folder = directory or output.parent / f"{output.stem}-plots"
     paths: list[Path] = []
     with Result.open(output) as result:
         if animate:

@@ -53,7 +53,7 @@ def sweep(
     from tribo.study.variation import read_axes
 
     tables, axes = apply_settings(read_toml(case), overrides), read_axes(vary)
-    folder = output or case.with_name(f"{case.stem}-sweep")
+    folder = output or case.parent / f"{case.stem}-sweep"
     with progress_bar() as bar:
         shown = bar.add_task("", total=None)
 

@@ -31,10 +31,15 @@ def points_of(vary: Mapping[str, Sequence[Any]] | Sequence[Mapping[str, Any]]) -
     """Return the settings of each variant: every combination of values by path, or as listed."""
     if isinstance(vary, Mapping):
         check_distinct(vary)
+        for path, values in vary.items():
+            if not isinstance(values, Iterable) or isinstance(values, str | Mapping):
+                raise CaseError(f"{values!r} is no list of values; give [{values!r}]", path)
         # The last path varies first.
         points = [dict(zip(vary, values, strict=True)) for values in product(*vary.values())]
-    else:
+    elif all(isinstance(point, Mapping) for point in vary):
         points = [dict(point) for point in vary]
+    else:
+        points = []
     if not any(points):
         raise CaseError('nothing varies; give values by path, as {"load.normal": [50, 100]}')
     return points

@@ -37,7 +37,7 @@ def report(what: tuple[Path, ...], output: Path | None, verified: Path | None) -
 
     from tribo_report.write import write_report
 
-    path = output or what[0].with_name("-".join([*(each.stem for each in what), "report.html"]))
+    path = output or what[0].parent / "-".join([*(each.stem for each in what), "report.html"])
     if path.suffix.lower() not in (".html", ".htm"):
         raise CaseError(f"{path} is no HTML file; end its name in .html", "--output")
     write_report(what[0] if len(what) == 1 else what, path, verified=verified)
