@@ -35,7 +35,7 @@ def iterates(operator: Operator, cells: int) -> type[CompiledIterate] | None:
 
 
 def versions() -> dict[str, str]:
-    """Return the versions that a result states, of what is installed and takes part."""
+    """Return the versions that a result states: of what is installed, unless it is turned off."""
     found: dict[str, str] = {}
     for name in _PACKAGES if threads() else ():
         with suppress(metadata.PackageNotFoundError):
