@@ -4,6 +4,7 @@ import dummies_in_tables as dummies
 import pytest
 from pydantic import ValidationError
 
+from tribo import CaseError, Load
 from tribo.core.explain import case_error
 
 STEEL = {"young": "207 GPa", "poisson": 0.3}
@@ -100,3 +101,9 @@ def test_no_word_of_the_library_appears(lines):
     assert len(text.splitlines()) == 7
     for word in ("pydantic", "Input", "input", "validation", "dict", "instance", "tuple", "str"):
         assert word not in text
+
+
+@pytest.mark.parametrize("name", ["normal", "nomral"])
+def test_a_model_that_is_made_stays(name):
+    with pytest.raises(CaseError, match=f"^{name}: stays; make another case by with_values$"):
+        setattr(Load(normal=1.0), name, 2.0)

@@ -19,6 +19,7 @@ from pydantic import (
     model_validator,
 )
 
+from tribo.core.errors import CaseError
 from tribo.core.explain import case_error, explained
 from tribo.core.units import quantities, stated
 
@@ -76,6 +77,12 @@ class Table(BaseModel, metaclass=_TableClass):
         """Return the keys that it needs, as the end of a message."""
         needed = [name for name, field in cls.model_fields.items() if field.is_required()]
         return f"a table with {' and '.join(needed)} is needed"
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        try:
+            super().__setattr__(name, value)
+        except ValidationError:
+            raise CaseError("stays; make another case by with_values", name) from None
 
     def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
         """Yield the fields that are not at their defaults."""

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -54,8 +54,11 @@ class Sweep:
     """
 
     folder: Path
-    runs: tuple[Run, ...]
+    runs: tuple[Run, ...] = field(repr=False)
     table: pandas.DataFrame
+
+    def _repr_html_(self) -> str:
+        return str(self.table.to_html())
 
     def failures(self) -> dict[str, list[Run]]:
         """Return the runs that failed, by message."""
