@@ -72,7 +72,7 @@ class Implicit(Scheme):
     times as much is allowed of the volume, relative to what the step wears."""
     pressure_tolerance: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.05
     """Load-weighted relative change of pressure at which one step leaves the next its length: a
-    longer change shortens it."""
+    larger change shortens it."""
     settle: Annotated[float, Quantity("1", above=0, at_most=1)] = 0.01
     """Length of the last step before a save, relative to the distance slid by then."""
     nonlinear_tolerance: Annotated[float, Quantity("1", above=0, at_most=1e-3)] = 1e-8

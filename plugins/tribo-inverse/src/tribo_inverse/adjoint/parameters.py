@@ -330,7 +330,7 @@ def _wears(base: Model, model: Model, places: Sequence[Sequence[Any]]) -> frozen
         for name in OF_CONTACT
         if getattr(base.contact.system, name) != getattr(model.contact.system, name)
     }
-    # What is remembered follows a load that changes in a step.
+    # States follow a load that changes in a step.
     keeps = laws.between or any(law.initial_state for law in laws.wear.values())
     follows = keeps and one.load != other.load and not isinstance(one.load.normal, float)
     if follows or (moves and any(position.reach is not None for position in model.cycle)):
