@@ -88,9 +88,12 @@ def measure(model: Model, state: State) -> Measures:
 def loaded_mean(
     model: Model, contacts: Sequence[ContactSolution], arrays: Iterable[Array]
 ) -> float:
-    """Return the mean over a cycle of arrays, one for each position, weighted with the load."""
+    """Return the mean size over a cycle of arrays, one for each position, weighted by the load."""
     weighed = load = 0.0
     for position, contact, array in zip(model.cycle, contacts, arrays, strict=True):
-        weighed += position.share * float(np.sum(contact.pressure * array))
-        load += position.share * float(np.sum(contact.pressure))
+        here = contact.extent
+        pressure = contact.pressure[here]
+        array = np.broadcast_to(array, contact.pressure.shape)[here]
+        weighed += position.share * float(np.sum(pressure * np.abs(array)))
+        load += position.share * float(np.sum(pressure))
     return weighed / load

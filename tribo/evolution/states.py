@@ -104,8 +104,9 @@ def under(model: Model, memory: Memory, position: int) -> Memory:
 
 
 def filling(model: Model, memory: Memory) -> Array:
-    """Return the height of the filling of the gap at each position, (positions, nx, ny), in m."""
-    heights = np.zeros((len(model.cycle), *model.grid.cells))
+    """Return the height of the filling of the gap, (positions, nx, ny) or of 1 cell if none, in m."""
+    cells = model.grid.cells if model.laws.filling else (1, 1)
+    heights = np.zeros((len(model.cycle), *cells))
     for position, height in enumerate(heights if model.laws.filling else ()):
         here = under(model, memory, position)
         for body, key in model.laws.filling:

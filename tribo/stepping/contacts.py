@@ -76,12 +76,18 @@ def undeformed(model: Model, state: State) -> Array:
 
     Shape (positions, nx, ny).
     """
-    gaps = np.stack(model.contact.gaps) - filling(model, remembered(model, state))
-    for position, gap in enumerate(gaps):
-        for name, body in state.bodies.items():
-            gap += model.cycle.maps[name].see(body.wear, position)
-            gap += model.cycle.maps[name].see(body.plastic, position)
-    return gaps
+    removed = seen(model, {name: body.wear + body.plastic for name, body in state.bodies.items()})
+    return np.stack(model.contact.gaps) + removed - filling(model, remembered(model, state))
+
+
+def seen(model: Model, of_bodies: Mapping[str, Array]) -> Array:
+    """Return the sum of the bodies' fields at each position, (positions, nx, ny)."""
+    maps, none = model.cycle.maps, np.zeros(model.grid.cells)
+    here = (
+        sum((maps[name].see(field, position) for name, field in of_bodies.items()), none)
+        for position in range(len(model.cycle))
+    )
+    return np.stack([*here])
 
 
 def counted(state: State, contacts: Sequence[ContactSolution]) -> State:
@@ -105,10 +111,11 @@ def solved_anew(model: Model, state: State, load: float) -> State:
 
 def _all_mirror(problems: Sequence[ContactProblem], coupling: CycleCompliance | None) -> bool:
     """Whether each position mirrors another along x, and the middle one itself."""
+    half = len(problems) // 2 + 1
     mirrored = len(problems) % 2 == 1 and all(
         _mirrors(one.gap, other.gap)
         and (one.cap is None or other.cap is None or _mirrors(one.cap, other.cap))
-        for one, other in zip(problems, reversed(problems), strict=True)
+        for one, other in zip(problems[:half], reversed(problems), strict=False)
     )
     return mirrored and (coupling is None or _bodies_mirror(coupling))
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tribo.core.arrays import Array
+from tribo.core.arrays import Array, union
 from tribo.core.rounding import ROUND_OFF
 from tribo.core.state import State
 from tribo.evolution.measure import loaded_mean
@@ -56,17 +56,17 @@ def step_errors(
     depth has an error of its own, and of whose change on a coarse grid much is cells that touch.
     """
     contacts, shares = after.contacts, [position.share for position in model.cycle]
-    pressures = [(share, c.pressure) for share, c in zip(shares, contacts, strict=True)]
-    load = sum(share * float(np.sum(p)) for share, p in pressures)
-    change = sum(
-        share * float(np.sum(np.abs(p - was.pressure)))
-        for (share, p), was in zip(pressures, before.contacts, strict=True)
-    )
+    load = change = 0.0
+    for share, contact, was in zip(shares, contacts, before.contacts, strict=True):
+        here = union(contact.extent, was.extent)
+        pressure = contact.pressure[here]
+        load += share * float(np.sum(pressure))
+        change += share * float(np.sum(np.abs(pressure - was.pressure[here])))
     drift = abs(after.load_factor / before.load_factor - 1)
     depth_error = volume_error = 0.0
     for name, explicit in forward.items():
         worn = after.bodies[name].wear - before.bodies[name].wear
-        lag = np.abs(worn - explicit)
+        lag = worn - explicit
         scale = float(np.max(after.bodies[name].wear)) + FIRST * after.reference_depth
         # Flat bodies that have not begun to wear have neither.
         scale = scale or float(np.finfo(np.float64).tiny)

@@ -21,7 +21,7 @@ from tribo.evolution.interval import interval_from
 from tribo.evolution.measure import loaded_mean
 from tribo.evolution.rates import wear_rates
 from tribo.evolution.states import filling, remembered
-from tribo.stepping.contacts import counted, extrapolated, solve_cycle, undeformed
+from tribo.stepping.contacts import counted, extrapolated, seen, solve_cycle, undeformed
 from tribo.stepping.error_control import (
     FIRST,
     SHRINK,
@@ -29,7 +29,7 @@ from tribo.stepping.error_control import (
     next_increment,
     step_errors,
 )
-from tribo.stepping.linear_wear import depths, linear_wear
+from tribo.stepping.linear_wear import add_depths, linear_wear
 from tribo.stepping.scheme import Scheme
 from tribo.stepping.step import (
     SMALLEST,
@@ -174,23 +174,23 @@ class Implicit(Scheme):
         while True:
             rates = sloped(model, before, interval, slid)
             wear = linear_wear(model, rates, slid.contacts, increment)
-            # Of what changes the gap, the part that is not linear in the pressures.
-            beyond = opened - depths(wear, slid.contacts, dx)
-            gaps = base + beyond
+            # Of what changes the gap, the part that is not linear in the pressures stays.
+            add_depths(opened, -1.0, wear, slid.contacts, dx)
+            gaps = base + opened
             try:
                 contacts = solve_cycle(model, gaps, load, contacts, state.bodies, wear)
             except PluginError:
                 raise
             except NumericalError as error:
                 raise StepRejected(str(error)) from error
-            implied = beyond + depths(wear, contacts, dx)
+            add_depths(opened, 1.0, wear, contacts, dx)
             solved, passes = counted(solved, contacts), passes + 1
             # Later passes change the contacts little.
             slid = slide(contacts=contacts, plan=slid.plan, adapts=passes == 1)
             worn = worn_depths(model, slid.rates, increment)
-            opened, deepest = _opened(model, height, slid, worn)
-            off = np.abs(opened - implied)
-            mismatch = loaded_mean(model, contacts, off) if resolved else _largest(off)
+            implied, (opened, deepest) = opened, _opened(model, height, slid, worn)
+            off = opened - implied
+            mismatch = loaded_mean(model, contacts, off) if resolved else _largest([off])
             if mismatch <= tolerance * deepest:
                 break
             if passes == self.max_passes:
@@ -227,12 +227,10 @@ def _opened(
 
     `worn` has the depth by body, on the body's surface; `height` filled the gap before it; in m.
     """
-    worn_off = np.zeros((len(model.cycle), *model.grid.cells))
-    for position, depth in enumerate(worn_off):
-        for name, of_body in worn.items():
-            depth += model.cycle.maps[name].see(of_body, position)
-    filled = filling(model, slid.memory) - height
-    return worn_off - filled, max(_largest(worn_off), _largest(filled))
+    opened, filled = seen(model, worn), filling(model, slid.memory) - height
+    deepest = _largest([opened, filled])
+    opened -= filled
+    return opened, deepest
 
 
 def _first_increment(model: Model, state: State, remaining: float, until: float) -> float:
@@ -247,4 +245,4 @@ def _first_increment(model: Model, state: State, remaining: float, until: float)
 
 def _largest(arrays: Iterable[Array]) -> float:
     """Return the largest absolute value in any of some arrays; 0 if there are none."""
-    return max((float(np.max(np.abs(array))) for array in arrays), default=0.0)
+    return max((float(max(np.max(array), -np.min(array))) for array in arrays), default=0.0)

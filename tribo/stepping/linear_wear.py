@@ -32,20 +32,22 @@ def linear_wear(
     ]
 
 
-def depths(
+def add_depths(
+    gaps: Array,
+    part: float,
     wear: Sequence[WearCompliance] | CycleCompliance,
     contacts: Sequence[ContactSolution],
     dx: float,
-) -> Array:
-    """Return the depth worn at each position, shape (positions, nx, ny), in m."""
-    pressure = np.stack([contact.pressure for contact in contacts])
-    if not isinstance(wear, CycleCompliance):
-        return np.stack([part.depth(p, dx) for part, p in zip(wear, pressure, strict=True)])
-    # Elsewhere nothing wears.
-    columns = reduce(union, (contact.extent for contact in contacts))[1]
-    depth = np.zeros_like(pressure)
-    depth[..., columns] = wear.beside(columns).depth(pressure[..., columns], dx)
-    return depth
+) -> None:
+    """Add a part of the depth worn at each position to `gaps`, (positions, nx, ny), in m."""
+    if isinstance(wear, CycleCompliance):
+        # Elsewhere nothing wears.
+        columns = reduce(union, (contact.extent for contact in contacts))[1]
+        pressure = np.stack([contact.pressure[:, columns] for contact in contacts])
+        gaps[..., columns] += part * wear.beside(columns).depth(pressure, dx)
+        return
+    for gap, compliance, contact in zip(gaps, wear, contacts, strict=True):
+        gap += part * compliance.depth(contact.pressure, dx)
 
 
 def wear_compliance(
@@ -75,7 +77,7 @@ def _coupling(
         for position, (share, contact) in enumerate(zip(shares, contacts, strict=True)):
             pressure, slope = contact.pressure, rates[position][name].depth_slope
             weighed = exposure.gather(slope * pressure, position, share, weighed)
-            load += share * exposure.lay(pressure, position)
+            load = exposure.gather(pressure, position, share, load)
             np.maximum(nearby, np.max(exposure.average(slope), axis=0), out=nearby)
         # A point that is yet to be touched has the slope that its law gives near it, on its row.
         slope = np.where(load > 0, weighed / np.where(load > 0, load, 1.0), nearby)

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from tribo_fast.iterate import CompiledIterate
 
 _PACKAGES = ("tribo-fast", "numba", "rocket-fft")
-FEWEST = 1 << 15
-"""Cells of all positions from which on a solve is compiled: a run of smaller solves gains less than
-the 0.4 s that loading the compiled code takes."""
+FEWEST = 1 << 12
+"""Cells of all positions from which on a solve is compiled: 100 smaller solves gain less than the
+0.4 s that loading the compiled code takes."""
 _PATIENCE = 2.0
 """Seconds after which a line states what takes so long: loading takes less, compiling more."""
 
