@@ -261,7 +261,8 @@ class Iterate:
 
     def solutions(self, iterations: int, reached: list[Residuals]) -> list[ContactSolution]:
         """Return the solution at each position."""
-        overlap = np.where(self.full, np.maximum(-self.deformed, 0.0), 0.0)
+        overlap = np.zeros_like(self.gap)
+        overlap[self.full] = np.maximum(-self.deformed[self.full], 0.0)
         places = np.ndindex(self.gap.shape[:-2])
         return [
             ContactSolution(
@@ -320,16 +321,14 @@ def _feasible(
 def _feasible_at(
     start: Array | None, shape: tuple[int, ...], total: float, limit: Array | float
 ) -> Array:
-    loaded = np.ones(shape, dtype=bool)
-    guess = np.full(shape, total / loaded.size)
-    given = 0.0 if start is None else float(start.sum())
-    if start is not None and given > 0:
-        guess = np.maximum(start, 0.0)
-        guess *= total / float(guess.sum())
-        if (guess <= limit).all():
-            return balance(guess, np.asarray(total), limit)
-        np.minimum(guess, limit, out=guess)
-        support = guess > 0
-        if float(np.sum(np.broadcast_to(limit, shape)[support])) > total:
-            loaded = support
+    guess = np.zeros(shape) if start is None else np.maximum(start, 0.0)
+    if not guess.any():
+        guess += 1.0
+    guess *= total / float(guess.sum())
+    if (guess <= limit).all():
+        return balance(guess, np.asarray(total), limit)
+    np.minimum(guess, limit, out=guess)
+    loaded = guess > 0
+    if float(np.sum(np.broadcast_to(limit, shape)[loaded])) <= total:
+        loaded[:] = True
     return project(guess, np.asarray(total), limit, loaded)
