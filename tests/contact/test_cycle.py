@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from contact_problems import ball
 
-from tribo import DcFft, Grid, Periodic
+from tribo import DcFft, Grid, HalfSpace, Periodic
+from tribo.contact.operator import WornOperator
+from tribo.contact.preconditioner import Preconditioner
 from tribo.core.contact import ContactProblem, ContactSystem, CycleCompliance
 
 CELLS = (24, 20)
@@ -46,6 +48,28 @@ def test_the_coupling_is_symmetric_in_the_shares():
     there, back = (np.sum(weights * a * wear.depth(b, 1.0)) for a, b in ((p, q), (q, p)))
     assert there == pytest.approx(back, rel=1e-12, abs=0)
     assert np.sum(weights * p * wear.depth(p, 1.0)) > 0
+
+
+@pytest.mark.parametrize(("least", "most", "wears"), [(0.5, 3.0, True), (0.5, 15.0, False)])
+def test_its_preconditioner_nearly_inverts_it_within_a_box(least, most, wears):
+    worn = WornOperator(HalfSpace(CELLS, GRID.spacing, MODULUS), coupling(1e-15))
+    estimate = Preconditioner(worn)
+    estimate.wears = wears
+    inside = np.zeros((3, *CELLS), dtype=bool)
+    # A box leaves a margin around the contact.
+    inside[:, 2:-2, 2:-2] = True
+    product, inverse = [], []
+    for cell in np.flatnonzero(inside):
+        one = np.zeros((3, *CELLS))
+        one.flat[cell] = 1.0
+        product.append(worn.apply(one)[inside])
+        inverse.append(estimate(one)[inside])
+    weights = np.broadcast_to(SHARES[:, None, None], inside.shape)[inside, None]
+    symmetric = weights * np.transpose(inverse)
+    assert np.max(np.abs(symmetric - symmetric.T)) <= 1e-12 * np.max(np.abs(symmetric))
+    values = np.linalg.eigvals(np.transpose(inverse) @ np.transpose(product)).real
+    assert least < values.min()
+    assert 0.7 * most < values.max() < most
 
 
 def test_its_depth_is_what_each_body_has_lost_under_the_window():

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy
 
 from tribo.contact.operator import Operator, WornOperator
+from tribo.contact.preconditioner import Preconditioner
 from tribo.contact.projection import CELLS, balance, limits, over, project
 from tribo.contact.residuals import check_bearable, check_finite, dots, judged
 from tribo.core.arrays import Array, Mask
@@ -153,7 +153,7 @@ class Iterate:
         shares: Array | None,
     ) -> None:
         self.operator = operator
-        self.symbol = operator.symbol()
+        self.preconditioner = Preconditioner(operator)
         self.gap = gap
         self.total = total
         self.limit = limit
@@ -166,7 +166,7 @@ class Iterate:
         self.change, self.ahead, self.moved = np.empty((3, *gap.shape))
         self.decrease = np.inf
         self.length = 1.0
-        self.rate = 1.0 / float(self.symbol.max())
+        self.rate = 1.0 / float(self.preconditioner.symbol.max())
         self.lengthen = False
 
     def _dot(self, a: Array, b: Array) -> float:
@@ -193,9 +193,7 @@ class Iterate:
             face |= self.full & (g > 0)
         share = 1.0 / np.maximum(face.sum(CELLS), 1)
         residual = _centred(g, face, share, self.residual)
-        modes = scipy.fft.rfft2(residual)
-        modes /= self.symbol
-        z = scipy.fft.irfft2(modes, s=residual.shape[-2:], overwrite_x=True)
+        z = self.preconditioner(residual)
         z = _centred(z, face, share, z)
         decrease = self._dot(residual, z)
         # Polak and Ribière's formula forgets by itself when the face changes. The direction before

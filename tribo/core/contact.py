@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -56,7 +57,7 @@ class WearCompliance:
 
     def typical(self, length: float) -> tuple[float, float]:
         """Return its mean depths per pressure, in m/Pa: by a cell, and by rows of a length (m)."""
-        return _mean_where_positive(self.local), length * _mean_where_positive(self.swept)
+        return mean_where_positive(self.local), length * mean_where_positive(self.swept)
 
 
 @dataclass(frozen=True)
@@ -97,26 +98,48 @@ class CycleCompliance:
     bodies: Sequence[tuple[Array, Sequence[Cell]]]
     rows: slice
     mirrored: bool = False
+    _found: dict[tuple[int, ...], list[list[Any]]] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
     def depth(self, pressure: Array, dx: float) -> Array:
         """Return the depth worn under `pressure` (positions, nx, ny); it does not depend on dx."""
-        first, count = self.rows.start, pressure.shape[1:]
-        starts = [cells for _, cells in self.bodies]
-        worn = [np.zeros_like(compliance) for compliance, _ in self.bodies]
-        # All bodies at one position after the other: its part stays in the processor's cache.
-        for share, part, *cells in zip(self.shares, pressure, *starts, strict=True):
-            weighed = share * part
-            for own, (row, column) in zip(worn, cells, strict=True):
-                own[region(own, (first + row, column), count)] += weighed
-        if self.mirrored:
-            worn = [own + own[::-1] for own in worn]
+        worn = self.gathered(pressure)
         for own, (compliance, _) in zip(worn, self.bodies, strict=True):
             own *= compliance
-        depth = np.zeros_like(pressure)
-        for part, *cells in zip(depth, *starts, strict=True):
-            for own, (row, column) in zip(worn, cells, strict=True):
-                part += own[region(own, (first + row, column), count)]
-        return depth
+        return self.seen(worn, pressure.shape)
+
+    def gathered(self, fields: Array) -> list[Array]:
+        """Return Σₙ ωₙ Tₙᵀ of fields (positions, nx, ny) on each body's own surface."""
+        gathered = [np.zeros_like(compliance) for compliance, _ in self.bodies]
+        # All bodies at one position after the other: its part stays in the processor's cache.
+        for share, part, regions in zip(
+            self.shares, fields, self._windows(fields.shape), strict=True
+        ):
+            weighed = share * part
+            for own, here in zip(gathered, regions, strict=True):
+                own[here] += weighed
+        return [own + own[::-1] for own in gathered] if self.mirrored else gathered
+
+    def seen(self, of_bodies: Sequence[Array], shape: tuple[int, ...]) -> Array:
+        """Return the sum of Tₘ of the bodies' fields at each position, of `shape`."""
+        seen = np.zeros(shape)
+        for part, regions in zip(seen, self._windows(shape), strict=True):
+            for own, here in zip(of_bodies, regions, strict=True):
+                part += own[here]
+        return seen
+
+    def _windows(self, shape: tuple[int, ...]) -> list[list[Any]]:
+        """Return the index of the window on each body's own surface, by position; found once."""
+        if shape not in self._found:
+            self._found[shape] = [
+                [
+                    region(own, (self.rows.start + cells[m][0], cells[m][1]), shape[1:])
+                    for own, cells in self.bodies
+                ]
+                for m in range(shape[0])
+            ]
+        return self._found[shape]
 
     def on(self, box: Box) -> CycleCompliance:
         """Return its part on a box of the window."""
@@ -134,21 +157,9 @@ class CycleCompliance:
                 bodies.append((compliance[:, columns], cells))
         return replace(self, bodies=bodies)
 
-    def typical(self, length: float) -> tuple[float, float]:
-        """Return its mean depths per pressure, in m/Pa: by a cell, and by all rows."""
-        local = swept = 0.0
-        for compliance, cells in self.bodies:
-            mean = _mean_where_positive(compliance)
-            passed = int(np.max(np.ptp(cells, axis=0))) * (2 if self.mirrored else 1)
-            if passed:
-                swept += mean * min(1.0, (self.rows.stop - self.rows.start) / passed)
-            else:
-                local += mean
-        return local, swept
 
-
-def _mean_where_positive(values: Array) -> float:
-    # Outside the contact most laws have no compliance, and nothing to precondition.
+def mean_where_positive(values: Array) -> float:
+    """Return the mean of the positive values: where nothing touches most laws have none."""
     count = int(np.count_nonzero(values > 0))
     return float(np.sum(values)) / count if count else 0.0
 

@@ -104,7 +104,7 @@ def under(model: Model, memory: Memory, position: int) -> Memory:
 
 
 def filling(model: Model, memory: Memory) -> Array:
-    """Return the height of the filling of the gap, (positions, nx, ny) or of 1 cell if none, in m."""
+    """Return how high the gap is filled, (positions, nx, ny) or of 1 cell if it is not, in m."""
     cells = model.grid.cells if model.laws.filling else (1, 1)
     heights = np.zeros((len(model.cycle), *cells))
     for position, height in enumerate(heights if model.laws.filling else ()):

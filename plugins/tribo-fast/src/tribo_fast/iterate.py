@@ -54,9 +54,8 @@ class CompiledIterate(Iterate):
             np.full((1, 1, gap.shape[2]), limit) if isinstance(limit, float) else self.limit
         )
         shape = self._compiled.shape
-        self._preconditioner = Convolution(
-            transposed(1.0 / self.symbol, shape), shape, self._compiled.modes
-        )
+        inverse = transposed(1.0 / self.preconditioner.symbol, shape)
+        self._inverse = Convolution(inverse, shape, self._compiled.modes)
         self._sums = passes.empty_sums(len(gap))
         self._judge()
 
@@ -103,12 +102,14 @@ class CompiledIterate(Iterate):
 
     def _precondition(self) -> None:
         """Write the preconditioned residual, which lies in `change` until there is a step."""
-        by = self._preconditioner
-        place = (self.pressure, self.deformed, self._most)
-        fields = (self.residual, self.gradient, self.direction, self.change)
-        self._threads(
-            passes.precondition, *place, *fields, self._sums, by.spectrum, memory=by.memory
-        )
+        by = self._inverse
+        place = (self.pressure, self.deformed, self._most, self.residual)
+        rest = (self._sums, by.spectrum)
+        self._threads(passes.precondition, *place, self.change, *rest, memory=by.memory)
+        if self.preconditioner.wears:
+            self.change -= self.preconditioner.taken(self.residual)
+        fields = (self.gradient, self.direction, self.change, self._sums)
+        self._threads(passes.steepen, *place, *fields)
 
     def _advance(self, beta: float) -> None:
         """Write the step of a direction, and the response to it, which lies in `moved`."""

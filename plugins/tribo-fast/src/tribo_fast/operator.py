@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from queue import SimpleQueue
 from threading import Thread
@@ -97,28 +99,42 @@ class _Wear:
         passes.wear(pressure, depth, sums, self._local, self._swept)
 
 
-class _CycleWear:
-    """The wear of a step that couples positions, on the bodies' surfaces one after the other."""
+@dataclass(frozen=True)
+class CompiledCycle(CycleCompliance):
+    """The wear of a step that couples positions, taken to surfaces and windows in compiled code."""
 
-    def __init__(self, wear: CycleCompliance, threads: Threads) -> None:
-        self._threads, self._mirrored = threads, wear.mirrored
-        self._shares = np.array(wear.shares, dtype=float)
-        own = [np.ravel(compliance) for compliance, _ in wear.bodies]
-        self._compliance = np.concatenate([np.empty(0), *own])
-        self._worn = np.empty_like(self._compliance)
-        count, into = len(wear.bodies), np.array([wear.rows.start, 0])
-        self._bodies = np.empty((count, 3), dtype=np.int64)
-        self._cells = np.empty((count, len(wear.shares), 2), dtype=np.int64)
-        first = 0
-        for b, (compliance, cells) in enumerate(wear.bodies):
-            self._bodies[b] = first, *compliance.shape
-            self._cells[b] = (into + cells) % compliance.shape
-            first += compliance.size
+    threads: Threads | None = None
 
-    def add(self, pressure: Array, depth: Array, sums: Array) -> None:
-        bodies, cells, worn = self._bodies, self._cells, self._worn
-        passes.gather(pressure, self._shares, bodies, cells, self._compliance, worn, self._mirrored)
-        self._threads(passes.scatter, pressure, depth, sums, bodies, cells, worn)
+    @cached_property
+    def _tables(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """First number, rows and columns of each body; where each window begins on it."""
+        shapes = np.array([own.shape for own, _ in self.bodies], dtype=np.int64).reshape(-1, 2)
+        ends = np.cumsum(shapes.prod(axis=1))
+        starts = np.array([cells for _, cells in self.bodies], dtype=np.int64)
+        starts = starts.reshape(len(shapes), len(self.shares), 2)
+        starts += np.array([self.rows.start, 0])
+        first = np.concatenate([[0], ends])[: len(shapes), None]
+        return np.hstack([first, shapes]), starts % shapes[:, None]
+
+    def gathered(self, fields: Array) -> list[Array]:
+        """Return Σₙ ωₙ Tₙᵀ of fields on each body's own surface."""
+        bodies, cells = self._tables
+        own = np.empty(sum(compliance.size for compliance, _ in self.bodies))
+        shares = np.array(self.shares, dtype=float)
+        passes.gather(fields, shares, bodies, cells, own, self.mirrored)
+        return [own[i : i + nx * ny].reshape(nx, ny) for i, nx, ny in bodies.tolist()]
+
+    def seen(self, of_bodies: Sequence[Array], shape: tuple[int, ...]) -> Array:
+        """Return the sum of Tₘ of the bodies' fields at each position, of `shape`."""
+        seen = np.zeros(shape)
+        self.add(of_bodies, seen)
+        return seen
+
+    def add(self, of_bodies: Sequence[Array], fields: Array) -> None:
+        """Add the sum of Tₘ of the bodies' fields to fields of the window."""
+        own = np.concatenate([np.empty(0), *map(np.ravel, of_bodies)])
+        assert self.threads is not None
+        self.threads(passes.scatter, fields, *self._tables, own)
 
 
 class CompiledOperator:
@@ -135,11 +151,11 @@ class CompiledOperator:
         spectrum = _spectra[base]
         self.modes = [np.empty(spectrum.size, dtype=np.complex128) for _ in threads.parts]
         self.elastic = Convolution(spectrum, base.padded, self.modes)
-        self._wear: _Wear | _CycleWear | None = None
+        self.wear: _Wear | CompiledCycle | None = None
         if isinstance(wear, WearCompliance):
-            self._wear = _Wear(wear, self.shape, self.spacing[0])
+            self.wear = _Wear(wear, self.shape, self.spacing[0])
         elif wear is not None:
-            self._wear = _CycleWear(wear, threads)
+            self.wear = CompiledCycle(wear.shares, wear.bodies, wear.rows, wear.mirrored, threads)
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement under pressures, shape (positions, nx, ny)."""
@@ -151,5 +167,9 @@ class CompiledOperator:
 
     def add_wear(self, pressure: Array, displacement: Array, sums: Array) -> None:
         """Add the wear to an elastic displacement, and write the sum of its product with p."""
-        if self._wear:
-            self._wear.add(pressure, displacement, sums)
+        if isinstance(self.wear, CompiledCycle):
+            worn = zip(self.wear.gathered(pressure), self.wear.bodies, strict=True)
+            self.wear.add([own * compliance for own, (compliance, _) in worn], displacement)
+            self._threads(passes.multiply, pressure, displacement, sums)
+        elif self.wear:
+            self.wear.add(pressure, displacement, sums)

@@ -194,23 +194,9 @@ def judge(pressure, displacement, gap, deformed, limit, total, sums, first, last
         sums[k, FACE], sums[k, MEAN] = max(face, 1), mean / max(face, 1)
 
 
-@_compiled(*[_FIELD] * 7, _TABLE, _TABLE, _MODES, _TABLE)
-def precondition(
-    pressure,
-    deformed,
-    limit,
-    residual,
-    gradient,
-    direction,
-    z,
-    sums,
-    spectrum,
-    modes,
-    lines,
-    first,
-    last,
-):
-    """Centre the residual on the face, and precondition it; `gradient` is the residual before."""
+@_compiled(*[_FIELD] * 5, _TABLE, _TABLE, _MODES, _TABLE)
+def precondition(pressure, deformed, limit, residual, z, sums, spectrum, modes, lines, first, last):
+    """Centre the residual on the face, and convolve it."""
     _, nx, ny = pressure.shape
     for k in range(first, last):
         mean = sums[k, MEAN]
@@ -219,6 +205,13 @@ def precondition(
             for j in range(ny):
                 r[j] = d[j] - mean if _on_face(p[j], d[j], most[j]) else 0.0
         _convolve(residual[k], z[k], spectrum, modes, lines)
+
+
+@_compiled(*[_FIELD] * 7, _TABLE)
+def steepen(pressure, deformed, limit, residual, gradient, direction, z, sums, first, last):
+    """Find the sums of the preconditioned residual; `gradient` is the residual before."""
+    _, nx, ny = pressure.shape
+    for k in range(first, last):
         # The sums of the centred z: the residual is centred already.
         raised, turned, past, steepness, overlap = 0.0, 0.0, 0.0, 0.0, 0.0
         for i in range(nx):
@@ -412,22 +405,22 @@ def wear(change, response, sums, local, swept):
     sums[0, CURVATURE] = _dot(change[0], response[0])
 
 
-@njit(f"void({_FIELD},{_ROW},i8[:,::1],i8[:,:,::1],{_ROW},{_ROW},b1)", **_OPTIONS)
-def gather(change, shares, bodies, cells, compliance, worn, mirrored):
-    """Write what each body wears on its own surface.
+@njit(f"void({_FIELD},{_ROW},i8[:,::1],i8[:,:,::1],{_ROW},b1)", **_OPTIONS)
+def gather(fields, shares, bodies, cells, gathered, mirrored):
+    """Write the sum of each position's share of a field on each body's own surface.
 
-    Compliance and worn depth of the bodies lie one after the other; `bodies` has the first number,
-    rows and columns of each, `cells` the row and column at which the window begins, by position.
+    The bodies lie one after the other; `bodies` has the first number, rows and columns of each,
+    `cells` the row and column at which the window begins, by position.
     """
-    count, nx, ny = change.shape
-    worn[:] = 0.0
+    count, nx, ny = fields.shape
+    gathered[:] = 0.0
     for b in range(len(bodies)):
         first, rows, columns = bodies[b]
         for k in range(count):
             row, column = cells[b, k]
             before = min(ny, columns - column)
             for i in range(nx):
-                own, c = worn[first + (row + i) % rows * columns :], change[k, i]
+                own, c = gathered[first + (row + i) % rows * columns :], fields[k, i]
                 part = own[column : column + before]
                 for j in range(before):
                     part[j] += shares[k] * c[j]
@@ -435,31 +428,35 @@ def gather(change, shares, bodies, cells, compliance, worn, mirrored):
                     own[(column + j) % columns] += shares[k] * c[j]
         if mirrored:
             for i in range((rows + 1) // 2):
-                own = worn[first + i * columns :]
-                other = worn[first + (rows - 1 - i) * columns :]
+                own = gathered[first + i * columns :]
+                other = gathered[first + (rows - 1 - i) * columns :]
                 for j in range(columns):
                     both = own[j] + other[j]
                     own[j], other[j] = both, both
-    for c in range(len(worn)):
-        worn[c] *= compliance[c]
 
 
-@_compiled(_FIELD, _FIELD, _TABLE, "i8[:,::1]", "i8[:,:,::1]", _ROW)
-def scatter(change, response, sums, bodies, cells, worn, first, last):
-    """Add what the bodies have worn to the displacements."""
-    _, nx, ny = change.shape
+@_compiled(_FIELD, "i8[:,::1]", "i8[:,:,::1]", _ROW)
+def scatter(fields, bodies, cells, own, first, last):
+    """Add what lies on the bodies' surfaces to fields."""
+    _, nx, ny = fields.shape
     for k in range(first, last):
         for b in range(len(bodies)):
             begin, rows, columns = bodies[b]
             row, column = cells[b, k]
             before = min(ny, columns - column)
             for i in range(nx):
-                own, u = worn[begin + (row + i) % rows * columns :], response[k, i]
-                part = own[column : column + before]
+                line, u = own[begin + (row + i) % rows * columns :], fields[k, i]
+                part = line[column : column + before]
                 for j in range(before):
                     u[j] += part[j]
                 for j in range(before, ny):
-                    u[j] += own[(column + j) % columns]
+                    u[j] += line[(column + j) % columns]
+
+
+@_compiled(_FIELD, _FIELD, _TABLE)
+def multiply(change, response, sums, first, last):
+    """Write the sum of the products of steps and responses."""
+    for k in range(first, last):
         sums[k, CURVATURE] = _dot(change[k], response[k])
 
 
