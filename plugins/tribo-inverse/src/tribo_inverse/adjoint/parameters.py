@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Collection, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -72,9 +72,9 @@ class Chain:
     """The derivatives in the number at a path of a case, by differences of models.
 
     The weighted sum over `variants` is the derivative; `base` is the model of the case itself, and
-    `stops` are its stops. `wears` has what changes the wear under given contacts: keys of the
-    numbers, some `OF_LAW`, or inputs of laws and effects. `spreads` is whether K changes its
-    shape too, and not only its size.
+    `stops` are its stops. `wears` has what changes the wear of some `bodies` under given contacts:
+    keys of the numbers, some `OF_LAW`, or inputs of laws and effects. `spreads` is whether K
+    changes its shape too, and not only its size.
     """
 
     path: str
@@ -83,6 +83,7 @@ class Chain:
     base: Model
     stops: Stops
     wears: Set[str]
+    bodies: Collection[str]
     spreads: bool
 
     def until(self, end: float) -> Chain:
@@ -138,7 +139,7 @@ class Chain:
         read.
         """
         # Rates that the number does not enter need not be evaluated again.
-        asks, total = not self.wears.isdisjoint(OF_LAW | seen), 0.0
+        asks, total = () if self.wears.isdisjoint(OF_LAW | seen) else self.bodies, 0.0
         own, carriers = part.stages.slid.interval, part.stages.carriers
         # Points that slide further wear more, whatever their law looks at.
         for each in self.variants if asks or self.wears & OF_MOTION else ():
@@ -231,7 +232,10 @@ def chain(
         ]
         other = next(model for model in models if model is not base)
         wears, spreads = _wears(base, other, places), _spreads(base, other)
-        return Chain(path, value, variants, base, own, wears, spreads)
+        bodies = set(base.laws.wear)
+        if places[0][0] == "bodies" and not base.laws.effects:
+            bodies.intersection_update(place[1] for place in places)
+        return Chain(path, value, variants, base, own, wears, bodies, spreads)
     why = error.errors()[0]["msg"] if isinstance(error, ValidationError) else str(error)
     for place in (path, *(".".join(map(str, place)) for place in places)):
         why = why.removeprefix(f"{place}: ")
@@ -283,7 +287,7 @@ def of_length(model: Model, end: float) -> Chain:
         for by in (1, -1)
     ]
     own = Stops.at(model, [*before, end])
-    return Chain("stop.depth", end, variants, model, own, OF_LAW, False)
+    return Chain("stop.depth", end, variants, model, own, OF_LAW, model.laws.wear, False)
 
 
 def _varied(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -22,7 +22,7 @@ from tribo.kernel_api import (
     whole,
 )
 
-from tribo_inverse.increment.across import held_effects
+from tribo_inverse.increment.across import held, held_effects
 from tribo_inverse.increment.breaks import with_breaks
 from tribo_inverse.increment.carriers import Carrier
 from tribo_inverse.increment.response import Arrays, Field
@@ -114,11 +114,11 @@ class Increment:
         carriers: Mapping[str, Carrier],
         interval: Interval,
         *,
-        asks: bool,
+        asks: Collection[str],
     ) -> float:
         """Return the change of the objective with the increment of a model with another number.
 
-        It has the same contacts. Whether it `asks` for the rates again, since they may differ.
+        It has the same contacts. It `asks` again for the rates of these bodies, which may differ.
         """
         increment = self.stages
         own = increment.slid
@@ -128,7 +128,7 @@ class Increment:
             deeper = np.subtract(now, was)
             total += sum(float(np.sum(of)) * far for of, far in zip(by, deeper, strict=True))
         # Rates depend on the length where loads change along it.
-        asks = asks or increment.loads_change
+        asks = asks or (model.laws.wear if increment.loads_change else ())
         moves = carriers is not increment.carriers
         if not (asks or moves):
             return total
@@ -138,17 +138,18 @@ class Increment:
             carriers=carriers,
             slid=replace(own, interval=interval),
         )
-        shares = over(increment.shares)
+        asked, shares = increment.of_bodies(others.model, asks), over(increment.shares)
         for each in found.rates:
             stage = each.stage
             rates = stage.rates
             if asks:
-                rates = others.holding(stage).rates(stage.states, stage.passed)
+                model = held(asked, stage.answers) if stage.answers else asked
+                rates = others.rates(stage, model=model)
             own_frame = len(each.means) if moves else 0
             if moves:
                 total += _dot(each.means, others.means(rates)) - _dot(each.means, stage.means)
-            triples = zip(each.cells, rates, stage.rates, strict=True)
-            changes = [(by, new - old) for by, new, old in triples][own_frame:]
+            triples = [*zip(each.cells, rates, stage.rates, strict=True)][own_frame:]
+            changes = [(by, new - old) for by, new, old in triples if new is not old]
             total += sum(float(np.sum(shares * by * change)) for by, change in changes)
         return total
 

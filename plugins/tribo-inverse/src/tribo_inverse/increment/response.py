@@ -59,13 +59,15 @@ def aside(
 ) -> list[Response]:
     """Return the responses of rates in values of their own cell, each varied by its `nudge`.
 
-    `found` are the rates at the values. `seen` maps values on a body to the cells of the rates.
+    `found` are the rates at the values; an array of them among the `rates` has no derivative.
+    `seen` maps values on a body to the cells of the rates.
     """
     moved = rates(values + nudge)
     # What is added is not quite the nudge: its last digits are lost.
     span = seen((values + nudge) - values)
     by = np.where(span == 0, np.inf, span)
-    return [Response((after - before) / by) for after, before in zip(moved, found, strict=True)]
+    pairs = zip(moved, found, strict=True)
+    return [Response(0.0 if now is was else (now - was) / by) for now, was in pairs]
 
 
 def shared(rates: Rates, pressure: Array) -> list[Response]:

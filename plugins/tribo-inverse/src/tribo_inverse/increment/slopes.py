@@ -143,13 +143,13 @@ class Sloping(Stages):
             return [Response(slope) for slope in stage.slopes]
 
         def rates(pressure: Array) -> Arrays:
-            return self.rates(stage.states, stage.passed, self.told(stage.passed, pressure))
+            return self.rates(stage, told=self.told(stage.passed, pressure))
 
         if self.shares_load:
             return shared(rates, self.pressure)
         told = self.told(stage.passed)
         responses = aside(
-            lambda told: self.rates(stage.states, stage.passed, told),
+            lambda told: self.rates(stage, told=told),
             stage.rates,
             told,
             ASIDE * told,
@@ -165,10 +165,11 @@ class Sloping(Stages):
         ]
 
     def _by_state(self, at: int, stage: RateStage, nudge: Array) -> Sequence[Response]:
-        states = stage.states
+        states, body = stage.states, self.slid.before.bodies[at]
+        model = self.of_bodies(self.model, [body]) if body else self.model
 
         def rates(state: Array) -> Arrays:
-            return self.rates([*states[:at], state, *states[at + 1 :]], stage.passed)
+            return self.rates(stage, [*states[:at], state, *states[at + 1 :]], model=model)
 
         return aside(rates, stage.rates, states[at], nudge, self._seen_by(self.kept[at]))
 
@@ -190,7 +191,7 @@ class Sloping(Stages):
 
             def rates(factor: Array, name: str = name) -> Arrays:
                 changed = localised(self.model, {name: factor})
-                return self.rates(stage.states, stage.passed, model=changed)
+                return self.rates(stage, model=changed)
 
             ones = np.ones(carrier.shape)
             seen = self._seen_by(carrier)
@@ -209,7 +210,7 @@ class Sloping(Stages):
                 fields = {**answer.fields, field.name: {**of_bodies, body: values}}
                 other = replace(answer, fields=fields)
                 given = [[other if each is answer else each for each in of] for of in stage.answers]
-                return self.rates(stage.states, stage.passed, model=held(self.model, given))
+                return self.rates(stage, model=held(self.model, given))
 
             values = of_bodies[body]
             step = ASIDE * (float(np.max(np.abs(values))) or 1.0)

@@ -98,6 +98,11 @@ class Stages:
         """The limits and breaks of the states."""
         return kept_in(self.model, self.slid.before)
 
+    def of_bodies(self, model: Model, names: Iterable[str]) -> Model:
+        """Return a model with the laws of some bodies, or all laws where effects see them."""
+        wear = model.laws.wear
+        return model if model.laws.effects else model.with_laws({n: wear[n] for n in names})
+
     @property
     def sums(self) -> list[Sum]:
         """The depths worn, as sums of the integrator, where they lie."""
@@ -146,11 +151,12 @@ class Stages:
         within = self.held(states)
         inside = [given == kept for given, kept in zip(states, within, strict=True)]
         found = self._rates_of(self.model, within, passed, self.told(passed))
-        rates = self._arrays(found)
-        slopes = [[of.wear[name].depth_slope for of in found] for name in self.model.laws.wear]
+        rates = self._arrays(found, self.model)
+        laws = self.model.laws.wear
+        slopes = [self._on_box(of.wear[name].depth_slope for of in found) for name in laws]
         answers = [[*effect.noted] for effect in held_effects(self.model)]
         means = self.means(rates)
-        return RateStage(passed, within, inside, rates, means, self._on_box(slopes), answers)
+        return RateStage(passed, within, inside, rates, means, slopes, answers)
 
     def told(self, passed: float, pressure: Array | None = None) -> Array:
         """Return the pressures for laws at a stage, (positions, nx, ny).
@@ -167,28 +173,30 @@ class Stages:
 
     def rates(
         self,
-        states: Sequence[Array],
-        passed: float,
+        stage: RateStage,
+        states: Sequence[Array] | None = None,
         told: Array | None = None,
         model: Model | None = None,
     ) -> Arrays:
-        """Return the rates at each position at a stage, shape (positions, nx, ny).
+        """Return the rates of a stage with something else, shape (positions, nx, ny).
 
-        After them come the inputs of effects with a `pull_back`.
+        After them come the inputs of effects with a `pull_back`. Rates of laws that the model lacks
+        are the same arrays as those of the stage.
 
         Parameters
         ----------
-        states : sequence of ndarray, shape (rows, ny)
-            The states.
-        passed : float
-            Share of the increment that has passed.
+        stage : RateStage
+            The stage.
+        states : sequence of ndarray, shape (rows, ny), optional
+            Its states, if left out.
         told : ndarray, shape (positions, nx, ny), optional
             The pressures; the result of `told` if left out.
         model : Model, optional
-            A model with another number.
+            A model with another number, or with some of the laws.
         """
-        told = self.told(passed) if told is None else told
-        return self._arrays(self._rates_of(model or self.model, states, passed, told), model)
+        told = self.told(stage.passed) if told is None else told
+        model, states = model or self.model, stage.states if states is None else states
+        return self._arrays(self._rates_of(model, states, stage.passed, told), model, stage.rates)
 
     def holding(self, stage: RateStage) -> Self:
         """Return the same stages, with effects held at their answers of a stage."""
@@ -204,28 +212,38 @@ class Stages:
         shown = told if self.box.is_window else self.box.embed(told)
         for effect in held_effects(model):
             effect.noted.clear()
-        return rates_at_each(model, _contacts(shown), memory, self.slid.interval.at(passed))
+        box, moment = None if model.laws.effects else self.box, self.slid.interval.at(passed)
+        return rates_at_each(model, _contacts(shown), memory, moment, box)
 
-    def _arrays(self, found: Sequence[Rates], model: Model | None = None) -> Arrays:
-        """Return the rates on the box, and the inputs of the effects of a model."""
-        wear, memory = self.model.laws.wear, self.slid.before
-        rates = [[of.wear[name].depth_rate for of in found] for name in wear]
-        rates += [
-            [of.wear[name].state_rates[key] for of in found]
-            for name, of_law in memory.laws.items()
-            for key in of_law
+    def _arrays(self, found: Sequence[Rates], model: Model, known: Sequence[Array] = ()) -> Arrays:
+        """Return the rates of a model on the box, and the inputs of its effects.
+
+        The rates of laws that it lacks are `known`.
+        """
+        memory = self.slid.before
+        asked = [(name, "") for name in self.model.laws.wear]
+        asked += [(name, key) for name, of_law in memory.laws.items() for key in of_law]
+        rates = [
+            self._on_box(
+                of.wear[name].state_rates[key] if key else of.wear[name].depth_rate for of in found
+            )
+            if name in model.laws.wear
+            else known[at]
+            for at, (name, key) in enumerate(asked)
         ]
         rates += [
-            [np.broadcast_to(of.between[key], self.box.window) for of in found]
+            self._on_box(np.broadcast_to(of.between[key], self.box.window) for of in found)
             for key in memory.between
         ]
-        effects = held_effects(model or self.model)
-        answers = (answer for effect in effects for answer in effect.noted)
-        rates += [[value] for answer in answers for value in answer.told.values()]
-        return self._on_box(rates)
+        answers = (answer for effect in held_effects(model) for answer in effect.noted)
+        return rates + [
+            self._on_box([value]) for answer in answers for value in answer.told.values()
+        ]
 
-    def _on_box(self, fields: Iterable[Sequence[Array]]) -> Arrays:
-        return [np.stack([of[self.box.slices] for of in each]) for each in fields]
+    def _on_box(self, fields: Iterable[Array]) -> Array:
+        """Return fields on the box or the window, on the box."""
+        shape = self.box.shape
+        return np.stack([of if of.shape == shape else of[self.box.slices] for of in fields])
 
 
 def _contacts(pressures: Array) -> list[ContactSolution]:
