@@ -47,7 +47,7 @@ def exact(case: Case, paths: list[str]) -> tuple[np.ndarray, list[float]]:
             number, seeds = value(View(model, end))
             through = swept_back(model, tape, {model.end_time: seeds}, chains).parameters
             direct = [
-                sum(each.weight * value(View(each.model, end))[0] for each in one.variants)
+                sum(by * (value(View(each.model, end))[0] - number) for by, each in one.variants)
                 for one in chains
             ]
             scale = [one.value / number for one in chains]
@@ -66,10 +66,8 @@ def values(case: Case) -> np.ndarray:
 def differences(case: Case, paths: list[str]) -> np.ndarray:
     """Return the slopes by a run more for each number."""
     base, columns = values(case), []
-    for _, places, value in find(case, paths):
-        moved = case
-        for place in places:
-            moved = changed(moved, place, value * float(np.exp(STEP)))
+    for path, places, value in find(case, paths):
+        moved = changed(case, path, places, value * float(np.exp(STEP)))
         columns.append((values(moved) - base) / STEP)
     return np.stack(columns, axis=1)
 

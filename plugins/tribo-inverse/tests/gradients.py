@@ -95,8 +95,7 @@ def difference(base, steps, objective, numbers, maps, part, depth=None):
         case = base.case
         for path, change in numbers.items():
             ((_, places, value),) = find(case, [path])
-            for place in places:
-                case = changed(case, place, value * (1 + by * change))
+            case = changed(case, path, places, value * (1 + by * change))
         rates = {name: 1 + by * change for name, change in maps.get("wear_rate", {}).items()}
         model = localised(assemble(case), rates)
         gaps = list(model.contact.gaps)

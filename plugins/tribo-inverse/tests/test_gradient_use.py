@@ -16,7 +16,6 @@ from tribo.core.fields import Field
 from tribo.core.grid import Grid
 from tribo.effects.effect import Effect
 from tribo.motion.reciprocating import Reciprocating
-from tribo.simulation import march
 from tribo.simulation.positions import composed
 from tribo.surfaces.height_map import HeightMap
 from tribo.templates import template
@@ -68,9 +67,9 @@ REFUSED = {
         {"bodies": pair(archard(), archard(2 * K))},
         ["bodies.*.wear.k"],
     ),
-    r"either may be the softer; name both, as bodies\.\*": ({"bodies": HARD_PAIR}, [HARD]),
+    r"either body may be the softer; name both, as bodies\.\*": ({"bodies": HARD_PAIR}, [HARD]),
     "layer of another hardness": ({"bodies": COATED}, []),
-    "load.normal.2.until: has .*: a change of it separates events that coincide at 9 s": (
+    "load.normal.2.until: has .*: it separates events that coincide": (
         EVENLY,
         ["load.normal.2.until"],
     ),
@@ -109,8 +108,8 @@ def test_measured_heights_have_to_be_asked_for():
     ("path", "unknowns", "message"),
     [
         ("load.normal", [NAN], "load.normal: may not be nan"),
-        ("load.normal", [800.0], "asked for .800 away .* give it bounds"),
-        ("bodies.ball.wear.k", [-800.0], "wear.k: was asked for -800 away .* went too far"),
+        ("load.normal", [800.0], "load.normal: may not be inf"),
+        ("bodies.ball.wear.k", [-800.0], "wear.k: is 0"),
         ("bodies.ball.material.poisson", [1.0], "poisson: may not be 0.8"),
         ("load.normal", [0.0, 0.0, 0.0], "3 unknowns were given; start has 1"),
     ],
@@ -183,36 +182,22 @@ def test_a_motion_that_ends_in_a_reversal_follows_its_length_in_the_mean():
         assert wavy[path].value == pytest.approx(even[path].value, abs=0.03)
 
 
-def crank(**end):
-    given = {"stroke": "2 mm", "frequency": 10.0, "positions": "average", "swept": "disk"}
-    return run(kinematics=Reciprocating(**given, waveform="sinusoidal", **end))
-
-
 @pytest.mark.parametrize(
-    ("end", "names"),
-    [
-        ({"cycles": 6}, ["cycles"]),
-        ({"cycles": 6.5}, ["cycles"]),
-        ({"duration": 0.6}, ["duration", "frequency"]),
-    ],
+    ("end", "percent"),
+    [({"distance": 0.024}, 1.0), ({"cycles": 6.25}, 0.5 * np.pi), ({"cycles": 6}, 0.0)],
 )
-def test_a_run_that_ends_where_the_motion_turns_has_no_derivative_in_its_length(end, names):
-    found = gradient(crank(**end), Volume("disk"))
-    paths = {f"kinematics.{name}" for name in names}
-    assert {path for path in found.refused if path.startswith("kinematics")} == paths
-    assert not paths & {*found.parameters}
-    for path in paths:
-        with pytest.raises(CaseError, match=path):
-            gradient(crank(**end), Volume("disk"), [path])
-
-
-@pytest.mark.parametrize(
-    ("end", "percent"), [({"distance": 0.024}, 1.0), ({"cycles": 6.25}, 0.5 * np.pi)]
-)
-def test_elsewhere_the_length_of_a_run_has_the_derivative_of_its_distance(end, percent):
+def test_the_length_of_a_run_has_the_derivative_of_its_distance(end, percent):
     (name,) = end
-    found = gradient(crank(**end), Volume("disk"), [f"kinematics.{name}"])
-    assert found.relative[f"kinematics.{name}"] == pytest.approx(percent, rel=1e-6)
+    slides = Reciprocating(
+        stroke="2 mm",
+        frequency=10.0,
+        positions="average",
+        swept="disk",
+        waveform="sinusoidal",
+        **end,
+    )
+    found = gradient(run(kinematics=slides), Volume("disk"), [f"kinematics.{name}"])
+    assert found.relative[f"kinematics.{name}"] == pytest.approx(percent, rel=1e-6, abs=1e-5)
 
 
 def test_where_nothing_is_told_there_is_a_reason():
@@ -223,7 +208,7 @@ def test_where_nothing_is_told_there_is_a_reason():
 @pytest.mark.parametrize(
     ("stop", "what", "frequency"),
     [
-        (Stop(depth="0.05 um", body="disk"), "time until disk", -1.0),
+        (Stop(depth="0.05 um", body="disk"), "time until stop.depth", -1.0),
         # Which it does not reach.
         (Stop(depth="1 mm", body="disk"), "depth of disk", 1.0),
     ],
@@ -256,7 +241,7 @@ def test_a_depth_that_is_worn_off_before_the_run_is_refused(tmp_path):
     parts = {"grid": Grid(("0.5 mm", "0.5 mm"), (24, 24)), "kinematics": motion(duration=10)}
     run(**parts).run(tmp_path / "first")
     stops = run(**parts, begin=tmp_path / "first", stop=Stop(depth="0.2 um"))
-    with pytest.raises(CaseError, match=r"stop\.depth: a depth ends the run at 0 s"):
+    with pytest.raises(CaseError, match="the run ends at 0 s"):
         gradient(stops, EndTime(), [])
 
 
@@ -265,12 +250,6 @@ def test_the_depth_that_ends_a_run_is_among_the_numbers_that_count():
     assert found.relative["stop.depth"] > 1
     assert str(found).startswith("stop.depth")
     assert gradient(run(stop=Stop(depth="1 mm")), Volume("ball"))["stop.depth"] == 0
-
-
-def test_a_depth_that_jumps_past_its_limit_is_refused(monkeypatch):
-    monkeypatch.setattr(march, "SMALLEST", 1.0)
-    with pytest.raises(CaseError, match=r"stop\.depth: the depth jumps from below 0.2 µm to"):
-        gradient(run(stop=Stop(depth="0.2 um")), Volume("ball"), [])
 
 
 def peak(steps):

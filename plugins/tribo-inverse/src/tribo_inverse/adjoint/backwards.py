@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -17,7 +17,7 @@ from tribo.kernel_api import (
 )
 
 from tribo_inverse.adjoint.linear import StepSystem
-from tribo_inverse.adjoint.parameters import Chain
+from tribo_inverse.adjoint.parameters import Chain, Variant
 from tribo_inverse.adjoint.view import Seeds
 from tribo_inverse.increment.across import held
 from tribo_inverse.increment.carriers import carriers_between, carriers_of
@@ -75,6 +75,7 @@ def swept_back(
             back.spread_out(record)
         else:
             back.press(record)
+    back.rest()
     kinds = ("wear_rate", "height", "worn_before")
     return Derivatives(back.parameters, {kind: vars(back)[kind] for kind in kinds})
 
@@ -114,7 +115,7 @@ class Backwards:
         self.pressure: Array | None = None
         self.gave: Sequence[int] = ()
         self.stiffness = self.cap = 0.0
-        self.sums = np.zeros(len(chains))
+        self.parameters = np.zeros(len(chains))
         self.start = np.zeros((positions, *cells))
 
     def look(self, seeds: Seeds) -> None:
@@ -201,15 +202,13 @@ class Backwards:
         mean = np.sum(left * free, CELLS) / np.maximum(free.sum(CELLS), 1)
         self.cap += float(np.sum(over(self.shares) * (left - over(mean)) * full))
         by_load = self.shares * mean / model.grid.cell_area
-        for at, chain in enumerate(self.chains):
-            self.sums[at] += chain.by_load(record, by_load)
-            self.sums[at] -= chain.by_spread(touching, y, pressure)
+        self._follow(lambda each: each.by_load(record, by_load))
+        self._follow(lambda each: -each.by_spread(touching, y, pressure))
         return before
 
     def _wear(self, part: Increment, before: Before) -> None:
         """Carry the adjoint through the wear of a step under given contacts."""
-        for at, chain in enumerate(self.chains):
-            self.sums[at] += chain.by_wear(part, before, self.seen)
+        self._follow(lambda each: each.by_wear(part, before, self.seen))
         for name, factor in before.factor.items():
             self.wear_rate[name] += factor
             self.worn_before[name] = before.wear[name]
@@ -263,10 +262,11 @@ class Backwards:
                 found[m] += share * model.cycle.maps[name].see(deeper, m)
         return found
 
-    @property
-    def parameters(self) -> Array:
-        """The derivative in each parameter."""
-        rest = [
-            chain.by_rest(self.gap, self.stiffness, self.cap, self.states) for chain in self.chains
-        ]
-        return self.sums + rest
+    def rest(self) -> None:
+        """Add the parts of the derivatives in numbers that do not depend on the step."""
+        states = self.states
+        self._follow(lambda each: each.by_rest(self.gap, self.stiffness, self.cap, states))
+
+    def _follow(self, change: Callable[[Variant], float]) -> None:
+        """Add a part of the derivative in each number, given its change with a variant."""
+        self.parameters += [each.sum(change) for each in self.chains]

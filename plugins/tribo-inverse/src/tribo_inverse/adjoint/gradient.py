@@ -10,19 +10,12 @@ from typing import Any
 
 import numpy as np
 from tribo import LOAD_SHARE, LOCAL_SLIP, Array, Case, CaseError, Explicit, Simulation, State
-from tribo.kernel_api import (
-    DEPTH_ACCURACY,
-    Model,
-    assemble,
-    did_you_mean,
-    suggestion,
-    varied,
-)
+from tribo.kernel_api import Model, assemble, did_you_mean, suggestion
 
 from tribo_inverse.adjoint.backwards import JUST, Derivatives, swept_back
 from tribo_inverse.adjoint.numbers import find
-from tribo_inverse.adjoint.parameters import TURNS, Chain, at_turn, chain, of_length
-from tribo_inverse.adjoint.view import Objective, Seeds, View, is_finite, looked
+from tribo_inverse.adjoint.parameters import Chain, Variant, chain, of_length
+from tribo_inverse.adjoint.view import Objective, Seeds, View, looked
 from tribo_inverse.increment.breaks import unreached
 from tribo_inverse.recording.local import localised
 from tribo_inverse.recording.tape import Tape, recorded
@@ -137,65 +130,45 @@ def gradient(
     >>> round(gradient(case, Volume("ball"), ["stop.depth"]).relative["stop.depth"], 1)  # % for 1 %
     1.2
     """
-    return gradients(case, [objective], wrt, factors=factors)[0]
-
-
-def gradients(
-    case: Case | Mapping[str, Any] | str | Path | Model,
-    objectives: Sequence[Objective | Mapping[float, Objective]],
-    wrt: Sequence[str] | None = None,
-    *,
-    factors: Mapping[str, Array] | None = None,
-) -> list[Gradient]:
-    """Run a case once; return the derivatives of several objectives, as `gradient` does of one."""
     factors = factors or {}
     model = localised(covered(Simulation(case).model), factors)
     model = unreached(model, model)
+    looks = objective if isinstance(objective, Mapping) else {model.end_time: objective}
+    if not (looks and all(map(callable, looks.values()))):
+        raise CaseError(
+            f"{objective!r} is no objective; give a Volume, Depth, Deepest, Pressure or EndTime, "
+            "or a function of a View"
+        )
     chains, refused = _chains(model, wrt, factors)
-    looks = [_looks(each, model.end_time) for each in objectives]
     with closing(Tape()) as tape:
-        states = recorded(model, [*{time: None for each in looks for time in each}], tape)
-        turning = at_turn(model, [state.time for state in states.values()])
-        if wrt is not None and (asked := [c.path for c in chains if c.path in turning]):
-            raise CaseError(TURNS, asked[0])
-        refused |= {each.path: TURNS for each in chains if each.path in turning}
-        chains = [each for each in chains if each.path not in turning]
+        states = recorded(model, [*looks], tape)
+        seen = {time: looked(look, View(model, states[time])) for time, look in looks.items()}
+        value = float(sum(of for of, _ in seen.values()))
+        seeds = {time: of for time, (_, of) in seen.items()}
         end = states.get(model.end_time)
         if end is not None and end.time < model.end_time:
-            chains = [each.until(end.time) for each in chains]
-        return [_differentiated(model, tape, states, each, chains, refused) for each in looks]
+            for _, variant in (pair for each in chains for pair in each.variants):
+                variant.until(end.time, end.time)
+            found, by_depth = _at_depth(model, tape, seeds, chains, end)
+        else:
+            found, by_depth = swept_back(model, tape, seeds, chains), 0.0
 
+    def direct(variant: Variant) -> float:
+        change = variant.by_stop(by_depth) - value
+        for time, state in states.items():
+            change += looked(looks[time], View(variant.model, state))[0]
+            change += variant.by_save(state.time, seeds[time])
+        return change
 
-def _differentiated(
-    model: Model,
-    tape: Tape,
-    states: Mapping[float, State],
-    looks: Mapping[float, Objective],
-    chains: Sequence[Chain],
-    refused: Mapping[str, str],
-) -> Gradient:
-    """Return the derivatives of a recorded run's objectives at saved times."""
-    seen = {time: looked(look, View(model, states[time])) for time, look in looks.items()}
-    total = float(sum(value for value, _ in seen.values()))
-    seeds = {**dict.fromkeys(states, Seeds()), **{time: seed for time, (_, seed) in seen.items()}}
-    end = states.get(model.end_time)
-    if end is not None and end.time < model.end_time:
-        found, by_depth = _at_depth(model, tape, seeds, chains, end)
-    else:
-        found, by_depth = swept_back(model, tape, seeds, chains), 0.0
-    parameters = {}
-    for each, through in zip(chains, found.parameters, strict=True):
-        direct = sum(
-            variant.weight * looked(look, View(variant.model, states[time]))[0]
-            for variant in each.variants
-            for time, look in looks.items()
-        )
-        direct += sum(each.by_save(state.time, seeds[time]) for time, state in states.items())
-        direct += each.by_stop(by_depth)
-        parameters[each.path] = float(through + direct)
-    scaled = {each.path: parameters[each.path] * each.value for each in chains}
-    relative = {path: each / total if total else float("nan") for path, each in scaled.items()}
-    return Gradient(total, parameters, relative, **found.maps, refused=refused)
+    parameters = {
+        each.path: float(through + each.sum(direct))
+        for each, through in zip(chains, found.parameters, strict=True)
+    }
+    relative = {
+        each.path: parameters[each.path] * each.value / value if value else float("nan")
+        for each in chains
+    }
+    return Gradient(value, parameters, relative, **found.maps, refused=refused)
 
 
 def covered(model: Model) -> Model:
@@ -206,15 +179,6 @@ def covered(model: Model) -> Model:
     CaseError
         If a part of it has no gradient.
     """
-    given = {
-        field.name
-        for effect in model.laws.effects
-        for field in (*effect.provides, *effect.state_fields)
-    }
-    laws = model.laws.wear.values()
-    followed = not model.laws.provided.isdisjoint((LOAD_SHARE.name, LOCAL_SLIP.name))
-    followed = followed or any(set(law.requires) & given for law in laws)
-    followed = followed or any(field.fills for f in model.laws.effects for field in f.state_fields)
     if loading := [each for each in model.laws.effects if each.changes_load]:
         raise CaseError(
             f"{loading[0]} makes the load depend on the state, which has no gradient; leave it out",
@@ -226,18 +190,18 @@ def covered(model: Model) -> Model:
             "a gradient needs one hardness: leave out the hardness of layers",
             "bodies",
         )
-    if (
-        model.case.contact.operator(
-            model.contact.system, model.contact.gap <= np.min(model.contact.gap)
-        )
-        is None
-    ):
+    middle = model.contact.gap <= np.min(model.contact.gap)
+    if model.case.contact.operator(model.contact.system, middle) is None:
         raise CaseError(f"{model.case.contact.type!r} does not state its operator", "contact.type")
+    laws, between = model.laws, model.laws.between.values()
+    given = laws.provided | {field.name for _, field in between}
+    required = {name for law in laws.wear.values() for name in law.requires}
+    followed = given & {*required, LOAD_SHARE.name, LOCAL_SLIP.name}
+    fills = any(field.fills for _, field in between)
     # Explicit steps follow a load along themselves only where something is remembered.
-    if followed or not model.laws.effects or isinstance(model.case.stepping, Explicit):
+    if not laws.effects or followed or fills or isinstance(model.case.stepping, Explicit):
         return model
-    bare = assemble(varied(model.case, effects=()))
-    return replace(bare, laws=replace(bare.laws, effects=()))
+    return assemble(model.case.model_copy(update={"effects": ()}))
 
 
 def _at_depth(
@@ -246,19 +210,14 @@ def _at_depth(
     """Return the derivatives of a run that ends at a depth; the second in this depth, in 1/m.
 
     With J the objective, and D the depth at the time t, a number p that changes the depth changes t
-    by −(∂D/∂p)/(∂D/∂t), and so J by ∂J/∂p − (∂J/∂t)/(∂D/∂t) ∂D/∂p, both at a fixed time.
-
-    Raises
-    ------
-    CaseError
-        If the depth jumped past its limit.
+    by −(∂D/∂p)/(∂D/∂t), and so J by ∂J/∂p − (∂J/∂t)/(∂D/∂t) ∂D/∂p, both at the same change of t.
     """
     length, last = of_length(model, end.time), model.end_time
     at_end = {**dict.fromkeys(seeds, Seeds()), last: _deepest(model, end)}
     objective, depth = (
         swept_back(model, tape, each, [length, *chains]) for each in (seeds, at_end)
     )
-    by_time = objective.parameters[0] + length.by_save(end.time, seeds[last])
+    by_time = objective.parameters[0] + length.sum(lambda each: each.by_save(end.time, seeds[last]))
     by_depth = by_time / depth.parameters[0]
     found = objective.plus(-by_depth, depth)
     return replace(found, parameters=found.parameters[1:]), by_depth
@@ -266,20 +225,10 @@ def _at_depth(
 
 def _deepest(model: Model, end: State) -> Seeds:
     """Return 1 at the cell whose depth ended the run, the first of equally deep cells."""
-    stop = model.case.stop
-    assert stop.depth is not None
-    worn = {name: end.bodies[name].wear for name in stop.whose(end.bodies)}
+    worn = {name: end.bodies[name].wear for name in model.case.stop.whose(end.bodies)}
     name = max(worn, key=lambda each: float(np.max(worn[each])))
-    depth, most = worn[name], float(np.max(worn[name]))
-    if most > stop.depth * (1 + DEPTH_ACCURACY):
-        raise CaseError(
-            f"the depth jumps from below {1e6 * stop.depth:g} µm to {1e6 * most:g} µm however "
-            "short the last step, so that the end of the run has no derivative; take shorter "
-            "steps, or another depth",
-            "stop.depth",
-        )
-    seed = np.zeros_like(depth)
-    seed.flat[np.argmax(depth >= most * (1 - JUST))] = 1.0
+    seed = np.zeros_like(worn[name])
+    seed.flat[np.argmax(worn[name] >= np.max(worn[name]) * (1 - JUST))] = 1.0
     return Seeds({name: seed})
 
 
@@ -296,22 +245,3 @@ def _chains(
                 raise
             refused[path] = str(error).removeprefix(f"{path}: ")
     return chains, refused
-
-
-def _looks(
-    objective: Objective | Mapping[float, Objective], end_time: float
-) -> Mapping[float, Objective]:
-    """Return objectives by their saved time (s); refuse invalid objectives."""
-    looks = objective if isinstance(objective, Mapping) else {end_time: objective}
-    for time in looks:
-        if not is_finite(time):
-            raise CaseError(
-                f"the objective has the time {time!r}, which is no number; give a saved time, in s"
-            )
-    for look in looks.values() or [None]:
-        if not callable(look) or isinstance(look, type):
-            raise CaseError(
-                f"{look!r} is no objective; give a Volume, Depth, Deepest, Pressure or "
-                "EndTime, or a function of a View"
-            )
-    return looks

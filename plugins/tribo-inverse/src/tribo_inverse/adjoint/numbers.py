@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from typing import Any
+from typing import Any, cast
 
-from pydantic import BaseModel
+from pydantic import BaseModel, ValidationError
 from tribo import Case, CaseError
 from tribo.kernel_api import did_you_mean, leaves, path_keys, suggestion
 
@@ -31,8 +31,7 @@ def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[
         If a path leads to no number with decimals, to several different numbers, or to a number of
         the numerics.
     """
-    every = {place: value for place, value, _ in leaves(case)}
-    known = {place: value for place, value in every.items() if isinstance(value, float)}
+    known = {place: value for place, value, _ in leaves(case) if isinstance(value, float)}
     if asked is None:
         return [
             (".".join(map(str, place)), [place], value)
@@ -41,7 +40,7 @@ def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[
             if not (_is_tolerance(place) or value == 0)
             if not any(isinstance(i, int) and isinstance(j, int) for i, j in pairwise(place))
         ]
-    return [_named(every, known, path) for path in listed(asked)]
+    return [_named(known, path) for path in listed(asked)]
 
 
 def listed(names: Sequence[str]) -> Sequence[str]:
@@ -52,18 +51,15 @@ def listed(names: Sequence[str]) -> Sequence[str]:
 
 
 def _named(
-    every: Iterable[tuple[Any, ...]], known: Mapping[tuple[Any, ...], float], path: str
+    known: Mapping[tuple[Any, ...], float], path: str
 ) -> tuple[str, list[tuple[Any, ...]], float]:
     keys = path_keys(path.replace(ANY, "any-body"))
     keys = [ANY if key == "any-body" else key for key in keys]
     places = [place for place in known if _fits(place, keys)]
-    if places == [] and keys == ["load", "normal"]:
-        raise CaseError("has several stages; name one, as load.normal.1.normal", path)
     if not places:
         paths = [".".join(map(str, place)) for place in known]
-        fits = any(_fits(place, keys) for place in every)
-        wrong = "is no number with decimals" if fits else "the case has no such value"
-        raise CaseError(f"{wrong}{suggestion(did_you_mean(path, paths))}", path)
+        meant = suggestion(did_you_mean(path, paths))
+        raise CaseError(f"is no number with decimals in this case{meant}", path)
     if any(place[0] in HOW or _is_tolerance(place) for place in places):
         raise CaseError(
             "is a number of the numerics and has no derivative; name numbers of bodies, load, "
@@ -86,14 +82,25 @@ def _fits(place: Sequence[Any], keys: Sequence[str]) -> bool:
     )
 
 
-def changed(value: Any, place: Sequence[Any], number: float) -> Any:
-    """Return a case, or a part of it, with the number at a place in it."""
+def changed(case: Case, path: str, places: Sequence[Sequence[Any]], number: float) -> Case:
+    """Return a case with a number at the places that a path stands for."""
+    found: Any = case
+    try:
+        for place in places:
+            found = _with(found, place, number)
+    except ValidationError as error:
+        raise CaseError(f"may not be {number:g}: {error.errors()[0]['msg']}", path) from None
+    return cast(Case, found)
+
+
+def _with(value: Any, place: Sequence[Any], number: float) -> Any:
+    """Return a part of a case with the number at a place in it."""
     if not place:
         return number
     key, *rest = place
     if isinstance(value, BaseModel):
-        inside = changed(getattr(value, key), rest, number)
+        inside = _with(getattr(value, key), rest, number)
         return type(value).model_validate({**dict(value), key: inside})
     if isinstance(value, Mapping):
-        return {**value, key: changed(value[key], rest, number)}
-    return tuple(changed(v, rest, number) if i == key else v for i, v in enumerate(value, 1))
+        return {**value, key: _with(value[key], rest, number)}
+    return tuple(_with(v, rest, number) if i == key else v for i, v in enumerate(value, 1))

@@ -7,12 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from tribo import CaseError
 
-from tribo_inverse.adjoint.view import Seeds, View, is_finite
-
-
-def _check_place(x: float, y: float) -> None:
-    if not (is_finite(x) and is_finite(y)):
-        raise CaseError(f"the place is x = {x!r}, y = {y!r}; give numbers, in m from the middle")
+from tribo_inverse.adjoint.view import Seeds, View
 
 
 @dataclass(frozen=True)
@@ -33,13 +28,10 @@ class Volume:
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the volume, and the volume per depth of each cell."""
         wear, volume = view.wear(self.body), view.model.cycle.maps[self.body].volume
-        ones = np.ones_like(wear)
-        if len(wear) == 1 < view.grid.cells[0]:
-            # Rows of a track may be of different length.
-            each = np.array([[volume(row[None]) for row in np.eye(wear.shape[1])]])
-        else:
-            each = ones * (volume(ones) / wear.size)
-        return view.volume(self.body), Seeds({self.body: each})
+        rows, columns = wear.shape
+        # Rows along x may be of different length, of equal cells.
+        each = [volume(np.tile(row, (rows, 1))) / rows for row in np.eye(columns)]
+        return view.volume(self.body), Seeds({self.body: np.tile(each, (rows, 1))})
 
 
 @dataclass(frozen=True)
@@ -47,11 +39,6 @@ class Depth:
     """The depth worn off a body at a place, in m: of the cell nearest to `x` and `y`, in m.
 
     Places count from the middle of its own surface; `x` has no effect on an averaged body.
-
-    Raises
-    ------
-    CaseError
-        If a place is not a finite number.
 
     Examples
     --------
@@ -67,9 +54,6 @@ class Depth:
     x: float = 0.0
     y: float = 0.0
 
-    def __post_init__(self) -> None:
-        _check_place(self.x, self.y)
-
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the depth, and 1 at its cell."""
         wear = view.wear(self.body)
@@ -80,14 +64,9 @@ class Depth:
 
 @dataclass(frozen=True)
 class Deepest:
-    """The largest depth worn off a body, in m, made smooth: Σ wᵐ / Σ wᵐ⁻¹ with m = `order`.
+    """The largest depth worn off a body, in m, made smooth: Σ wᵐ / Σ wᵐ⁻¹ with m = `order` ≥ 2.
 
     It is below the largest depth, by 1/m of it for a scar with a round bottom.
-
-    Raises
-    ------
-    CaseError
-        If the order is below 2.
 
     Examples
     --------
@@ -101,14 +80,10 @@ class Deepest:
     body: str
     order: float = 100.0
 
-    def __post_init__(self) -> None:
-        if not (is_finite(self.order) and self.order >= 2):
-            raise CaseError(
-                f"an order of {self.order!r} of Deepest is not allowed; give a number, 2 or more"
-            )
-
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the mean, and its derivative."""
+        if not self.order >= 2:
+            raise CaseError(f"Deepest has the order {self.order!r}; give 2 or more")
         wear = view.wear(self.body)
         most = float(np.max(wear))
         if most <= 0:
@@ -126,11 +101,6 @@ class Pressure:
 
     A cell that just touches has the derivative of an open cell, 0.
 
-    Raises
-    ------
-    CaseError
-        If a place is not a finite number.
-
     Examples
     --------
     >>> from tribo_inverse import Pressure, gradient
@@ -143,9 +113,6 @@ class Pressure:
 
     x: float = 0.0
     y: float = 0.0
-
-    def __post_init__(self) -> None:
-        _check_place(self.x, self.y)
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the pressure, and 1 at its cell."""
@@ -174,14 +141,12 @@ class EndTime:
 
     def __call__(self, view: View) -> tuple[float, Seeds]:
         """Return the time, and 1; `CaseError` if no depth has ended the run."""
-        model, time, stop = view.model, view.state.time, view.model.case.stop
-        if time < model.end_time:
+        model, time, depth = view.model, view.state.time, view.model.case.stop.depth
+        if depth is not None and time < model.end_time:
             return time, Seeds(time=1.0)
-        if stop.depth is None:
-            raise CaseError("is not given: without it no depth ends the run", "stop.depth")
-        most = max(float(np.max(view.wear(name))) for name in stop.whose(model.case.bodies))
+        worn = (np.max(view.wear(name)) for name in model.case.stop.whose(model.case.bodies))
         raise CaseError(
-            f"is not reached: after {time:g} s the largest depth is {1e6 * most:.3g} µm of "
-            f"{1e6 * stop.depth:.3g} µm; give the motion a longer duration, or a lower depth",
+            f"no depth ends the run: after {time:g} s the largest is {1e6 * max(worn):.3g} µm; "
+            "give one, or the motion a longer duration",
             "stop.depth",
         )

@@ -70,12 +70,11 @@ class View:
         """Return the cell of a field, around the middle, that is nearest to a place, in m."""
         found = []
         for place, spacing, count in zip((x, y), self.grid.spacing, field.shape, strict=True):
-            index = 0 if count == 1 else int(np.floor(place / spacing + 0.5 * count))
-            if not 0 <= index < count:
-                raise CaseError(
-                    f"{1e3 * place:g} mm lies beyond {0.5e3 * count * spacing:g} mm from the middle"
-                )
-            found.append(index)
+            known = isinstance(place, Real) and math.isfinite(place)
+            index = math.floor(place / spacing + 0.5 * count) if known else -1
+            if count > 1 and not 0 <= index < count:
+                raise CaseError(f"{place!r} is no place within {0.5 * count * spacing:g} m")
+            found.append(index if count > 1 else 0)
         return found[0], found[1]
 
 
@@ -128,8 +127,7 @@ def looked(objective: Objective, view: View) -> tuple[float, Seeds]:
             pass
         case _:
             raise CaseError(
-                f"{name} gave {answer!r}; an objective gives its value and Seeds, whose wear is by "
-                "body"
+                f"{name} gave {answer!r:.80}; an objective gives its value and Seeds by body"
             )
     parts: list[tuple[str, Any, tuple[int, ...]]] = [
         ("value", value, ()),
@@ -144,14 +142,7 @@ def looked(objective: Objective, view: View) -> tuple[float, Seeds]:
         try:
             array = np.asarray(given, dtype=np.float64)
         except (TypeError, ValueError):
-            array = np.full(shape, np.nan)
-        if array.shape != shape:
-            raise CaseError(f"the {what} of {name} has the shape {array.shape}, not {shape}")
-        if not np.all(np.isfinite(array)):
-            raise CaseError(f"the {what} of {name} is NaN, infinite or no number")
+            array = np.array(np.nan)
+        if array.shape != shape or not np.all(np.isfinite(array)):
+            raise CaseError(f"the {what} of {name} must be finite, of the shape {shape}")
     return float(value), seeds
-
-
-def is_finite(value: object) -> bool:
-    """Whether something is a finite number."""
-    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)

@@ -17,7 +17,7 @@ from tribo import Array, Case, CaseError, Finding, Mask, NumericalError, Simulat
 from tribo.kernel_api import Model, begin, march
 
 from tribo_inverse.adjoint.backwards import swept_back
-from tribo_inverse.adjoint.unknowns import FURTHEST, ValueAndGradient
+from tribo_inverse.adjoint.unknowns import value_and_gradient
 from tribo_inverse.adjoint.view import Seeds, View
 from tribo_inverse.calibration.cells import cell_means
 from tribo_inverse.calibration.lanczos import eigenpairs
@@ -28,6 +28,8 @@ from tribo_inverse.findings import UNLIKELY, of_map
 from tribo_inverse.recording.local import factor_shape, localised
 from tribo_inverse.recording.tape import Tape, recorded
 
+FURTHEST = 30.0
+"""Largest logarithm of a factor that is evaluated."""
 STEP = 1e-2
 """Largest change of a logarithm for the finite difference of all depths along a direction."""
 FIRST_ITERATIONS = 10
@@ -183,7 +185,7 @@ class _Posterior:
         self.amplitudes = prior.amplitudes(shape, model.grid.spacing)
         self.scale = prior.scale(self.amplitudes)
         self.weights = Weights.of(np.ones(depth.size))
-        self.gradient = ValueAndGradient(model, self.misfit, (), [body])
+        self.gradient = value_and_gradient(model, self.misfit, (), [body])
 
     def fitted(self, products: int) -> tuple[Array, Array, Array]:
         """Return the most probable amplitudes, and the eigenpairs of the information."""

@@ -141,17 +141,10 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
                 "let stop.depth or the motion end it",
                 each.place,
             )
-    missing = [time for time in looked_at if time not in states]
-    if missing and state.time < missing[0] <= model.end_time:
+    if missing := [time for time in looked_at if time not in states]:
         raise CaseError(
-            f"a depth ends the run at {state.time:g} s, before the time {missing[0]:g} s of an "
-            "objective; give a larger depth, or an earlier saved time",
-            "stop.depth",
-        )
-    if missing:
-        raise CaseError(
-            f"nothing is saved at {missing[0]:g} s, the time of an objective; add it to "
-            "output.save_times"
+            f"nothing is saved at {missing[0]} s, the time of an objective: the run ends at "
+            f"{state.time:.6g} s; add the time to output.save_times, or raise stop.depth"
         )
     return states
 
