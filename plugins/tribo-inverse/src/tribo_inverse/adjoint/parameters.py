@@ -16,10 +16,10 @@ from tribo_inverse.increment.breaks import check_breaks, unreached
 from tribo_inverse.increment.carriers import Carrier, carriers_of
 from tribo_inverse.increment.increment import Before, Increment, Place, States
 from tribo_inverse.increment.response import ASIDE
-from tribo_inverse.recording.local import OF_CONTACT, localised
+from tribo_inverse.recording.local import OF_CONTACT, OF_MOTION, localised
 from tribo_inverse.recording.tape import Pressed
 
-OF_LAW = frozenset({"wear", "layers", "effects", "friction", "kinematics"})
+OF_LAW = frozenset({"wear", "layers", "effects", "friction"})
 """Keys of a case whose numbers enter the rates of laws and effects themselves."""
 SAME = 1e-9
 """Relative difference up to which K has the same shape, as with another modulus."""
@@ -80,15 +80,16 @@ class Variant:
         self.carriers = _moved(model, base) if "kinematics" in keys else None
         system, other = base.contact.system, model.contact.system
         reads = {name for name in OF_CONTACT if getattr(system, name) != getattr(other, name)}
-        self._reads = keys | reads
-        self.bodies = {*base.laws.wear}
-        """Bodies whose rates it may change."""
-        if "bodies" in keys and not base.laws.effects:
-            self.bodies &= keys
-        over_time = not isinstance(base.case.load.normal, float)
-        self._asks = not (
-            OF_LAW.isdisjoint(keys) and np.array_equal(self.own.times, self.stops.times)
-        ) or (over_time and "load" in keys)
+        same = np.array_equal(self.own.times, self.stops.times)
+        self._moves = "kinematics" in keys or not same
+        self._reads = keys | reads | (OF_MOTION if self._moves else set())
+        # States follow a load over time; points that slide further have a speed of their own.
+        follows = "load" in keys and not isinstance(base.case.load.normal, float)
+        reaches = self._moves and any(position.reach is not None for position in model.cycle)
+        self._asks = follows or reaches or not OF_LAW.isdisjoint(keys)
+        # Effects see the wear of both bodies.
+        bodies = keys if "bodies" in keys and not base.laws.effects else base.laws.wear
+        self._bodies = [name for name in base.laws.wear if name in bodies]
         ratio = _symbol(model) / _symbol(base)
         spreads = bool(np.ptp(ratio) > SAME * np.max(ratio))
         self._stiffness = None if spreads else -float(np.log(np.max(ratio)))
@@ -133,7 +134,8 @@ class Variant:
         `before` has the derivatives in its inputs, and `seen` the inputs that laws and effects
         read.
         """
-        if not (self._asks or self._reads & seen):
+        asks = self._bodies if self._asks or not self._reads.isdisjoint(seen) else ()
+        if not (asks or self._moves):
             return 0.0
         own, carriers = part.stages.slid.interval, part.stages.carriers
         begun, ended = self._then(own.time), self._then(own.end_time)
@@ -142,7 +144,7 @@ class Variant:
             for place in (own.distance, own.end.distance)
         )
         then = Interval(begun, began, ended, 0.0 if own.rests else end - began)
-        return part.through(before, self.model, self.carriers or carriers, then, asks=self.bodies)
+        return part.through(before, self.model, self.carriers or carriers, then, asks=asks)
 
     def by_rest(self, gap: Array, stiffness: float, cap: float, states: States) -> float:
         """Return the part through shapes, moduli, the hardness and first states."""

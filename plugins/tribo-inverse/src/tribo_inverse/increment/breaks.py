@@ -9,29 +9,28 @@ import numpy as np
 from tribo import WORN_DEPTH, CaseError, LocalConditions, WearRate
 from tribo.kernel_api import DEPTH_ACCURACY, GuardedLaw, Model
 
+from tribo_inverse.recording.local import replaced
 
-class SidedLaw(GuardedLaw):
-    """A law whose rate jumps at other depths.
+
+def sided(law: GuardedLaw, breaks: Sequence[float]) -> GuardedLaw:
+    """Return a law whose rate jumps at other depths.
 
     Its input is the depth, clipped to lie between the corresponding two breaks of its own.
     """
+    own = np.array([-np.inf, *law.breaks, np.inf])
 
-    def __init__(self, law: GuardedLaw, breaks: Sequence[float]) -> None:
-        vars(self).update(vars(law))
-        self._law, self._own = law, np.array([-np.inf, *law.breaks, np.inf])
-        if law.bottoms:
-            self.bottoms = tuple(breaks)
-        self.state_fields = tuple(
-            replace(each, breaks=tuple(breaks)) if each.name == WORN_DEPTH.name else each
-            for each in law.state_fields
-        )
-
-    def rate(self, local: LocalConditions) -> WearRate:
-        """Return the law's rate."""
+    def rate(local: LocalConditions) -> WearRate:
         depth = local.state[WORN_DEPTH.name]
-        at = np.searchsorted(self.breaks, depth, side="right")
-        told = np.clip(depth, self._own[at], np.nextafter(self._own[at + 1], -np.inf))
-        return self._law.rate(replace(local, state={**local.state, WORN_DEPTH.name: told}))
+        at = np.searchsorted(breaks, depth, side="right")
+        told = np.clip(depth, own[at], np.nextafter(own[at + 1], -np.inf))
+        return law.rate(replace(local, state={**local.state, WORN_DEPTH.name: told}))
+
+    fields = tuple(
+        replace(each, breaks=tuple(breaks)) if each.name == WORN_DEPTH.name else each
+        for each in law.state_fields
+    )
+    bottoms = tuple(breaks) if law.bottoms else ()
+    return replaced(law, rate=rate, state_fields=fields, bottoms=bottoms)
 
 
 def check_breaks(model: Model, base: Model) -> None:
@@ -57,7 +56,7 @@ def check_breaks(model: Model, base: Model) -> None:
 def with_breaks(model: Model, base: Model) -> Model:
     """Return a model whose laws jump at the breaks of the base."""
     laws = {
-        name: SidedLaw(law, base.laws.wear[name].breaks)
+        name: sided(law, base.laws.wear[name].breaks)
         for name, law in model.laws.wear.items()
         if law.breaks != base.laws.wear[name].breaks
     }
@@ -81,5 +80,5 @@ def unreached(model: Model, base: Model) -> Model:
             own if at < stop.depth * (1 - DEPTH_ACCURACY) else own + stop.depth
             for own, at in zip(laws[name].breaks, breaks, strict=True)
         ]
-        laws[name] = SidedLaw(laws[name], deeper)
+        laws[name] = sided(laws[name], deeper)
     return model.with_laws(laws)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from copy import copy
+from dataclasses import make_dataclass, replace
+from functools import cache
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
@@ -11,7 +13,6 @@ from tribo import (
     Array,
     CaseError,
     ContactConditions,
-    ContactSystem,
     LocalConditions,
     Material,
     WearRate,
@@ -23,109 +24,95 @@ OF_MOTION = frozenset({"speed", "time", "distance", "track"})
 OF_CONTACT = frozenset({"modulus", "load", "cap", "curvature", "coatings"})
 """Inputs of effects from the contact, beside its materials."""
 
+G = TypeVar("G", GuardedLaw, GuardedEffect)
 P = ParamSpec("P")
 T = TypeVar("T")
 
 
-class LocalLaw(GuardedLaw):
-    """A law of a body, times a factor at each cell of the body's own surface.
+def replaced(part: G, **changes: Any) -> G:
+    """Return a copy of a law or an effect with other attributes or methods."""
+    other = copy(part)
+    vars(other).update(changes)
+    return other
 
-    Parameters
-    ----------
-    law : GuardedLaw
-        The law.
-    factor : ndarray, shape (rows, ny)
-        Its factor, not negative.
-    spacing : tuple of float
-        Edge lengths of a cell along x and y, in m.
-    """
 
-    def __init__(self, law: GuardedLaw, factor: Array, spacing: tuple[float, float]) -> None:
-        vars(self).update(vars(law))
-        self._law = law
-        self._factor, self._is_even = factor, bool(np.ptp(factor) == 0)
-        if not self._is_even:
-            self.requires = tuple(dict.fromkeys((*law.requires, PLACE_X.name, PLACE_Y.name)))
-        self._spacing = spacing
+def _local(law: GuardedLaw, factor: Array, spacing: tuple[float, float]) -> GuardedLaw:
+    """Return a law times a factor at each cell, of edges `spacing`, of its body's own surface."""
+    even = bool(np.ptp(factor) == 0)
 
-    def rate(self, local: LocalConditions) -> WearRate:
-        """Return the law's rate and its derivative, times the factor of the place."""
-        if self._is_even:
-            return times(self._factor[0, 0], self._law.rate(local))
+    def rate(local: LocalConditions) -> WearRate:
+        if even:
+            return times(factor[0, 0], law.rate(local))
         cells = tuple(
-            np.rint(local.fields[place.name] / spacing + 0.5 * (count - 1)).astype(int)
-            for place, spacing, count in zip(
-                (PLACE_X, PLACE_Y), self._spacing, self._factor.shape, strict=True
-            )
+            np.rint(local.fields[place.name] / edge + 0.5 * (count - 1)).astype(int)
+            for place, edge, count in zip((PLACE_X, PLACE_Y), spacing, factor.shape, strict=True)
         )
-        return times(self._factor[cells], self._law.rate(local))
+        return times(factor[cells], law.rate(local))
+
+    places = () if even else (PLACE_X.name, PLACE_Y.name)
+    return replaced(law, rate=rate, requires=tuple(dict.fromkeys((*law.requires, *places))))
 
 
-class WatchedLaw(GuardedLaw):
-    """A law of a body that notes in `seen` which inputs it read: names of numbers that may change.
+def watched(model: Model, seen: set[str]) -> Model:
+    """Return a model whose laws and effects note in `seen` which numbers they read.
 
-    Copying its input counts as reading all of it.
+    These are numbers of materials, `OF_MOTION` and `OF_CONTACT`. Copying reads all of them.
     """
 
-    def __init__(self, law: GuardedLaw, seen: set[str]) -> None:
-        vars(self).update(vars(law))
-        self._law, self._seen = law, seen
+    def material(of: Material) -> Any:
+        return _WatchedMaterial(of, seen)
+
+    def watched_law(law: GuardedLaw) -> GuardedLaw:
         if law.bottoms:
             # The law of each layer gets a material of its own.
             seen.update(Material.model_fields)
 
-    def rate(self, local: LocalConditions) -> WearRate:
-        """Return the law's rate."""
-        material: Any = _WatchedMaterial(local.material, self._seen)
-        told = {**vars(local), "material": material}
-        return self._law.rate(_WatchedLocal(**told, seen=self._seen))
+        def rate(local: LocalConditions) -> WearRate:
+            return law.rate(_watched(local, seen, material=material(local.material)))
+
+        return replaced(law, rate=rate)
+
+    def watched_effect(effect: GuardedEffect) -> GuardedEffect:
+        def ask(method: Callable[P, T], *given: P.args, **named: P.kwargs) -> T:
+            told: Any = [
+                conditions(of) if isinstance(of, ContactConditions) else of for of in given
+            ]
+            return effect.ask(method, *told, **named)
+
+        return replaced(effect, ask=ask)
+
+    def conditions(contact: ContactConditions) -> ContactConditions:
+        materials = {name: material(of) for name, of in contact.system.materials.items()}
+        system = _watched(contact.system, seen, materials=materials)
+        return _watched(contact, seen, system=system)
+
+    laws = {name: watched_law(law) for name, law in model.laws.wear.items()}
+    effects = tuple(map(watched_effect, model.laws.effects))
+    return replace(model, laws=replace(model.laws, wear=laws, effects=effects))
 
 
-class WatchedEffect(GuardedEffect):
-    """An effect that notes in `seen` which inputs it read, as a `WatchedLaw`."""
-
-    def __init__(self, effect: GuardedEffect, seen: set[str]) -> None:
-        vars(self).update(vars(effect))
-        self._seen = seen
-
-    def ask(self, method: Callable[P, T], *given: P.args, **named: P.kwargs) -> T:
-        """Call a method of the effect."""
-        told: Any = [self._watched(of) if isinstance(of, ContactConditions) else of for of in given]
-        return super().ask(method, *told, **named)
-
-    def _watched(self, contact: ContactConditions) -> ContactConditions:
-        seen, system = self._seen, contact.system
-        materials: Any = {
-            name: _WatchedMaterial(material, seen) for name, material in system.materials.items()
-        }
-        parts = {**vars(system), "materials": materials}
-        told = {**vars(contact), "system": _WatchedSystem(**parts, seen=seen)}
-        return _WatchedContact(**told, seen=seen)
+def _watched(inputs: T, seen: set[str], **changes: Any) -> T:
+    """Return inputs with changes, of which reading a number is noted."""
+    kind: Any = type(inputs)
+    found: T = _watching(kind)(**{**vars(inputs), **changes}, seen=seen)
+    return found
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Watched:
-    seen: set[str]
-
-    def __getattribute__(self, name: str) -> Any:
-        if name in (*OF_MOTION, *OF_CONTACT):
+@cache
+def _watching(kind: Any) -> Any:
+    def read(self: Any, name: str) -> Any:
+        if name in OF_MOTION or name in OF_CONTACT:
             self.seen.add(name)
-        return super().__getattribute__(name)
+        return object.__getattribute__(self, name)
 
-
-@dataclass(frozen=True, kw_only=True)
-class _WatchedLocal(_Watched, LocalConditions):
-    pass
-
-
-@dataclass(frozen=True, kw_only=True)
-class _WatchedContact(_Watched, ContactConditions):
-    pass
-
-
-@dataclass(frozen=True, kw_only=True)
-class _WatchedSystem(_Watched, ContactSystem):
-    pass
+    return make_dataclass(
+        f"Watched{kind.__name__}",
+        [("seen", set[str])],
+        bases=(kind,),
+        namespace={"__getattribute__": read},
+        frozen=True,
+        kw_only=True,
+    )
 
 
 class _WatchedMaterial:
@@ -136,14 +123,6 @@ class _WatchedMaterial:
         fields = Material.model_fields
         self._seen.update([name] if name in fields else fields)
         return getattr(self._material, name)
-
-
-def watched(model: Model, seen: set[str]) -> Model:
-    """Return a model whose laws and effects note in `seen` which of their inputs they read."""
-    laws = {name: WatchedLaw(law, seen) for name, law in model.laws.wear.items()}
-    effects = tuple(WatchedEffect(effect, seen) for effect in model.laws.effects)
-    model = model.with_laws(laws)
-    return replace(model, laws=replace(model.laws, effects=effects))
 
 
 def localised(model: Model, factors: Mapping[str, Array]) -> Model:
@@ -168,7 +147,7 @@ def localised(model: Model, factors: Mapping[str, Array]) -> Model:
             raise CaseError(f"the factors of {name} have the shape {np.shape(factor)}, not {shape}")
         if not np.all(np.isfinite(factor) & (factor >= 0)):
             raise CaseError(f"a factor on the wear rate of {name} is negative, NaN or infinite")
-        laws[name] = LocalLaw(laws[name], factor, model.grid.spacing)
+        laws[name] = _local(laws[name], factor, model.grid.spacing)
     return model.with_laws(laws)
 
 
