@@ -19,7 +19,6 @@ from tribo_inverse.adjoint.gradient import covered, gradient
 from tribo_inverse.adjoint.numbers import changed, find
 from tribo_inverse.adjoint.parameters import Stops
 from tribo_inverse.adjoint.view import Seeds, View
-from tribo_inverse.increment.breaks import unreached
 from tribo_inverse.recording.local import localised
 
 
@@ -132,7 +131,6 @@ class Kind:
             patch.setattr("tribo_inverse.recording.tape.march", noted)
             found = gradient(self.case, self.objective, self.paths)
         model = covered(Simulation(self.case).model)
-        model = unreached(model, model)
         numbers = {path: random.uniform(0.5, 1.5) for path in self.paths}
         own = {name: (each.rows, model.grid.cells[1]) for name, each in model.cycle.maps.items()}
         sizes = {"wear_rate": 1.0, "height": 1e-8}

@@ -16,7 +16,6 @@ from tribo_inverse.adjoint.backwards import JUST, Derivatives, swept_back
 from tribo_inverse.adjoint.numbers import find
 from tribo_inverse.adjoint.parameters import Chain, Variant, chain, of_length
 from tribo_inverse.adjoint.view import Objective, Seeds, View, looked
-from tribo_inverse.increment.breaks import unreached
 from tribo_inverse.recording.local import localised
 from tribo_inverse.recording.tape import Tape, recorded
 
@@ -132,7 +131,6 @@ def gradient(
     """
     factors = factors or {}
     model = localised(covered(Simulation(case).model), factors)
-    model = unreached(model, model)
     looks = objective if isinstance(objective, Mapping) else {model.end_time: objective}
     if not (looks and all(map(callable, looks.values()))):
         raise CaseError(

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 from tribo import WORN_DEPTH, CaseError, LocalConditions, WearRate
-from tribo.kernel_api import DEPTH_ACCURACY, GuardedLaw, Model
+from tribo.kernel_api import GuardedLaw, Model
 
 from tribo_inverse.recording.local import replaced
 
@@ -61,24 +61,3 @@ def with_breaks(model: Model, base: Model) -> Model:
         if law.breaks != base.laws.wear[name].breaks
     }
     return model.with_laws({**model.laws.wear, **laws}) if laws else model
-
-
-def unreached(model: Model, base: Model) -> Model:
-    """Return a model in which layers that the run of `base` does not wear through end deeper.
-
-    A depth that ends the run exactly at the bottom of a layer has the derivative of a run that ends
-    just above it. `base` is the case itself, and `model` may have another number.
-    """
-    stop, laws = base.case.stop, dict(model.laws.wear)
-    if stop.depth is None:
-        return model
-    for name in stop.whose(model.laws.wear):
-        breaks = base.laws.wear[name].breaks if name in laws else ()
-        if not breaks or breaks[-1] < stop.depth * (1 - DEPTH_ACCURACY):
-            continue
-        deeper = [
-            own if at < stop.depth * (1 - DEPTH_ACCURACY) else own + stop.depth
-            for own, at in zip(laws[name].breaks, breaks, strict=True)
-        ]
-        laws[name] = sided(laws[name], deeper)
-    return model.with_laws(laws)
