@@ -40,7 +40,7 @@ def exact(case: Case, paths: list[str]) -> tuple[np.ndarray, list[float]]:
     model = Simulation(case).model
     chains = [chain(model, *number, {}) for number in find(case, paths)]
     slopes, times = [], [process_time()]
-    with closing(Tape()) as tape:
+    with closing(Tape(model)) as tape:
         end = recorded(model, [model.end_time], tape)[model.end_time]
         times.append(process_time())
         for value in VALUES.values():

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 from tribo import Array, Box
 from tribo.kernel_api import (
     CELLS,
@@ -23,7 +24,7 @@ from tribo_inverse.increment.across import held
 from tribo_inverse.increment.carriers import carriers_between, carriers_of
 from tribo_inverse.increment.increment import Before, Increment, States, increment
 from tribo_inverse.recording.local import watched
-from tribo_inverse.recording.tape import Enveloped, Gave, Pressed, Saved, Tape
+from tribo_inverse.recording.tape import Pressed, Tape
 
 JUST = 1e-9
 """Part of the largest pressure, or of the hardness, within which a cell just touches or yields."""
@@ -65,16 +66,9 @@ def swept_back(
     """
     cells = model.grid.cells
     touched = Box.of(tape.touched, cells) if tape.touched else whole(cells)
-    back = Backwards(model, chains, touched)
-    for record in reversed(tape):
-        if isinstance(record, Saved):
-            back.look(seeds[record.time])
-        elif isinstance(record, Gave):
-            back.gave = record.places
-        elif isinstance(record, Enveloped):
-            back.spread_out(record)
-        else:
-            back.press(record)
+    back = Backwards(model, chains, touched, seeds)
+    for name, given in reversed(tape):
+        getattr(back, name)(given)
     back.rest()
     kinds = ("wear_rate", "height", "worn_before")
     return Derivatives(back.parameters, {kind: vars(back)[kind] for kind in kinds})
@@ -87,8 +81,14 @@ class Backwards:
     in the depth `worn_before`.
     """
 
-    def __init__(self, model: Model, chains: Sequence[Chain], touched: Box) -> None:
-        self.seen = set[str]()
+    def __init__(
+        self,
+        model: Model,
+        chains: Sequence[Chain],
+        touched: Box,
+        seeds: Mapping[float, Seeds],
+    ) -> None:
+        self.seeds, self.seen = seeds, set[str]()
         self.model = model = held(watched(model, self.seen))
         self.chains, self.touched = chains, touched
         cells, positions = model.grid.cells, len(model.cycle)
@@ -118,8 +118,9 @@ class Backwards:
         self.parameters = np.zeros(len(chains))
         self.start = np.zeros((positions, *cells))
 
-    def look(self, seeds: Seeds) -> None:
-        """Add the derivatives of the objective in a saved state."""
+    def saved(self, time: float) -> None:
+        """Add the derivatives of the objective in the state saved at a time (s)."""
+        seeds = self.seeds[time]
         for name, seed in seeds.wear.items():
             self.worn_before[name] = self.worn_before[name] + seed
         if seeds.pressure is not None:
@@ -127,15 +128,19 @@ class Backwards:
                 self.pressure = np.zeros_like(self.gap)
             self.pressure[len(self.gap) // 2] += seeds.pressure
 
-    def spread_out(self, record: Enveloped) -> None:
+    def yielded(self, places: Sequence[int]) -> None:
+        """Note that the overlap at some positions becomes plastic depth after a contact."""
+        self.gave = places
+
+    def drawn(self, deepest: Mapping[str, NDArray[np.intp]]) -> None:
         """Carry the adjoint through an envelope: all of a row depends on its deepest cell."""
-        for name, rows in record.rows.items():
+        for name, rows in deepest.items():
             if name in self.plastic:
                 total = np.sum(self.plastic[name], axis=0)
                 self.plastic[name] = np.zeros_like(self.plastic[name])
                 self.plastic[name][rows, np.arange(len(rows))] = total
 
-    def press(self, record: Pressed) -> None:
+    def pressed(self, record: Pressed) -> None:
         """Carry the adjoint through a contact and the wear under it."""
         pressed, yielded = self.pressure, self.gave
         self.pressure, self.gave = None, ()

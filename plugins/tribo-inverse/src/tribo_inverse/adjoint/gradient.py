@@ -138,7 +138,7 @@ def gradient(
             "or a function of a View"
         )
     chains, refused = _chains(model, wrt, factors)
-    with closing(Tape()) as tape:
+    with closing(Tape(model)) as tape:
         states = recorded(model, [*looks], tape)
         seen = {time: looked(look, View(model, states[time])) for time, look in looks.items()}
         value = float(sum(of for of, _ in seen.values()))

@@ -266,7 +266,7 @@ class _Posterior:
         """Return eigenvectors, as rows, and eigenvalues of Jᵀ V⁻¹ J about amplitudes."""
         logs = self.logs(z)
         model, time = self.local(logs), self.model.end_time
-        with closing(Tape()) as tape:
+        with closing(Tape(model)) as tape:
             end = View(model, recorded(model, [time], tape)[time]).wear(self.body)
 
             def product(vector: Array) -> Array:

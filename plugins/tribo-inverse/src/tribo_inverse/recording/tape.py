@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from tempfile import TemporaryFile
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from tribo import Array, CaseError, ContactSolution, Region, State
 from tribo.kernel_api import (
     Interval,
@@ -61,50 +61,31 @@ class Pressed:
         return found
 
 
-@dataclass(frozen=True)
-class Gave:
-    """The overlap at some positions became plastic depth."""
-
-    places: Sequence[int]
+Event = tuple[str, Any]
+"""What happened, the name of a method of `Backwards`, and to what."""
 
 
-@dataclass(frozen=True)
-class Enveloped:
-    """The plastic depth of averaged bodies, by name, became the depth of one row at each y."""
-
-    rows: Mapping[str, NDArray[np.intp]]
-
-
-@dataclass(frozen=True)
-class Saved:
-    """A state that is the input of an objective."""
-
-    time: float
-
-
-Record = Pressed | Gave | Enveloped | Saved
-
-
-class Tape:
-    """The records of a run in their order, which are read backwards.
+class Tape(Listener):
+    """The events of a run of a model in their order, which are read backwards.
 
     They lie in a temporary file, so that the memory does not grow with the run.
     `touched` is the region that holds all contacts, None before the first.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, model: Model) -> None:
+        self._model, self._events = model, list[Event]()
         self._file = TemporaryFile()  # noqa: SIM115
         self._ends = [0]
         self.touched: Region | None = None
 
-    def append(self, record: Record) -> None:
-        """Append a record."""
-        if isinstance(record, Pressed):
-            self.touched = union(self.touched or record.region, record.region)
-        pickle.dump(record, self._file, pickle.HIGHEST_PROTOCOL)
+    def append(self, *event: Any) -> None:
+        """Append an event: contacts that were `pressed`, or another."""
+        if isinstance(event[1], Pressed):
+            self.touched = union(self.touched or event[1].region, event[1].region)
+        pickle.dump(event, self._file, pickle.HIGHEST_PROTOCOL)
         self._ends.append(self._file.tell())
 
-    def __reversed__(self) -> Iterator[Record]:
+    def __reversed__(self) -> Iterator[Event]:
         for start in self._ends[-2::-1]:
             self._file.seek(start)
             yield pickle.load(self._file)
@@ -113,27 +94,83 @@ class Tape:
         """Discard the records."""
         self._file.close()
 
+    def worn(
+        self,
+        contacts: Sequence[ContactSolution],
+        interval: Interval,
+        before: Memory,
+        plan: Sequence[Share],
+        *,
+        ahead: bool = False,
+    ) -> None:
+        """Note the contacts of a step, and what it started from."""
+        laws = {name: before.laws[name] for name in self._model.laws.wear}
+        kept = Memory(laws, before.between if self._model.laws.effects else {})
+        self._press(contacts, Slid(interval, kept, plan, ahead))
+
+    def solved(self, contacts: Sequence[ContactSolution]) -> None:
+        """Note contacts without wear."""
+        self._press(contacts)
+
+    def yielded(self, places: Sequence[int]) -> None:
+        """Note positions whose overlap became plastic depth."""
+        self._events.append(("yielded", tuple(places)))
+
+    def drawn(self, before: Mapping[str, Array]) -> None:
+        """Note the deepest cell in each row of a track."""
+        averaged = [name for name, each in self._model.cycle.maps.items() if each.averaged]
+        rows = {name: np.argmax(before[name], axis=0) for name in averaged}
+        self._events.append(("drawn", rows))
+
+    def _press(self, contacts: Sequence[ContactSolution], slid: Slid | None = None) -> None:
+        region = reduce(union, (bounds(contact.pressure > 0) for contact in contacts))
+        yields = any(np.any(contact.overlap > 0) for contact in contacts)
+        pressed = Pressed(
+            region=region,
+            pressure=np.stack([contact.pressure[region] for contact in contacts]),
+            overlap=np.stack([c.overlap[region] for c in contacts]) if yields else None,
+            load="mean",
+            times=(slid.interval.time, slid.interval.end_time) if slid else (),
+            slid=slid,
+        )
+        self._events.append(("pressed", pressed))
+
+    def keep(self, load: str, time: float, begun: float) -> None:
+        """Record the events up to an accepted state, without the steps that were rejected.
+
+        Contacts solved without wear carry the load at a time, those before the step the load after
+        the time at which it begun.
+        """
+        wore = [isinstance(of, Pressed) and of.slid is not None for _, of in self._events]
+        steps = [i for i, wears in enumerate(wore) if wears]
+        first, last = (steps[0], steps[-1]) if steps else (0, 0)
+        kept = [(event, "after", begun) for event in self._events[:first]]
+        kept += [(event, load, time) for event in self._events[last:]]
+        for (name, of), of_load, at in kept:
+            solved = isinstance(of, Pressed) and of.slid is None
+            self.append(name, replace(of, load=of_load, times=(at,)) if solved else of)
+        self._events.clear()
+
 
 def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float, State]:
     """Run a model, recorded on a tape; return the states at saved times (s).
 
     The state for the model's own end is the last state, also where a depth ends the run sooner.
     """
-    heard = _Heard(model)
     states: dict[float, State] = {}
-    telling = replace(model, listener=heard)
+    telling = replace(model, listener=tape)
     state = begin(telling)
-    heard.keep(tape, "after", 0.0, 0.0)
+    tape.keep("after", 0.0, 0.0)
     if 0.0 in looked_at:
         states[0.0] = state
-        tape.append(Saved(0.0))
+        tape.append("saved", 0.0)
     for accepted in march(telling, state):
         before, state = state, accepted.state
-        heard.keep(tape, "before", state.time, before.time)
+        tape.keep("before", state.time, before.time)
         time = model.end_time if accepted.last else state.time
         if accepted.save and time in looked_at:
             states[time] = state
-            tape.append(Saved(time))
+            tape.append("saved", time)
     for each in state.findings:
         if each.kind == "stop" and not each.place.startswith("stop"):
             raise CaseError(
@@ -147,70 +184,3 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
             f"{state.time:.6g} s; add the time to output.save_times, or raise stop.depth"
         )
     return states
-
-
-class _Heard(Listener):
-    """The records of the events since the last accepted state."""
-
-    def __init__(self, model: Model) -> None:
-        self._model = model
-        self._records: list[Record] = []
-
-    def worn(
-        self,
-        contacts: Sequence[ContactSolution],
-        interval: Interval,
-        before: Memory,
-        plan: Sequence[Share],
-        *,
-        ahead: bool = False,
-    ) -> None:
-        laws = {name: before.laws[name] for name in self._model.laws.wear}
-        kept = Memory(laws, before.between if self._model.laws.effects else {})
-        self._press(contacts, Slid(interval, kept, plan, ahead))
-
-    def solved(self, contacts: Sequence[ContactSolution]) -> None:
-        self._press(contacts)
-
-    def yielded(self, places: Sequence[int]) -> None:
-        self._records.append(Gave(tuple(places)))
-
-    def drawn(self, before: Mapping[str, Array]) -> None:
-        averaged = [name for name, each in self._model.cycle.maps.items() if each.averaged]
-        rows = {name: np.argmax(before[name], axis=0) for name in averaged}
-        self._records.append(Enveloped(rows))
-
-    def _press(self, contacts: Sequence[ContactSolution], slid: Slid | None = None) -> None:
-        region = reduce(union, (bounds(contact.pressure > 0) for contact in contacts))
-        yields = any(np.any(contact.overlap > 0) for contact in contacts)
-        self._records.append(
-            Pressed(
-                region=region,
-                pressure=np.stack([contact.pressure[region] for contact in contacts]),
-                overlap=np.stack([c.overlap[region] for c in contacts]) if yields else None,
-                load="mean",
-                times=(slid.interval.time, slid.interval.end_time) if slid else (),
-                slid=slid,
-            )
-        )
-
-    def keep(self, tape: Tape, load: str, time: float, begun: float) -> None:
-        """Record the events up to an accepted state, without the steps that were rejected.
-
-        Contacts solved before the step carry the load after the time at which it begun.
-        """
-        each = enumerate(self._records)
-        steps = [i for i, of in each if isinstance(of, Pressed) and of.slid is not None]
-        first, last = (steps[0], steps[-1]) if steps else (0, 0)
-        for record in self._records[:first]:
-            tape.append(_under(record, "after", begun))
-        for record in self._records[last:]:
-            tape.append(_under(record, load, time))
-        self._records.clear()
-
-
-def _under(record: Record, load: str, time: float) -> Record:
-    """Return the record of an event; contacts solved without wear carry a load at a time (s)."""
-    if isinstance(record, Pressed) and record.slid is None:
-        return replace(record, load=load, times=(time,))
-    return record
