@@ -137,7 +137,7 @@ class Variant:
         asks = self._bodies if self._asks or not self._reads.isdisjoint(seen) else ()
         if not (asks or self._moves):
             return 0.0
-        own, carriers = part.stages.slid.interval, part.stages.carriers
+        own, carriers = part.slid.interval, part.carriers
         begun, ended = self._then(own.time), self._then(own.end_time)
         began, end = (
             float(np.interp(place, self.own.distances, self.stops.distances))

@@ -26,8 +26,8 @@ from tribo_inverse.increment.across import held, held_effects
 from tribo_inverse.increment.breaks import with_breaks
 from tribo_inverse.increment.carriers import Carrier
 from tribo_inverse.increment.response import Arrays, Field
-from tribo_inverse.increment.slopes import Slopes, Sloping
-from tribo_inverse.increment.stages import RateStage
+from tribo_inverse.increment.slopes import Slopes
+from tribo_inverse.increment.stages import RateStage, Stages
 from tribo_inverse.recording.tape import Pressed, Slid
 
 Place = tuple[str | None, str]
@@ -39,7 +39,7 @@ States = dict[Place, Array]
 class Seeded:
     """A stage, and derivatives in its rates: in their `means` at points, and at each cell."""
 
-    stage: Slopes
+    stage: RateStage
     means: Sequence[Field]
     cells: Sequence[Field]
 
@@ -69,10 +69,8 @@ class Before:
 
 
 @dataclass(frozen=True)
-class Increment:
-    """An increment of the wearing bodies of a model, and the rates at its stages."""
-
-    stages: Sloping
+class Increment(Stages):
+    """An increment of the wearing bodies of a model, and its adjoint."""
 
     @cached_property
     def is_pointwise(self) -> bool:
@@ -80,14 +78,14 @@ class Increment:
 
         Then `bodies` are the full contribution of wear to the system of a step.
         """
-        model = self.stages.model
+        model = self.model
         if not (model.laws.effects or model.laws.filling):
             return True
         if len(model.cycle) > 1 or model.laws.filling or held_effects(model):
             return False
-        if self.stages.loads_change or any(kept.weights is not None for kept in self.stages.kept):
+        if self.loads_change or any(kept.weights is not None for kept in self.kept):
             return False
-        return not self.stages.shares_load
+        return not self.shares_load
 
     @cached_property
     def bodies(self) -> Sequence[tuple[Carrier, Array]]:
@@ -95,16 +93,15 @@ class Increment:
 
         Unless it `is_pointwise`, the derivative at the beginning of the increment, to precondition.
         """
-        increment = self.stages
-        if not (increment.along and self.is_pointwise):
+        if not (self.along and self.is_pointwise):
             parts, slopes = self._retraced
-            start, length = slopes[id(parts[0].first)], increment.slid.interval.length
-            each = zip(increment.own, start.by_pressure, strict=False)
-            steep = [(of, length * of.part(increment.box) * by.own) for of, by in each]
+            (_, start), length = slopes[id(parts[0].first)], self.slid.interval.length
+            each = zip(self.own, start.by_pressure, strict=False)
+            steep = [(of, length * of.part(self.box) * by.own) for of, by in each]
             return [(of, self._in_window(by)) for of, by in steep]
         return [
             (of, self.back({name: np.ones(of.shape)}, {}).by_cell)
-            for name, of in zip(increment.model.laws.wear, increment.own, strict=True)
+            for name, of in zip(self.model.laws.wear, self.own, strict=True)
         ]
 
     def through(
@@ -120,25 +117,24 @@ class Increment:
 
         It has the same contacts. It `asks` again for the rates of these bodies, which may differ.
         """
-        increment = self.stages
-        own = increment.slid
+        own = self.slid
         total = (interval.length / own.interval.length - 1) * found.by_length
         for at, by in found.breaks.items():
-            was, now = (kept_in(each, own.before)[at].breaks for each in (increment.model, model))
+            was, now = (kept_in(each, own.before)[at].breaks for each in (self.model, model))
             deeper = np.subtract(now, was)
             total += sum(float(np.sum(of)) * far for of, far in zip(by, deeper, strict=True))
         # Rates depend on the length where loads change along it.
-        asks = asks or (model.laws.wear if increment.loads_change else ())
-        moves = carriers is not increment.carriers
+        asks = asks or (model.laws.wear if self.loads_change else ())
+        moves = carriers is not self.carriers
         if not (asks or moves):
             return total
         others = replace(
-            increment,
-            model=with_breaks(model, increment.model),
+            self,
+            model=with_breaks(model, self.model),
             carriers=carriers,
             slid=replace(own, interval=interval),
         )
-        asked, shares = increment.of_bodies(others.model, asks), over(increment.shares)
+        asked, shares = self.of_bodies(others.model, asks), over(self.shares)
         for each in found.rates:
             stage = each.stage
             rates = stage.rates
@@ -155,57 +151,52 @@ class Increment:
 
     def _in_window(self, values: Field) -> Array:
         """Return values on the box, by position, in a window of zeros."""
-        box = self.stages.box
-        return box.embed(values + np.zeros_like(self.stages.pressure))
+        return self.box.embed(values + np.zeros_like(self.pressure))
 
     @cached_property
-    def _retraced(self) -> tuple[Sequence[Part], Mapping[int, Slopes]]:
-        """The parts of the increment, and the derivatives of their rates by identity."""
-        increment, length = self.stages, self.stages.slid.interval.length
-        asked = dict[int, tuple[Values, RateStage]]()
-
-        def known(stage: RateStage) -> Values:
-            bodies = len(increment.own)
-            rates = [*stage.means[bodies:], *stage.means[:bodies]]
-            asked[id(rates)] = rates, stage
-            return rates
+    def _retraced(self) -> tuple[Sequence[Part], Mapping[int, tuple[Values, Slopes]]]:
+        """The parts of the increment; and rates with their derivatives by identity."""
+        length, before = self.slid.interval.length, self.slid.before.values
+        # Of a copy, as a cycle of references would keep all of a run.
+        stages, asked = replace(self), dict[int, tuple[Values, Slopes]]()
 
         def rates(states: Sequence[Array], passed: float) -> Values:
-            return known(increment.at(states, passed))
+            stage, bodies = stages.at(states, passed), len(self.own)
+            found = [*stage.means[bodies:], *stage.means[:bodies]]
+            asked[id(found)] = found, Slopes(stages, stage)
+            return found
 
-        first, before = known(increment.start), increment.slid.before.values
-        if increment.along:
-            limits, sums, parts = increment.limits, increment.sums, increment.slid.plan
-            done = retraced(rates, before, first, length, limits, sums, parts)
-        else:
-            spans = dict.fromkeys(increment.model.laws.wear, length)
-            done = [Part([], [], [[[Stretch([], first, length, spans, {})]]], [], [])]
-        used = {id(rates) for part in done for rates in part.stages}
-        return done, {at: increment.sloped(asked[at][1]) for at in used}
+        first = rates(before, 0.0 if self.along else 1.0)
+        if self.along:
+            limits, sums, parts = self.limits, self.sums, self.slid.plan
+            return retraced(rates, before, first, length, limits, sums, parts), asked
+        spans = dict.fromkeys(self.model.laws.wear, length)
+        return [Part([], [], [[[Stretch([], first, length, spans, {})]]], [], [])], asked
 
     def back(self, wear: Mapping[str, Array], states: States) -> Before:
         """Return derivatives before it from derivatives in the depths and states after."""
-        increment, memory = self.stages, self.stages.slid.before
+        memory = self.slid.before
         own = [(name, key) for name, of in memory.laws.items() for key in of]
         places: list[Place] = [*own, *((None, key) for key in memory.between)]
         # The depth worn at the end of the increment counts as wear alone.
         after: list[Field] = [states.get(of, 0.0) for of in places]
-        depth: list[Field] = [wear.get(name, 0.0) for name in increment.model.laws.wear]
+        depth: list[Field] = [wear.get(name, 0.0) for name in self.model.laws.wear]
         total: list[Field] = [0.0] * (3 + len(depth))
         seeded, count = list[Seeded](), len(after)
         parts, slopes = self._retraced
 
         def behind(rates: Values, seeds: list[Field]) -> Sequence[Field]:
-            stage, means = slopes[id(rates)], [*seeds[count:], *seeds[:count]]
-            seeded.append(Seeded(stage, means, increment.seen(stage, means)))
-            found, states = increment.behind(stage, seeded[-1].cells)
+            _, here = slopes[id(rates)]
+            means = [*seeds[count:], *seeds[:count]]
+            seeded.append(Seeded(here.stage, means, here.seen(means)))
+            found, states = here.behind(seeded[-1].cells)
             total[:] = [a + b for a, b in zip(total, found, strict=True)]
             return states
 
-        sums = [*zip(increment.sums, depth, strict=True)]
+        sums = [*zip(self.sums, depth, strict=True)]
         earlier, breaks = transposed(parts, after, sums, behind)
         pressure, load, square, *factors = total
-        load = _summed(load) + _summed(square) * increment.pressure
+        load = _summed(load) + _summed(square) * self.pressure
         before = dict(zip(places, map(np.asarray, earlier), strict=True))
         through = {
             name: wear.get(name, 0.0) + before.pop((name, key))
@@ -217,7 +208,7 @@ class Increment:
             self._in_window(pressure + load),
             {**wear, **through},
             before,
-            dict(zip(increment.model.laws.wear, map(np.asarray, factors), strict=True)),
+            dict(zip(self.model.laws.wear, map(np.asarray, factors), strict=True)),
             seeded,
             breaks,
         )
@@ -242,7 +233,7 @@ def increment(
 
     def on(box: Box) -> Increment:
         here = window[(slice(None), *box.slices)]
-        return Increment(Sloping(model, carriers, box, here, slid, along))
+        return Increment(model, carriers, box, here, slid, along)
 
     if not (model.laws.effects or model.laws.filling):
         return on(Box.of(record.region, cells))

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Self
 
 import numpy as np
-from tribo import Array, Box, ContactSolution, Residuals
+from tribo import Array, Box, CaseError, ContactSolution, Residuals
 from tribo.kernel_api import (
     Kept,
     Model,
@@ -22,7 +21,7 @@ from tribo.kernel_api import (
     with_loads,
 )
 
-from tribo_inverse.increment.across import EffectFields, held, held_effects
+from tribo_inverse.increment.across import EffectFields, held_effects
 from tribo_inverse.increment.carriers import Carrier, carriers_between
 from tribo_inverse.increment.response import ASIDE, Arrays
 from tribo_inverse.recording.tape import Slid
@@ -102,6 +101,27 @@ class Stages:
         """Return a model with the laws of some bodies, or all laws where effects see them."""
         wear = model.laws.wear
         return model if model.laws.effects else model.with_laws({n: wear[n] for n in names})
+
+    @cached_property
+    def shares_load(self) -> bool:
+        """Whether effects declare that points depend on the load and the area of the contact."""
+        across = held_effects(self.model)
+        if across and len(self.model.cycle) > 1:
+            raise CaseError(
+                f"{across[0]} reaches across the contact, which has no gradient at several "
+                'positions; set kinematics.positions = "average"',
+                "kinematics.positions",
+            )
+        # Of effects with a `pull_back` only the rates of their states are asked for.
+        asked = (e for e in self.model.laws.effects if e not in across or e.state_fields)
+        effects = [effect.component for effect in asked]
+        if silent := [repr(e.type) for e in effects if e.reach not in ("point", "contact")]:
+            raise CaseError(
+                f"{', '.join(silent)} does not declare its reach, which a gradient needs; let its "
+                'class say reach = "point" or reach = "contact", or let it state pull_back',
+                "effects",
+            )
+        return any(effect.reach == "contact" for effect in effects)
 
     @property
     def sums(self) -> list[Sum]:
@@ -197,12 +217,6 @@ class Stages:
         told = self.told(stage.passed) if told is None else told
         model, states = model or self.model, stage.states if states is None else states
         return self._arrays(self._rates_of(model, states, stage.passed, told), model, stage.rates)
-
-    def holding(self, stage: RateStage) -> Self:
-        """Return the same stages, with effects held at their answers of a stage."""
-        if not stage.answers:
-            return self
-        return replace(self, model=held(self.model, stage.answers))
 
     def _rates_of(
         self, model: Model, states: Sequence[Array], passed: float, told: Array
