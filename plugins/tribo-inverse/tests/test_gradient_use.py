@@ -55,9 +55,9 @@ HARD_PAIR = pair(archard(), archard(), ("2 GPa", "2 GPa"))
 COATING = Layer(thickness="1 um", wear=archard(), hardness="1 GPa")
 COATED = [("ball", HARD_PAIR[0][1].model_copy(update={"layers": (COATING,)})), HARD_PAIR[1]]
 REFUSED = {
-    "contact.tolerance: is a number of the numerics": ({}, ["contact.tolerance"]),
-    "grid.size.1: is a number of the numerics": ({}, ["grid.size.1"]),
-    "ball.wear.K: is no number with decimals": ({}, ["bodies.ball.wear.K"]),
+    "contact.tolerance: is no number of bodies, load": ({}, ["contact.tolerance"]),
+    "grid.size.1: is no number of bodies, load": ({}, ["grid.size.1"]),
+    "ball.wear.K: is no number of bodies, load": ({}, ["bodies.ball.wear.K"]),
     "a list of names is needed, 'load.normal' was given": ({}, "load.normal"),
     "moves the positions of the cycle by whole cells": (
         {"grid": FINE, "kinematics": resolved()},

@@ -12,12 +12,8 @@ from tribo.kernel_api import did_you_mean, leaves, path_keys, suggestion
 
 ANY = "*"
 """The key that stands for each body, as in ``bodies.*.material.hardness``."""
-HOW = ("grid", "stepping")
-"""Parts of a case for its numerics, which have no derivative."""
-NOT_PHYSICS = (*HOW, "output", "stop", "begin", "observers")
-"""Parts of a case whose numbers are left out unless they are named."""
-END = ("stop", "depth")
-"""The exception: a number of these parts that is physics, since it may set the life of a body."""
+PHYSICS = ("bodies", "load", "kinematics", "friction", "effects", "contact", "stop")
+"""Parts of a case with numbers that a result follows; the rest is its numerics and output."""
 
 
 def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[Any, ...]], float]]:
@@ -28,16 +24,19 @@ def find(case: Case, asked: Sequence[str] | None) -> list[tuple[str, list[tuple[
     Raises
     ------
     CaseError
-        If a path leads to no number with decimals, to several different numbers, or to a number of
-        the numerics.
+        If a path leads to no number with decimals, or to several different numbers.
     """
-    known = {place: value for place, value, _ in leaves(case) if isinstance(value, float)}
+    known = {
+        place: value
+        for place, value, _ in leaves(case)
+        if isinstance(value, float) and place[0] in PHYSICS
+        if not str(place[-1]).endswith("tolerance")
+    }
     if asked is None:
         return [
             (".".join(map(str, place)), [place], value)
             for place, value in known.items()
-            if place == END or place[0] not in NOT_PHYSICS
-            if not (_is_tolerance(place) or value == 0)
+            if value != 0
             if not any(isinstance(i, int) and isinstance(j, int) for i, j in pairwise(place))
         ]
     return [_named(known, path) for path in listed(asked)]
@@ -59,21 +58,11 @@ def _named(
     if not places:
         paths = [".".join(map(str, place)) for place in known]
         meant = suggestion(did_you_mean(path, paths))
-        raise CaseError(f"is no number with decimals in this case{meant}", path)
-    if any(place[0] in HOW or _is_tolerance(place) for place in places):
-        raise CaseError(
-            "is a number of the numerics and has no derivative; name numbers of bodies, load, "
-            "motion, friction or contact",
-            path,
-        )
+        raise CaseError(f"is no number of {', '.join(PHYSICS)} with decimals{meant}", path)
     values = {known[place] for place in places}
     if len(values) > 1:
         raise CaseError(f"stands for different numbers: {sorted(values)}", path)
     return path, places, values.pop()
-
-
-def _is_tolerance(place: Sequence[Any]) -> bool:
-    return str(place[-1]).endswith("tolerance")
 
 
 def _fits(place: Sequence[Any], keys: Sequence[str]) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from tribo import WORN_DEPTH, CaseError, LocalConditions, WearRate
+from tribo import WORN_DEPTH, LocalConditions, WearRate
 from tribo.kernel_api import GuardedLaw, Model
 
 from tribo_inverse.recording.local import replaced
@@ -33,24 +33,15 @@ def sided(law: GuardedLaw, breaks: Sequence[float]) -> GuardedLaw:
     return replaced(law, rate=rate, state_fields=fields, bottoms=bottoms)
 
 
-def check_breaks(model: Model, base: Model) -> None:
-    """Refuse a model that moves breaks of a state other than the bottoms of layers."""
-    moved = [
-        f"{law}"
-        for name, law in model.laws.wear.items()
-        for field, own in zip(law.state_fields, base.laws.wear[name].state_fields, strict=True)
-        if field.breaks != own.breaks and (law.follows_depth or field.name != WORN_DEPTH.name)
-    ]
-    moved += [
-        f"{effect}"
-        for key, (effect, field) in model.laws.between.items()
-        if field.breaks != base.laws.between[key][1].breaks
-    ]
-    if moved:
-        raise CaseError(
-            f"it moves where the rate of {moved[0]} jumps; a gradient follows jumps at layers "
-            "alone, of laws that do not depend on the depth"
-        )
+def other_breaks(model: Model) -> list[tuple[float, ...]]:
+    """Return the breaks of states other than the bottoms of layers."""
+    of_laws = (
+        field.breaks
+        for law in model.laws.wear.values()
+        for field in law.state_fields
+        if law.follows_depth or field.name != WORN_DEPTH.name
+    )
+    return [*of_laws, *(field.breaks for _, field in model.laws.between.values())]
 
 
 def with_breaks(model: Model, base: Model) -> Model:
