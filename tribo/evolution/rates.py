@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tribo.contact.projection import over
-from tribo.core.arrays import Array, Region, readonly, union
-from tribo.core.box import Box, around_region, whole
+from tribo.core.arrays import Array, readonly, union
+from tribo.core.box import around_region
 from tribo.core.contact import ContactSolution
 from tribo.core.errors import CaseError
 from tribo.core.fields import (
@@ -61,7 +61,7 @@ def wear_rates(
     model: Model, contacts: Sequence[ContactSolution], memory: Memory, moment: Moment
 ) -> CycleRates:
     """Return the rate of every body that wears, in the contact frame, at each position."""
-    return tuple(rates.wear for rates in rates_at_each(model, contacts, memory, moment))
+    return tuple(rates.wear for rates in rates_at_each(model, contacts, memory, moment, MARGIN))
 
 
 def rates_at_each(
@@ -69,17 +69,17 @@ def rates_at_each(
     contacts: Sequence[ContactSolution],
     memory: Memory,
     moment: Moment,
-    box: Box | None = None,
+    margin: int = 0,
 ) -> list[Rates]:
     """Return the rates of bodies and effects at each position, as `wear_rates`.
 
     At rest they are per second; the position of a rest is unknown, so each position has its share.
-    Without effects they may be asked for on a `box` alone.
+    Slopes of laws hold in the contact and up to `margin` cells around it.
     """
     here = [under(model, memory, position) for position in range(len(contacts))]
     if moment.speed > 0:
-        return _sliding(model, contacts, here, moment, box)
-    still = readonly(np.zeros(box.shape if box else model.grid.cells))
+        return _sliding(model, contacts, here, moment, margin)
+    still = readonly(np.zeros(model.grid.cells))
     wear = {
         name: WearRate(still, still, dict.fromkeys(law.initial_state, still))
         for name, law in model.laws.wear.items()
@@ -117,15 +117,14 @@ def _sliding(
     contacts: Sequence[ContactSolution],
     memories: Sequence[Memory],
     moment: Moment,
-    box: Box | None,
+    margin: int,
 ) -> list[Rates]:
     """Return the rates at each position per metre of the motion, with changes at rest there.
 
     They are the mean over the speeds of the position. Laws are evaluated at all positions at once.
     """
-    here = (box or whole(model.grid.cells)).slices
     speeds = [
-        _by_reach(place.speeds or [(moment.speed, 1.0)], place.reach, here) for place in model.cycle
+        _by_reach(place.speeds or [(moment.speed, 1.0)], place.reach) for place in model.cycle
     ]
     each = []
     for of_positions in zip_longest(*speeds):
@@ -134,7 +133,7 @@ def _sliding(
             one or (last[0], 0.0, 0.0) for one, (*_, last) in zip(of_positions, speeds, strict=True)
         ]
         moments = [replace(moment, speed=speed) for speed, _, _ in asked]
-        each.append((asked, _rates_of(model, contacts, memories, moments, box)))
+        each.append((asked, _rates_of(model, contacts, memories, moments, margin)))
     found = []
     for position, contact in enumerate(contacts):
         parts = [(*asked[position][1:], rates[position]) for asked, rates in each]
@@ -169,9 +168,9 @@ def _mean_rates(parts: Sequence[tuple[float | Array, float | Array, Rates]]) -> 
 
 
 def _by_reach(
-    speeds: Speeds, reach: Array | None, here: Region
+    speeds: Speeds, reach: Array | None
 ) -> list[tuple[float, float | Array, float | Array]]:
-    """Return speeds, each with the weights of rates per metre and of changes in time, at points.
+    """Return speeds, each with the weights of rates per metre and of changes in time there.
 
     A point that slides further, by its part of `reach`, (nx, ny), is faster by as much, and takes
     the same time. Rates between speeds are interpolated linearly.
@@ -180,7 +179,6 @@ def _by_reach(
         return [(speed, share, share) for speed, share in speeds]
     least, most = float(np.min(reach)), float(np.max(reach))
     nodes = np.linspace(least, most, 2 + int((most - least) / FINE)) if most > least else [least]
-    reach = reach[here]
     hats = [np.interp(reach, nodes, hat) for hat in np.eye(len(nodes))]
     return [
         (speed * float(node), share * reach * hat, share * float(node) * hat)
@@ -207,16 +205,16 @@ def _rates_of(
     contacts: Sequence[ContactSolution],
     memories: Sequence[Memory],
     moments: Sequence[Moment],
-    box: Box | None,
+    margin: int,
 ) -> list[Rates]:
-    """Return the rates of laws and effects, at each position at its own speed."""
+    """Return the rates of laws and effects for the window, at each position at its own speed."""
     fields = [
         local_fields(model, contact.pressure, moment, position, memory)
         for position, (contact, moment, memory) in enumerate(
             zip(contacts, moments, memories, strict=True)
         )
     ]
-    wear = _laws(model, contacts, memories, moments, fields, box)
+    wear = _laws(model, contacts, memories, moments, fields, margin)
     found = []
     still = readonly(np.zeros(model.grid.cells))
     for position, (contact, memory, moment) in enumerate(
@@ -246,13 +244,12 @@ def _laws(
     memories: Sequence[Memory],
     moments: Sequence[Moment],
     fields: Sequence[Mapping[str, Mapping[str, Array]]],
-    box: Box | None,
+    margin: int,
 ) -> dict[str, WearRate]:
     """Return the rate of each law at all positions at once, arrays (positions, nx, ny)."""
     # A law is pointwise, and leaves everything as it is where nothing touches.
-    near = box or around_region(
-        reduce(union, (contact.extent for contact in contacts)), model.grid.cells, MARGIN
-    )
+    touched = reduce(union, (contact.extent for contact in contacts))
+    near = around_region(touched, model.grid.cells, margin)
     cells = (len(contacts), *near.shape)
 
     def stacked(arrays: Iterable[Array]) -> Array:
@@ -284,7 +281,7 @@ def _laws(
             rate = replace(rate, depth_slope=solid * rate.depth_slope)
         if slip is not None:
             rate = _mapped(partial(np.multiply, slip), rate)
-        rates[name] = rate if box or near.is_window else _mapped(near.embed, rate)
+        rates[name] = rate if near.is_window else _mapped(near.embed, rate)
     return rates
 
 

@@ -226,8 +226,7 @@ class Stages:
         shown = told if self.box.is_window else self.box.embed(told)
         for effect in held_effects(model):
             effect.noted.clear()
-        box, moment = None if model.laws.effects else self.box, self.slid.interval.at(passed)
-        return rates_at_each(model, _contacts(shown), memory, moment, box)
+        return rates_at_each(model, _contacts(shown), memory, self.slid.interval.at(passed))
 
     def _arrays(self, found: Sequence[Rates], model: Model, known: Sequence[Array] = ()) -> Arrays:
         """Return the rates of a model on the box, and the inputs of its effects.
