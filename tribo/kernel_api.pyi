@@ -66,7 +66,7 @@ from tribo.evolution.course import kept_in as kept_in
 from tribo.evolution.course import with_loads as with_loads
 from tribo.evolution.interval import Interval as Interval
 from tribo.evolution.rates import Rates as Rates
-from tribo.evolution.rates import rates_at_each as rates_at_each
+from tribo.evolution.rates import rates_of_cycles as rates_of_cycles
 from tribo.evolution.states import Memory as Memory
 from tribo.evolution.states import first_memory as first_memory
 from tribo.evolution.states import place as place

@@ -57,6 +57,16 @@ class Rates:
     friction: Array | None = None
 
 
+@dataclass(frozen=True)
+class Asked:
+    """A contact at a position of the cycle, the states in the window there, and the moment."""
+
+    position: int
+    contact: ContactSolution
+    memory: Memory
+    moment: Moment
+
+
 def wear_rates(
     model: Model, contacts: Sequence[ContactSolution], memory: Memory, moment: Moment
 ) -> CycleRates:
@@ -76,9 +86,27 @@ def rates_at_each(
     At rest they are per second; the position of a rest is unknown, so each position has its share.
     Slopes of laws hold in the contact and up to `margin` cells around it.
     """
-    here = [under(model, memory, position) for position in range(len(contacts))]
-    if moment.speed > 0:
-        return _sliding(model, contacts, here, moment, margin)
+    return rates_of_cycles(model, [(contacts, memory, moment)], margin)[0]
+
+
+def rates_of_cycles(
+    model: Model,
+    cycles: Sequence[tuple[Sequence[ContactSolution], Memory, Moment]],
+    margin: int = 0,
+) -> list[list[Rates]]:
+    """Return the rates of several cycles, all sliding or at rest; laws are evaluated once."""
+    asked = [
+        Asked(position, contact, under(model, memory, position), moment)
+        for contacts, memory, moment in cycles
+        for position, contact in enumerate(contacts)
+    ]
+    slides = asked[0].moment.speed > 0
+    found = _sliding(model, asked, margin) if slides else _at_rest(model, asked)
+    count = len(model.cycle)
+    return [found[at : at + count] for at in range(0, len(found), count)]
+
+
+def _at_rest(model: Model, asked: Sequence[Asked]) -> list[Rates]:
     still = readonly(np.zeros(model.grid.cells))
     wear = {
         name: WearRate(still, still, dict.fromkeys(law.initial_state, still))
@@ -86,11 +114,8 @@ def rates_at_each(
     }
     if any(place.rest > 0 for place in model.cycle):
         # The rests of a cycle are in its mean rates.
-        return [Rates(wear, dict.fromkeys(memory.between, still))] * len(contacts)
-    return [
-        Rates(wear, _resting(model, position, contact, here[position], moment))
-        for position, contact in enumerate(contacts)
-    ]
+        return [Rates(wear, dict.fromkeys(asked[0].memory.between, still))] * len(asked)
+    return [Rates(wear, _resting(model, each)) for each in asked]
 
 
 def friction_of(model: Model, rates: Sequence[Rates]) -> float:
@@ -103,45 +128,45 @@ def friction_of(model: Model, rates: Sequence[Rates]) -> float:
     return force * model.grid.cell_area
 
 
-def _resting(
-    model: Model, position: int, contact: ContactSolution, memory: Memory, moment: Moment
-) -> dict[str, Array]:
+def _resting(model: Model, asked: Asked) -> dict[str, Array]:
     """Return the rates of effects per second at rest at a position, in the window."""
     still = dict.fromkeys(model.case.bodies, readonly(np.zeros(model.grid.cells)))
-    fields = local_fields(model, contact.pressure, moment, position, memory)
-    return _changes(model, position, contact, moment, memory, fields, still)
+    return _changes(model, asked, _fields(model, asked), still)
 
 
-def _sliding(
-    model: Model,
-    contacts: Sequence[ContactSolution],
-    memories: Sequence[Memory],
-    moment: Moment,
-    margin: int,
-) -> list[Rates]:
+def _fields(model: Model, asked: Asked) -> dict[str, dict[str, Array]]:
+    pressure, memory = asked.contact.pressure, asked.memory
+    return local_fields(model, pressure, asked.moment, asked.position, memory)
+
+
+def _sliding(model: Model, asked: Sequence[Asked], margin: int) -> list[Rates]:
     """Return the rates at each position per metre of the motion, with changes at rest there.
 
     They are the mean over the speeds of the position. Laws are evaluated at all positions at once.
     """
+    places = [model.cycle[each.position] for each in asked]
     speeds = [
-        _by_reach(place.speeds or [(moment.speed, 1.0)], place.reach) for place in model.cycle
+        _by_reach(place.speeds or [(each.moment.speed, 1.0)], place.reach)
+        for each, place in zip(asked, places, strict=True)
     ]
-    each = []
+    parts = []
     for of_positions in zip_longest(*speeds):
         # A position with fewer speeds than others is evaluated again, with weight 0.
-        asked = [
+        now = [
             one or (last[0], 0.0, 0.0) for one, (*_, last) in zip(of_positions, speeds, strict=True)
         ]
-        moments = [replace(moment, speed=speed) for speed, _, _ in asked]
-        each.append((asked, _rates_of(model, contacts, memories, moments, margin)))
+        at_speeds = [
+            replace(each, moment=replace(each.moment, speed=speed))
+            for each, (speed, _, _) in zip(asked, now, strict=True)
+        ]
+        of_laws = _rates_of(model, at_speeds, margin)
+        parts.append([(*of[1:], rates) for of, rates in zip(now, of_laws, strict=True)])
     found = []
-    for position, contact in enumerate(contacts):
-        parts = [(*asked[position][1:], rates[position]) for asked, rates in each]
-        rates, rest = _mean_rates(parts), model.cycle[position].rest
-        if rest > 0 and rates.between:
-            still = replace(moment, speed=0.0)
-            changes = _resting(model, position, contact, memories[position], still)
-            between = {key: rate + rest * changes[key] for key, rate in rates.between.items()}
+    for at, (each, place) in enumerate(zip(asked, places, strict=True)):
+        rates = _mean_rates([of[at] for of in parts])
+        if place.rest > 0 and rates.between:
+            changes = _resting(model, replace(each, moment=replace(each.moment, speed=0.0)))
+            between = {key: rate + place.rest * changes[key] for key, rate in rates.between.items()}
             rates = replace(rates, between=between)
         found.append(rates)
     return found
@@ -200,39 +225,26 @@ def _sum(parts: Iterable[tuple[float | Array, Array]]) -> Array:
     return reduce(np.add, (share * values for share, values in parts))
 
 
-def _rates_of(
-    model: Model,
-    contacts: Sequence[ContactSolution],
-    memories: Sequence[Memory],
-    moments: Sequence[Moment],
-    margin: int,
-) -> list[Rates]:
+def _rates_of(model: Model, asked: Sequence[Asked], margin: int) -> list[Rates]:
     """Return the rates of laws and effects for the window, at each position at its own speed."""
-    fields = [
-        local_fields(model, contact.pressure, moment, position, memory)
-        for position, (contact, moment, memory) in enumerate(
-            zip(contacts, moments, memories, strict=True)
-        )
-    ]
-    wear = _laws(model, contacts, memories, moments, fields, margin)
+    fields = [_fields(model, each) for each in asked]
+    wear = _laws(model, asked, fields, margin)
     found = []
     still = readonly(np.zeros(model.grid.cells))
-    for position, (contact, memory, moment) in enumerate(
-        zip(contacts, memories, moments, strict=True)
-    ):
-        rates, friction = {name: rate.at(position) for name, rate in wear.items()}, None
-        if model.laws.friction_by_point and FRICTION_COEFFICIENT.name in fields[position]:
-            names = {FRICTION_COEFFICIENT.name, LOCAL_SLIP.name} & fields[position].keys()
-            alike = (next(iter(fields[position][name].values())) for name in sorted(names))
-            friction = reduce(np.multiply, alike, contact.pressure)
+    for at, (each, around) in enumerate(zip(asked, fields, strict=True)):
+        rates, friction = {name: rate.at(at) for name, rate in wear.items()}, None
+        if model.laws.friction_by_point and FRICTION_COEFFICIENT.name in around:
+            names = {FRICTION_COEFFICIENT.name, LOCAL_SLIP.name} & around.keys()
+            alike = (next(iter(around[name].values())) for name in sorted(names))
+            friction = reduce(np.multiply, alike, each.contact.pressure)
         between: Mapping[str, Array] = {}
-        if memory.between:
+        if each.memory.between:
             depths = {
                 name: readonly(rates[name].depth_rate) if name in rates else still
                 for name in model.case.bodies
             }
-            slid = moment.speed if moment.speed > 0 else np.inf
-            changes = _changes(model, position, contact, moment, memory, fields[position], depths)
+            slid = each.moment.speed if each.moment.speed > 0 else np.inf
+            changes = _changes(model, each, around, depths)
             between = {key: change / slid for key, change in changes.items()}
         found.append(Rates(rates, between, friction))
     return found
@@ -240,24 +252,22 @@ def _rates_of(
 
 def _laws(
     model: Model,
-    contacts: Sequence[ContactSolution],
-    memories: Sequence[Memory],
-    moments: Sequence[Moment],
+    asked: Sequence[Asked],
     fields: Sequence[Mapping[str, Mapping[str, Array]]],
     margin: int,
 ) -> dict[str, WearRate]:
     """Return the rate of each law at all positions at once, arrays (positions, nx, ny)."""
     # A law is pointwise, and leaves everything as it is where nothing touches.
-    touched = reduce(union, (contact.extent for contact in contacts))
+    touched = reduce(union, (each.contact.extent for each in asked))
     near = around_region(touched, model.grid.cells, margin)
-    cells = (len(contacts), *near.shape)
+    cells = (len(asked), *near.shape)
 
     def stacked(arrays: Iterable[Array]) -> Array:
         whole = (np.broadcast_to(values, model.grid.cells)[near.slices] for values in arrays)
         return readonly(np.concatenate([*whole]).reshape(cells))
 
-    pressure = stacked(contact.pressure for contact in contacts)
-    speed = readonly(over(np.array([moment.speed for moment in moments])))
+    pressure = stacked(each.contact.pressure for each in asked)
+    speed = readonly(over(np.array([each.moment.speed for each in asked])))
     rates = {}
     for name, law in model.laws.wear.items():
         solid = slip = None
@@ -272,8 +282,8 @@ def _laws(
                 material=law.material,
                 fields={field: stacked(of[field][name] for of in fields) for field in law.requires},
                 state={
-                    field: stacked(of.laws[name][field] for of in memories)
-                    for field in memories[0].laws.get(name, {})
+                    field: stacked(each.memory.laws[name][field] for each in asked)
+                    for field in asked[0].memory.laws.get(name, {})
                 },
             )
         )
@@ -287,10 +297,7 @@ def _laws(
 
 def _changes(
     model: Model,
-    position: int,
-    contact: ContactSolution,
-    moment: Moment,
-    memory: Memory,
+    asked: Asked,
     fields: Mapping[str, Mapping[str, Array]],
     depths: Mapping[str, Array],
 ) -> dict[str, Array]:
@@ -299,13 +306,14 @@ def _changes(
     On a moving body the rest of the track changes as points under no pressure.
     """
     changes: dict[str, Array] = {}
+    contact, memory, moment = asked.contact, asked.memory, asked.moment
 
     def of_effect(
         effect: GuardedEffect, pressure: Array, depths: Mapping[str, Array]
     ) -> dict[str, Array]:
         around = fields
         if pressure is not contact.pressure:
-            around = local_fields(model, pressure, moment, position, memory)
+            around = local_fields(model, pressure, moment, asked.position, memory)
         given = conditions(model, pressure, moment, around, effect, memory)
         return effect.state_rates(replace(given, wear_rates=depths))
 

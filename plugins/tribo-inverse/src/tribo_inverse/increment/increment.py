@@ -22,11 +22,11 @@ from tribo.kernel_api import (
     whole,
 )
 
-from tribo_inverse.increment.across import held, held_effects
+from tribo_inverse.increment.across import held_effects
 from tribo_inverse.increment.breaks import with_breaks
 from tribo_inverse.increment.carriers import Carrier
 from tribo_inverse.increment.response import Arrays, Field
-from tribo_inverse.increment.slopes import Slopes
+from tribo_inverse.increment.slopes import Slopes, sloped
 from tribo_inverse.increment.stages import RateStage, Stages
 from tribo_inverse.recording.tape import Pressed, Slid
 
@@ -95,7 +95,7 @@ class Increment(Stages):
         """
         if not (self.along and self.is_pointwise):
             parts, slopes = self._retraced
-            (_, start), length = slopes[id(parts[0].first)], self.slid.interval.length
+            start, length = slopes[id(parts[0].first)], self.slid.interval.length
             each = zip(self.own, start.by_pressure, strict=False)
             steep = [(of, length * of.part(self.box) * by.own) for of, by in each]
             return [(of, self._in_window(by)) for of, by in steep]
@@ -135,12 +135,10 @@ class Increment(Stages):
             slid=replace(own, interval=interval),
         )
         asked, shares = self.of_bodies(others.model, asks), over(self.shares)
-        for each in found.rates:
+        stages = [each.stage for each in found.rates]
+        new_rates = others.rates(stages, model=asked) if asks else [of.rates for of in stages]
+        for each, rates in zip(found.rates, new_rates, strict=True):
             stage = each.stage
-            rates = stage.rates
-            if asks:
-                model = held(asked, stage.answers) if stage.answers else asked
-                rates = others.rates(stage, model=model)
             own_frame = len(each.means) if moves else 0
             if moves:
                 total += _dot(each.means, others.means(rates)) - _dot(each.means, stage.means)
@@ -154,24 +152,28 @@ class Increment(Stages):
         return self.box.embed(values + np.zeros_like(self.pressure))
 
     @cached_property
-    def _retraced(self) -> tuple[Sequence[Part], Mapping[int, tuple[Values, Slopes]]]:
-        """The parts of the increment; and rates with their derivatives by identity."""
+    def _retraced(self) -> tuple[Sequence[Part], Mapping[int, Slopes]]:
+        """The parts of the increment, and the derivatives of their rates by identity."""
         length, before = self.slid.interval.length, self.slid.before.values
         # Of a copy, as a cycle of references would keep all of a run.
-        stages, asked = replace(self), dict[int, tuple[Values, Slopes]]()
+        stages, asked = replace(self), dict[int, tuple[Values, RateStage]]()
 
         def rates(states: Sequence[Array], passed: float) -> Values:
             stage, bodies = stages.at(states, passed), len(self.own)
             found = [*stage.means[bodies:], *stage.means[:bodies]]
-            asked[id(found)] = found, Slopes(stages, stage)
+            asked[id(found)] = found, stage
             return found
 
         first = rates(before, 0.0 if self.along else 1.0)
         if self.along:
             limits, sums, parts = self.limits, self.sums, self.slid.plan
-            return retraced(rates, before, first, length, limits, sums, parts), asked
-        spans = dict.fromkeys(self.model.laws.wear, length)
-        return [Part([], [], [[[Stretch([], first, length, spans, {})]]], [], [])], asked
+            done = retraced(rates, before, first, length, limits, sums, parts)
+        else:
+            spans = dict.fromkeys(self.model.laws.wear, length)
+            done = [Part([], [], [[[Stretch([], first, length, spans, {})]]], [], [])]
+        used = list({id(rates): None for part in done for rates in part.stages})
+        slopes = sloped(stages, [asked[at][1] for at in used])
+        return done, dict(zip(used, slopes, strict=True))
 
     def back(self, wear: Mapping[str, Array], states: States) -> Before:
         """Return derivatives before it from derivatives in the depths and states after."""
@@ -186,8 +188,7 @@ class Increment(Stages):
         parts, slopes = self._retraced
 
         def behind(rates: Values, seeds: list[Field]) -> Sequence[Field]:
-            _, here = slopes[id(rates)]
-            means = [*seeds[count:], *seeds[:count]]
+            here, means = slopes[id(rates)], [*seeds[count:], *seeds[:count]]
             seeded.append(Seeded(here.stage, means, here.seen(means)))
             found, states = here.behind(seeded[-1].cells)
             total[:] = [a + b for a, b in zip(total, found, strict=True)]

@@ -50,24 +50,14 @@ def back(seeds: Sequence[Field], responses: Sequence[Response]) -> Field:
     return found
 
 
-def aside(
-    rates: Rates,
-    found: Arrays,
-    values: Array,
-    nudge: Array,
-    seen: Callable[[Array], Array] = lambda values: values,
-) -> list[Response]:
-    """Return the responses of rates in values of their own cell, each varied by its `nudge`.
+def responses(found: Arrays, moved: Arrays, span: Array) -> list[Response]:
+    """Return the responses of rates in values of their own cell, from rates with these moved.
 
-    `found` are the rates at the values; an array of them among the `rates` has no derivative.
-    `seen` maps values on a body to the cells of the rates.
+    They move by `span`. An array that is among both rates has no derivative.
     """
-    moved = rates(values + nudge)
-    # What is added is not quite the nudge: its last digits are lost.
-    span = seen((values + nudge) - values)
     by = np.where(span == 0, np.inf, span)
-    pairs = zip(moved, found, strict=True)
-    return [Response(0.0 if now is was else (now - was) / by) for now, was in pairs]
+    pairs = zip(found, moved, strict=True)
+    return [Response(0.0 if now is was else (now - was) / by) for was, now in pairs]
 
 
 def shared(rates: Rates, pressure: Array) -> list[Response]:

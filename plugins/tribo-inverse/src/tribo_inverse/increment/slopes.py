@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import chain, zip_longest
 
@@ -12,31 +12,34 @@ from tribo import WORN_DEPTH, Array
 from tribo import Field as FieldDeclaration
 from tribo.kernel_api import CELLS, over
 
-from tribo_inverse.increment.across import EffectFields, held
+from tribo_inverse.increment.across import EffectFields
 from tribo_inverse.increment.carriers import Carrier
 from tribo_inverse.increment.response import (
     ASIDE,
     Arrays,
     Field,
     Response,
-    aside,
     back,
+    responses,
     shared,
 )
 from tribo_inverse.increment.stages import RateStage, Stages
 from tribo_inverse.recording.local import localised
 
 
+@dataclass(frozen=True)
 class Slopes:
     """The derivatives of the rates of a stage of an increment, in each cell.
 
-    The derivatives in the fields of effects with a `pull_back` are apart, `by_field`.
+    They are by the pressures, by each state, and by a factor, 1 here, on the wear rate of each
+    body; the derivatives in the fields of effects with a `pull_back` are apart, `by_field`.
     """
 
-    def __init__(self, increment: Stages, stage: RateStage) -> None:
-        if stage.answers:
-            increment = replace(increment, model=held(increment.model, stage.answers))
-        self.increment, self.stage = increment, stage
+    increment: Stages
+    stage: RateStage
+    by_pressure: Sequence[Response]
+    by_state: Sequence[Sequence[Response]]
+    by_factor: Sequence[Sequence[Response]]
 
     def seen(self, seeds: Sequence[Field]) -> list[Field]:
         """Return derivatives in the rates of each cell from derivatives in their means over points.
@@ -99,81 +102,6 @@ class Slopes:
         return carrier.gathered(over(self.increment.shares) * found, self.increment.box)
 
     @cached_property
-    def by_pressure(self) -> Sequence[Response]:
-        """The derivatives in the pressures."""
-        increment, stage = self.increment, self.stage
-        if not (increment.along or increment.model.laws.effects):
-            return [Response(slope) for slope in stage.slopes]
-
-        def rates(pressure: Array) -> Arrays:
-            return increment.rates(stage, told=increment.told(stage.passed, pressure))
-
-        if increment.shares_load:
-            return shared(rates, increment.pressure)
-        told = increment.told(stage.passed)
-        responses = aside(
-            lambda told: increment.rates(stage, told=told),
-            stage.rates,
-            told,
-            ASIDE * told,
-        )
-        if not increment.loads_change:
-            return responses
-        # Along the increment pressures are told in proportion to the load.
-        total = over(np.sum(increment.pressure, CELLS))
-        longer = over(np.sum(told, CELLS)) / total
-        return [
-            Response(
-                longer * each.own,
-                -longer * each.change(increment.pressure, increment.pressure) / total,
-            )
-            for each in responses
-        ]
-
-    @cached_property
-    def by_state(self) -> Sequence[Sequence[Response]]:
-        """The derivatives in each state."""
-        nudges = self.increment.nudges(self.stage)
-        return [self._by_state(at, nudge) for at, nudge in enumerate(nudges)]
-
-    def _by_state(self, at: int, nudge: Array) -> Sequence[Response]:
-        increment, states = self.increment, self.stage.states
-        body = increment.slid.before.bodies[at]
-        model = increment.of_bodies(increment.model, [body]) if body else increment.model
-
-        def rates(state: Array) -> Arrays:
-            changed = [*states[:at], state, *states[at + 1 :]]
-            return increment.rates(self.stage, changed, model=model)
-
-        return self._aside(rates, states[at], nudge, increment.kept[at])
-
-    @cached_property
-    def by_factor(self) -> Sequence[Sequence[Response]]:
-        """The derivatives in a factor, 1 here, on the wear rate of each body."""
-        increment, stage = self.increment, self.stage
-        names = list(increment.model.laws.wear)
-        if not increment.slid.before.between:
-            laws = increment.slid.before.laws.items()
-            follows = [name if key == WORN_DEPTH.name else "" for name, of in laws for key in of]
-            bodies = [*names, *follows]
-            return [
-                [
-                    Response(rate if body == name else 0.0)
-                    for body, rate in zip_longest(bodies, stage.rates)
-                ]
-                for name in names
-            ]
-
-        def rates(factor: Array, name: str) -> Arrays:
-            return increment.rates(stage, model=localised(increment.model, {name: factor}))
-
-        ones = [np.ones(carrier.shape) for carrier in increment.own]
-        return [
-            self._aside(partial(rates, name=name), one, ASIDE * one, carrier)
-            for name, one, carrier in zip(names, ones, increment.own, strict=True)
-        ]
-
-    @cached_property
     def by_field(self) -> Sequence[Mapping[str, Mapping[str, Sequence[Response]]]]:
         """The derivatives in the fields of each answer, by field and body."""
         return [self._by_field(answer) for answer in chain(*self.stage.answers)]
@@ -184,26 +112,95 @@ class Slopes:
         def response(field: FieldDeclaration, body: str) -> Sequence[Response]:
             of_bodies = answer.fields[field.name]
 
-            def rates(values: Array) -> Arrays:
-                fields = {**answer.fields, field.name: {**of_bodies, body: values}}
-                other = replace(answer, fields=fields)
-                given = [[other if each is answer else each for each in of] for of in stage.answers]
-                return self.increment.rates(stage, model=held(self.increment.model, given))
-
             values = of_bodies[body]
             step = ASIDE * (float(np.max(np.abs(values))) or 1.0)
             most = np.inf if field.at_most is None else field.at_most
-            nudge = np.where(values + step > most, -step, step)
-            return aside(rates, stage.rates, values, nudge)
+            moved = np.where(values + step > most, values - step, values + step)
+            fields = {**answer.fields, field.name: {**of_bodies, body: moved}}
+            other = replace(answer, fields=fields)
+            given = [[other if each is answer else each for each in of] for of in stage.answers]
+            (rates,) = self.increment.rates([replace(stage, answers=given)])
+            return responses(stage.rates, rates, moved - values)
 
         return {
             field.name: {body: response(field, body) for body in answer.fields[field.name]}
             for field in answer.effect.provides
         }
 
-    def _aside(
-        self, rates: Callable[[Array], Arrays], values: Array, nudge: Array, carrier: Carrier
-    ) -> Sequence[Response]:
-        """Return the responses of rates in values at the points of a carrier."""
-        seen = partial(carrier.seen, box=self.increment.box)
-        return aside(rates, self.stage.rates, values, nudge, seen)
+
+def sloped(increment: Stages, stages: Sequence[RateStage]) -> list[Slopes]:
+    """Return the derivatives at some stages of an increment."""
+    states = range(len(increment.kept))
+    by_state = [_by_state(increment, stages, at) for at in states]
+    parts = zip(stages, _by_pressure(increment, stages), _by_factor(increment, stages), strict=True)
+    return [
+        Slopes(increment, stage, by_pressure, [of[at] for of in by_state], by_factor)
+        for at, (stage, by_pressure, by_factor) in enumerate(parts)
+    ]
+
+
+def _by_pressure(increment: Stages, stages: Sequence[RateStage]) -> Sequence[Sequence[Response]]:
+    if not (increment.along or increment.model.laws.effects):
+        return [[Response(slope) for slope in stage.slopes] for stage in stages]
+
+    def pressed(stage: RateStage, pressure: Array) -> Arrays:
+        (rates,) = increment.rates([stage], told=[increment.told(stage.passed, pressure)])
+        return rates
+
+    if increment.shares_load:
+        return [shared(partial(pressed, stage), increment.pressure) for stage in stages]
+    told = [increment.told(stage.passed) for stage in stages]
+    moved = [each + ASIDE * each for each in told]
+    rates = increment.rates(stages, told=moved)
+    found = [
+        responses(stage.rates, now, after - before)
+        for stage, now, after, before in zip(stages, rates, moved, told, strict=True)
+    ]
+    if not increment.loads_change:
+        return found
+    # Along the increment pressures are told in proportion to the load.
+    pressure = increment.pressure
+    total = over(np.sum(pressure, CELLS))
+    longer = [over(np.sum(each, CELLS)) / total for each in told]
+    return [
+        [Response(by * of.own, -by * of.change(pressure, pressure) / total) for of in of_stage]
+        for by, of_stage in zip(longer, found, strict=True)
+    ]
+
+
+def _by_state(
+    increment: Stages, stages: Sequence[RateStage], at: int
+) -> Sequence[Sequence[Response]]:
+    body, model = increment.slid.before.bodies[at], increment.model
+    if body is not None:
+        model = increment.of_bodies(model, [body])
+    moved = [stage.states[at] + increment.nudge(stage, at) for stage in stages]
+    pairs = [*zip(stages, moved, strict=True)]
+    states = [[*of.states[:at], state, *of.states[at + 1 :]] for of, state in pairs]
+    rates = increment.rates(stages, states, model=model)
+    spans = [increment.kept[at].seen(now - of.states[at], increment.box) for of, now in pairs]
+    triples = zip(stages, rates, spans, strict=True)
+    return [responses(stage.rates, now, span) for stage, now, span in triples]
+
+
+def _by_factor(
+    increment: Stages, stages: Sequence[RateStage]
+) -> Sequence[Sequence[Sequence[Response]]]:
+    before, names = increment.slid.before, list(increment.model.laws.wear)
+    if not before.between:
+        laws = before.laws.items()
+        follows = [name if key == WORN_DEPTH.name else "" for name, of in laws for key in of]
+
+        def of_body(name: str, stage: RateStage) -> Sequence[Response]:
+            bodies = zip_longest([*names, *follows], stage.rates)
+            return [Response(rate if body == name else 0.0) for body, rate in bodies]
+
+        return [[of_body(name, stage) for name in names] for stage in stages]
+    of_bodies = []
+    for name, carrier in zip(names, increment.own, strict=True):
+        factor = np.full(carrier.shape, 1 + ASIDE)
+        rates = increment.rates(stages, model=localised(increment.model, {name: factor}))
+        span = carrier.seen(factor - 1, increment.box)
+        pairs = zip(stages, rates, strict=True)
+        of_bodies.append([responses(stage.rates, now, span) for stage, now in pairs])
+    return [*zip(*of_bodies, strict=True)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 from tribo import Array, Box, CaseError, ContactSolution, Residuals
@@ -16,12 +17,12 @@ from tribo.kernel_api import (
     kept_in,
     over,
     place,
-    rates_at_each,
+    rates_of_cycles,
     readonly,
     with_loads,
 )
 
-from tribo_inverse.increment.across import EffectFields, held_effects
+from tribo_inverse.increment.across import EffectFields, held, held_effects
 from tribo_inverse.increment.carriers import Carrier, carriers_between
 from tribo_inverse.increment.response import ASIDE, Arrays
 from tribo_inverse.recording.tape import Slid
@@ -137,18 +138,16 @@ class Stages:
         """Return states within their limits."""
         return [of.hold(state) for state, of in zip(states, self.limits, strict=True)]
 
-    def nudges(self, stage: RateStage) -> Arrays:
-        """Return the variation of each state for derivatives in it, past no limit or break.
+    def nudge(self, stage: RateStage, at: int) -> Array:
+        """Return the variation of a state for derivatives in it, past no limit or break.
 
         It is a part of the largest value of the state, now or at these rates after its part of the
         increment; over a whole increment of many parts that value may be far too large.
         """
-        nudges, length = [], self.part_after(stage.passed)
-        rates = stage.rates[len(self.own) :]
-        for state, rate, of in zip(stage.states, rates, self.limits, strict=False):
-            most = max(float(np.max(np.abs(state))), length * float(np.max(np.abs(rate))))
-            nudges.append(of.aside(state, ASIDE * (most if most > 0 else 1.0)) - state)
-        return nudges
+        state, rate = stage.states[at], stage.rates[len(self.own) + at]
+        later = self.part_after(stage.passed) * float(np.max(np.abs(rate)))
+        most = max(float(np.max(np.abs(state))), later)
+        return self.limits[at].aside(state, ASIDE * (most if most > 0 else 1.0)) - state
 
     def part_after(self, passed: float) -> float:
         """Return the length (m) of the part of the increment around the share `passed`."""
@@ -170,13 +169,24 @@ class Stages:
         """Return the stage at some states after a part of the increment."""
         within = self.held(states)
         inside = [given == kept for given, kept in zip(states, within, strict=True)]
-        found = self._rates_of(self.model, within, passed, self.told(passed))
-        rates = self._arrays(found, self.model)
+        (found,) = self._rates_of(self.model, [(within, passed, self.told(passed))])
+        answers = [[*effect.noted] for effect in held_effects(self.model)]
+        rates = self._arrays(found, answers)
         laws = self.model.laws.wear
         slopes = [self._on_box(of.wear[name].depth_slope for of in found) for name in laws]
-        answers = [[*effect.noted] for effect in held_effects(self.model)]
         means = self.means(rates)
         return RateStage(passed, within, inside, rates, means, slopes, answers)
+
+    @cached_property
+    def contacts(self) -> Sequence[ContactSolution]:
+        """The contacts of the increment."""
+        return self.contacts_of(self.pressure)
+
+    def contacts_of(self, pressure: Array) -> list[ContactSolution]:
+        """Return contacts in the window, as inputs of laws, from pressures on the box."""
+        shown = readonly(pressure if self.box.is_window else self.box.embed(pressure))
+        nothing = np.zeros(shown.shape[1:]), 0, Residuals(0.0, 0.0, 0.0)
+        return [ContactSolution(each, 0.0, *nothing) for each in shown]
 
     def told(self, passed: float, pressure: Array | None = None) -> Array:
         """Return the pressures for laws at a stage, (positions, nx, ny).
@@ -188,48 +198,70 @@ class Stages:
             pressure = self.pressure
         if not self.loads_change:
             return pressure
-        contacts = with_loads(self.model, _contacts(pressure), self.slid.interval, passed)
-        return np.stack([contact.pressure for contact in contacts])
+        contacts = self.contacts_of(pressure)
+        loaded = with_loads(self.model, contacts, self.slid.interval, passed)
+        return self._on_box(contact.pressure for contact in loaded)
 
     def rates(
         self,
-        stage: RateStage,
-        states: Sequence[Array] | None = None,
-        told: Array | None = None,
+        stages: Sequence[RateStage],
+        states: Iterable[Sequence[Array]] | None = None,
+        told: Iterable[Array] | None = None,
         model: Model | None = None,
-    ) -> Arrays:
-        """Return the rates of a stage with something else, shape (positions, nx, ny).
+    ) -> list[Arrays]:
+        """Return the rates of stages with something else, each of shape (positions, nx, ny).
 
-        After them come the inputs of effects with a `pull_back`. Rates of laws that the model lacks
-        are the same arrays as those of the stage.
+        After them come the inputs of effects with a `pull_back`, which are held at their answers of
+        the stages. Rates of laws that the model lacks are the same arrays as those of the stage.
 
         Parameters
         ----------
-        stage : RateStage
-            The stage.
-        states : sequence of ndarray, shape (rows, ny), optional
-            Its states, if left out.
-        told : ndarray, shape (positions, nx, ny), optional
-            The pressures; the result of `told` if left out.
+        stages : sequence of RateStage
+            The stages.
+        states : iterable of sequence of ndarray, shape (rows, ny), optional
+            The states of each; its own if left out.
+        told : iterable of ndarray, shape (positions, nx, ny), optional
+            The pressures of each; the results of `told` if left out.
         model : Model, optional
             A model with another number, or with some of the laws.
         """
-        told = self.told(stage.passed) if told is None else told
-        model, states = model or self.model, stage.states if states is None else states
-        return self._arrays(self._rates_of(model, states, stage.passed, told), model, stage.rates)
+        model, states = model or self.model, states or (stage.states for stage in stages)
+        passed = [stage.passed for stage in stages]
+        asked = [*zip(states, passed, told or map(self.told, passed), strict=True)]
+        if not stages[0].answers:
+            pairs = zip(stages, self._rates_of(model, asked), strict=True)
+            return [self._arrays(found, (), stage.rates) for stage, found in pairs]
+        rates = []
+        for stage, each in zip(stages, asked, strict=True):
+            holding = held(model, stage.answers)
+            (found,) = self._rates_of(holding, [each])
+            answers = [effect.noted for effect in held_effects(holding)]
+            rates.append(self._arrays(found, answers, stage.rates))
+        return rates
 
     def _rates_of(
-        self, model: Model, states: Sequence[Array], passed: float, told: Array
-    ) -> list[Rates]:
-        """Return the rates of laws and effects by position, with the whole window as input."""
-        memory = self.slid.before.with_values(iter(states))
-        shown = told if self.box.is_window else self.box.embed(told)
+        self, model: Model, asked: Iterable[tuple[Sequence[Array], float, Array]]
+    ) -> list[list[Rates]]:
+        """Return the rates of laws and effects by position, with the whole window as input.
+
+        They are `asked` for at states, a share of the increment, and pressures.
+        """
         for effect in held_effects(model):
             effect.noted.clear()
-        return rates_at_each(model, _contacts(shown), memory, self.slid.interval.at(passed))
+        cycles = []
+        for states, passed, told in asked:
+            contacts = self.contacts if told is self.pressure else self.contacts_of(told)
+            memory = self.slid.before.with_values(iter(states))
+            cycles.append((contacts, memory, self.slid.interval.at(passed)))
+        return rates_of_cycles(model, cycles)
 
-    def _arrays(self, found: Sequence[Rates], model: Model, known: Sequence[Array] = ()) -> Arrays:
-        """Return the rates of a model on the box, and the inputs of its effects.
+    def _arrays(
+        self,
+        found: Sequence[Rates],
+        answers: Iterable[Sequence[EffectFields]],
+        known: Sequence[Array] = (),
+    ) -> Arrays:
+        """Return the rates of a model on the box, and the inputs of the answers of its effects.
 
         The rates of laws that it lacks are `known`.
         """
@@ -240,7 +272,7 @@ class Stages:
             self._on_box(
                 of.wear[name].state_rates[key] if key else of.wear[name].depth_rate for of in found
             )
-            if name in model.laws.wear
+            if name in found[0].wear
             else known[at]
             for at, (name, key) in enumerate(asked)
         ]
@@ -248,18 +280,10 @@ class Stages:
             self._on_box(np.broadcast_to(of.between[key], self.box.window) for of in found)
             for key in memory.between
         ]
-        answers = (answer for effect in held_effects(model) for answer in effect.noted)
-        return rates + [
-            self._on_box([value]) for answer in answers for value in answer.told.values()
-        ]
+        told = (value for answer in chain(*answers) for value in answer.told.values())
+        return rates + [self._on_box([value]) for value in told]
 
     def _on_box(self, fields: Iterable[Array]) -> Array:
         """Return fields on the box or the window, on the box."""
         shape = self.box.shape
         return np.stack([of if of.shape == shape else of[self.box.slices] for of in fields])
-
-
-def _contacts(pressures: Array) -> list[ContactSolution]:
-    """Return contacts of given pressures, as inputs of laws."""
-    nothing = np.zeros(pressures.shape[1:]), 0, Residuals(0.0, 0.0, 0.0)
-    return [ContactSolution(readonly(each), 0.0, *nothing) for each in pressures]
