@@ -14,8 +14,8 @@ from tribo_inverse.increment.carriers import Carrier
 
 Map = Callable[[Array], Array]
 
-TOLERANCE = 1e-8
-"""Residual of a system, relative to its right side, as for the contacts of a run."""
+TOLERANCE = 1e-7
+"""Residual of a system, relative to its right side: as small as a one-sided difference of rates."""
 ALIKE = 1e-9
 """Relative difference below which slopes are alike, which are differences of rates."""
 MOST = 400
