@@ -13,7 +13,7 @@ from tribo.kernel_api import Interval, Model, assemble
 from tribo_inverse.adjoint.numbers import changed
 from tribo_inverse.adjoint.view import Seeds
 from tribo_inverse.increment.breaks import other_breaks
-from tribo_inverse.increment.carriers import carriers_of
+from tribo_inverse.increment.carriers import Carrier, carriers_of
 from tribo_inverse.increment.increment import Before, Increment, Place, States
 from tribo_inverse.increment.response import ASIDE
 from tribo_inverse.recording.local import OF_CONTACT, OF_MOTION, localised
@@ -79,7 +79,7 @@ class Variant:
     def __init__(self, base: Model, model: Model, keys: Set[str]) -> None:
         self.base, self.model = base, model
         self.own, self.stops = Stops.of(base), Stops.of(model)
-        self.carriers = carriers_of(model) if "kinematics" in keys else None
+        self.carriers = _moved(base, model) if "kinematics" in keys else None
         system, other = base.contact.system, model.contact.system
         reads = {name for name in OF_CONTACT if getattr(system, name) != getattr(other, name)}
         same = np.array_equal(self.own.times, self.stops.times)
@@ -164,6 +164,15 @@ class Variant:
     def _then(self, time: float) -> float:
         """Return the time that corresponds to `time` (s) in the case."""
         return float(np.interp(time, self.own.times, self.stops.times))
+
+
+def _moved(base: Model, model: Model) -> Mapping[str, Carrier] | None:
+    """Return the carriers of a model; None if they and its positions' shares equal the base's."""
+    own, other = carriers_of(base), carriers_of(model)
+    pairs = [([at.share for at in base.cycle], [at.share for at in model.cycle])]
+    for name, carrier in other.items():
+        pairs += [*zip(vars(own[name]).values(), vars(carrier).values(), strict=True)]
+    return None if all(np.array_equal(was, now) for was, now in pairs) else other
 
 
 @dataclass(frozen=True)
