@@ -263,7 +263,11 @@ def _laws(
     cells = (len(asked), *near.shape)
 
     def stacked(arrays: Iterable[Array]) -> Array:
-        whole = (np.broadcast_to(values, model.grid.cells)[near.slices] for values in arrays)
+        window = model.grid.cells
+        whole = (
+            (values if values.shape == window else np.broadcast_to(values, window))[near.slices]
+            for values in arrays
+        )
         return readonly(np.concatenate([*whole]).reshape(cells))
 
     pressure = stacked(each.contact.pressure for each in asked)

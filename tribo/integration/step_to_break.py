@@ -151,7 +151,7 @@ def stepped_back(
         given.append(seed * lasting(span, slope))
         left[each.place] = left.get(each.place, 0.0) + seed * rate * growth(span, slope)
     for at, slope in enumerate(slopes):
-        if np.ndim(slope):
+        if isinstance(slope, np.ndarray):
             span = piece.spans[kept[at].place]
             turns[at] = turns[at] + states[at] * rates[at] * bending(span, slope)
     for (total, seed), rate in zip(sums, rates[own:], strict=True):
@@ -168,7 +168,7 @@ def stepped_back(
         )
         states[at] = states[at] - far
         given[at] = given[at] - far * lasting(span, slope)
-        if np.ndim(slope):
+        if isinstance(slope, np.ndarray):
             turns[at] = turns[at] - far * rate * bending(span, slope)
         if of.breaks:
             at_break = np.where(here, far + seeds[at], 0.0)
@@ -180,7 +180,7 @@ def stepped_back(
 
 def growth(span: Field, slope: Field) -> Field:
     """Return the derivative of `lasting` in the span."""
-    return np.exp(slope * np.asarray(span)) if np.ndim(slope) else 1.0
+    return np.exp(slope * np.asarray(span)) if isinstance(slope, np.ndarray) else 1.0
 
 
 def relaxed(rise: Field) -> Array:
@@ -191,12 +191,12 @@ def relaxed(rise: Field) -> Array:
 
 def lasting(step: Field, slope: Field) -> Field:
     """Return the effective length of a step where the rate has this slope in its own state."""
-    return step * relaxed(step * slope) if np.ndim(slope) else step
+    return step * relaxed(step * slope) if isinstance(slope, np.ndarray) else step
 
 
 def bending(step: Field, slope: Field) -> Field:
     """Return the derivative of `lasting` in the slope."""
-    if not np.ndim(slope):
+    if not isinstance(slope, np.ndarray):
         return 0.0
     rise = np.asarray(step * slope)
     small = np.abs(rise) < SMALL

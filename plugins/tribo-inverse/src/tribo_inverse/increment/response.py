@@ -45,7 +45,7 @@ def back(seeds: Sequence[Field], responses: Sequence[Response]) -> Field:
     """Return derivatives in the values at each cell from derivatives in rates."""
     found: Field = 0.0
     for seed, response in zip(seeds, responses, strict=True):
-        if np.ndim(seed) and np.ndim(response.own):
+        if isinstance(seed, np.ndarray) and isinstance(response.own, np.ndarray):
             found = found + seed * response.own
     return found
 

@@ -76,7 +76,7 @@ class Slopes:
 
         def through(slopes: Sequence[Field]) -> Field:
             pairs = zip(seen, slopes, strict=True)
-            return sum(seed * slope for seed, slope in pairs if np.ndim(slope))
+            return sum(seed * slope for seed, slope in pairs if isinstance(slope, np.ndarray))
 
         load = through([each.load for each in self.by_pressure])
         square = through([each.square for each in self.by_pressure])
