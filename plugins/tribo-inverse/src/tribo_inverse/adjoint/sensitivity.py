@@ -17,9 +17,6 @@ CELLS = 24
 
 An error of first order in the cell size equals, on the finer grid, the difference of the two.
 """
-LEAST = 0.005
-"""Influence in % for 1 % below which a number is left out."""
-
 MOST = 8
 """Numbers of a case that are reported."""
 
@@ -29,25 +26,18 @@ def of_case(model: Model, half_width_x: float) -> list[Finding]:
 
     They change the largest depth worn, or the time to reach it where a depth ends the run.
     """
-    try:
-        return _of_case(model, half_width_x)
-    except (CaseError, NumericalError) as error:
-        return [Finding("sensitivity", f"not known, since {error}")]
-
-
-def _of_case(model: Model, half_width_x: float) -> list[Finding]:
-    if model.case.begin is not None:
-        raise CaseError("the wear that a run begins with is left out on a coarse grid", "begin")
+    case, refused = model.case, None
+    if case.begin is not None:
+        return [Finding("sensitivity", "not known for a run that begins with another's wear")]
     wide = 1.0 if model.contact.may_reach_edge else WIDER
-    averaged, resolved = (np.inf,) * 2 if model.case.contact.periodic else (0.0, half_width_x)
-    try:
-        # The average of the stroke is the cheapest, but has not all surfaces.
-        return _of_two(model.case, CELLS, wide, averaged)
-    except (CaseError, NumericalError) as error:
+    averaged, resolved = (np.inf, np.inf) if case.contact.periodic else (0.0, half_width_x)
+    # The average of the stroke is the cheapest, but has not all surfaces.
+    for cells, margin, half_width in ((CELLS, wide, averaged), (2 * CELLS, 1.0, resolved)):
         try:
-            return _of_two(model.case, 2 * CELLS, 1.0, resolved)
-        except (CaseError, NumericalError):
-            raise error from None
+            return _of_two(case, cells, margin, half_width)
+        except (CaseError, NumericalError) as error:
+            refused = refused or error
+    return [Finding("sensitivity", f"not known, since {refused}")]
 
 
 def _of_two(case: Case, cells: int, margin: float, half_width: float) -> list[Finding]:
@@ -74,14 +64,12 @@ def influences(what: str, coarse: Mapping[str, float], fine: Mapping[str, float]
     """Return the influence of numbers, by path, on an answer on two grids.
 
     Their unit is % for 1 % of a number. Where the two grids differ by more than an influence, the
-    number is named alone.
+    number is left out.
     """
     # A number may have a derivative on one of the grids alone.
     off = {path: abs(value - coarse[path]) for path, value in fine.items() if path in coarse}
-    large = [path for path in off if abs(fine[path]) >= LEAST]
-    ranked = sorted(large, key=lambda path: -abs(fine[path]))
-    known = [path for path in ranked if abs(fine[path]) > off[path]]
-    findings = [
+    known = [path for path in off if abs(fine[path]) > off[path]]
+    return [
         Finding(
             "sensitivity",
             f"+1 %: {what} {fine[path]:+.2f} ± {off[path]:.2f} %",
@@ -89,9 +77,5 @@ def influences(what: str, coarse: Mapping[str, float], fine: Mapping[str, float]
             uncertainty=off[path],
             place=path,
         )
-        for path in known[:MOST]
+        for path in sorted(known, key=lambda path: -abs(fine[path]))[:MOST]
     ]
-    if unknown := [path for path in ranked if path not in known]:
-        words = "smaller than the error of the coarse grids, and left out: "
-        findings.append(Finding("sensitivity", words + ", ".join(unknown)))
-    return findings
