@@ -212,7 +212,7 @@ class Stages:
         """Return the rates of stages with something else, each of shape (positions, nx, ny).
 
         After them come the inputs of effects with a `pull_back`, which are held at their answers of
-        the stages. Rates of laws that the model lacks are the same arrays as those of the stage.
+        the stages. Rates of laws that the model lacks are the arrays of the stage itself.
 
         Parameters
         ----------
