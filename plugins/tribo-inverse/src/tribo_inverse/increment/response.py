@@ -65,36 +65,29 @@ def shared(rates: Rates, pressure: Array) -> list[Response]:
 
     Such rates come from effects that share the load, or that are uniform over the contact.
     """
-    stripes = np.where(np.indices(pressure.shape[-2:]).sum(axis=0) % 2, -1.0, 1.0)
-    steep = pressure / over(np.max(pressure, CELLS))
-    parts = [stripes * np.ones_like(steep), np.ones_like(steep), steep]
-    slopes = [
-        [
-            (higher - lower) / (2 * NUDGE)
-            for higher, lower in zip(
-                rates((1 + NUDGE * part) * pressure),
-                rates((1 - NUDGE * part) * pressure),
-                strict=True,
-            )
-        ]
-        for part in parts
-    ]
     load, square = np.sum(pressure, CELLS), np.sum(pressure**2, CELLS)
-    # What each part changes of the load and of Σp², relative to them.
-    of_stripes, *of_others = (
-        np.stack([np.sum(pressure * p, CELLS) / load, np.sum(pressure**2 * p, CELLS) / square], -1)
-        for p in parts
-    )
-    # Where pressures are even, the last two parts change both alike.
-    inverse = np.linalg.pinv(np.stack(of_others, -2), rcond=1e-9)
-    even, steeper = (over(np.sum(of_stripes * inverse[..., at], -1)) for at in (0, 1))
+    steep = pressure / over(np.max(pressure, CELLS))
+    ones, checks = np.ones_like(steep), np.indices(pressure.shape[-2:]).sum(axis=0) % 2
+    stripes = np.where(checks, -ones, ones)
+
+    def changes(part: Array) -> Array:
+        """Return what a part changes of the load and of Σp², relative to them."""
+        by = part * pressure
+        return np.stack([np.sum(by, CELLS) / load, np.sum(pressure * by, CELLS) / square], -1)
+
+    def slopes(part: Array) -> Arrays:
+        higher, lower = (rates((1 + by * part) * pressure) for by in (NUDGE, -NUDGE))
+        return [(up - down) / (2 * NUDGE) for up, down in zip(higher, lower, strict=True)]
+
+    # Where pressures are even, both parts change both alike.
+    inverse = np.linalg.pinv(np.stack([changes(ones), changes(steep)], -2), rcond=1e-9)
+    even, steeper = (over(np.sum(changes(stripes) * inverse[..., at], -1)) for at in (0, 1))
     # Stripes that change neither.
     balanced = stripes - even - steeper * steep
     varied = (np.abs(balanced) > LEAST) & (pressure > 0)
     found = []
-    for by_stripes, by_all, by_steep in zip(*slopes, strict=True):
-        change = by_stripes - even * by_all - steeper * by_steep
-        own = change / np.where(varied, balanced * pressure, np.inf)
+    for by_balanced, by_all, by_steep in zip(*map(slopes, (balanced, ones, steep)), strict=True):
+        own = by_balanced / np.where(varied, balanced * pressure, np.inf)
         left = by_all - own * pressure, by_steep - own * steep * pressure
         of_load, of_square = (
             sum(over(row[..., at] / total) * left[at] for at in (0, 1))
