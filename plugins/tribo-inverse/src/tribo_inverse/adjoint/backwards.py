@@ -12,7 +12,6 @@ from tribo import Array, Box
 from tribo.kernel_api import (
     CELLS,
     Model,
-    first_memory,
     over,
     whole,
 )
@@ -99,20 +98,14 @@ class Backwards:
         self.height = {name: np.zeros(shape) for name, shape in own.items()}
         self.wear_rate = {name: np.zeros(own[name]) for name in model.laws.wear}
         self.between = carriers_between(model, self.carriers)
-        self.states: States = {
-            (name, key): np.zeros(own[name])
-            for name, law in model.laws.wear.items()
-            for key in law.own_state
-        }
-        for key, first in first_memory(model).items():
-            self.states[None, key] = np.zeros_like(first)
+        self.states: States = {}
         self.plastic = {
             name: np.zeros(cells if self.carriers[name].weights is not None else own[name])
             for name, share in model.contact.plastic_share.items()
             if model.contact.system.cap is not None
         }
         self.gap = np.zeros((positions, *cells))
-        self.pressure: Array | None = None
+        self.pressure = np.zeros_like(self.gap)
         self.gave: Sequence[int] = ()
         self.stiffness = self.cap = 0.0
         self.parameters = np.zeros(len(chains))
@@ -124,8 +117,6 @@ class Backwards:
         for name, seed in seeds.wear.items():
             self.worn_before[name] = self.worn_before[name] + seed
         if seeds.pressure is not None:
-            if self.pressure is None:
-                self.pressure = np.zeros_like(self.gap)
             self.pressure[len(self.gap) // 2] += seeds.pressure
 
     def yielded(self, places: Sequence[int]) -> None:
@@ -142,14 +133,11 @@ class Backwards:
 
     def pressed(self, record: Pressed) -> None:
         """Carry the adjoint through a contact and the wear under it."""
-        pressed, yielded = self.pressure, self.gave
-        self.pressure, self.gave = None, ()
-        slid = record.slid
-        if slid is None and pressed is None and not yielded:
-            return
-        looked = np.zeros_like(self.gap) if pressed is None else pressed
+        looked, yielded, slid = self.pressure, self.gave, record.slid
+        self.pressure, self.gave = np.zeros_like(self.gap), ()
         if slid is None:
-            self._solve(record, looked, yielded, None)
+            if np.any(looked) or yielded:
+                self._solve(record, looked, yielded, None)
             return
         part = increment(self.model, self.carriers, self.touched, record, slid)
         before = None if slid.ahead else self._solve(record, looked, yielded, part)
@@ -249,7 +237,7 @@ class Backwards:
                 self.plastic[name][box.slices] -= np.sum(y, axis=0)
         self.gap[:, *box.slices] -= y
         for of, values in states.items():
-            self.states[of] = self.states[of] + values
+            self.states[of] = self.states.get(of, 0.0) + values
 
     def _gave(self, record: Pressed, places: Sequence[int]) -> Array:
         """Return the derivative in the overlap at each position, shape (positions, nx, ny)."""
