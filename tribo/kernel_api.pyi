@@ -68,7 +68,6 @@ from tribo.evolution.interval import Interval as Interval
 from tribo.evolution.rates import Rates as Rates
 from tribo.evolution.rates import rates_of_cycles as rates_of_cycles
 from tribo.evolution.states import Memory as Memory
-from tribo.evolution.states import first_memory as first_memory
 from tribo.evolution.states import place as place
 from tribo.guards.parts import GuardedEffect as GuardedEffect
 from tribo.guards.parts import GuardedLaw as GuardedLaw
@@ -139,7 +138,6 @@ from tribo.result.layout import TRACK_PLASTIC as TRACK_PLASTIC
 from tribo.result.provenance import environment as environment
 from tribo.simulation.assembly import assemble as assemble
 from tribo.simulation.assembly import varied as varied
-from tribo.simulation.march import DEPTH_ACCURACY as DEPTH_ACCURACY
 from tribo.simulation.march import begin as begin
 from tribo.simulation.march import march as march
 from tribo.simulation.predict import WIDER as WIDER
