@@ -264,9 +264,9 @@ class Iterate:
         places = np.ndindex(self.gap.shape[:-2])
         return [
             ContactSolution(
-                pressure=self.pressure[place].copy(),
+                pressure=self.pressure[place],
                 approach=float(self.approach[place]),
-                overlap=overlap[place].copy(),
+                overlap=overlap[place],
                 iterations=iterations,
                 residuals=residuals,
             )
@@ -309,24 +309,12 @@ def _feasible(
     start: Array | None, shape: tuple[int, ...], total: Array, limit: Array | float
 ) -> Array:
     """Return a pressure within the bounds that carries the load, as near to `start` as it may."""
-    pressure = np.empty(shape)
-    for place in np.ndindex(shape[:-2]):
-        given = None if start is None else start[place]
-        pressure[place] = _feasible_at(given, shape[-2:], float(total[place]), at(limit, place))
-    return pressure
-
-
-def _feasible_at(
-    start: Array | None, shape: tuple[int, ...], total: float, limit: Array | float
-) -> Array:
     guess = np.zeros(shape) if start is None else np.maximum(start, 0.0)
-    if not guess.any():
-        guess += 1.0
-    guess *= total / float(guess.sum())
+    guess[~guess.any(CELLS)] = 1.0
+    guess *= over(total / guess.sum(CELLS))
     if (guess <= limit).all():
-        return balance(guess, np.asarray(total), limit)
+        return balance(guess, total, limit)
     np.minimum(guess, limit, out=guess)
     loaded = guess > 0
-    if float(np.sum(np.broadcast_to(limit, shape)[loaded])) <= total:
-        loaded[:] = True
-    return project(guess, np.asarray(total), limit, loaded)
+    loaded[np.where(loaded, limit, 0.0).sum(CELLS) <= total] = True
+    return project(guess, total, limit, loaded)
