@@ -9,11 +9,12 @@ import numpy as np
 import scipy
 
 from tribo.contact.elastic import ElasticSolver
-from tribo.contact.projection import CELLS, over
+from tribo.contact.projection import CELLS, over, project
+from tribo.contact.residuals import check_finite
 from tribo.core.arrays import Array, Mask
 from tribo.core.box import Box, whole
 from tribo.core.coating import Coating
-from tribo.core.contact import ContactSolution, ContactSystem
+from tribo.core.contact import ContactProblem, ContactSolution, ContactSystem
 
 
 class PeriodicHalfSpace:
@@ -90,6 +91,18 @@ class Periodic(ElasticSolver):
             replace(solution, approach=solution.approach + float(low))
             for solution, low in zip(solutions, np.ravel(lowest), strict=True)
         ]
+
+    def _guess(self, problem: ContactProblem) -> Array:
+        """Return the pressure that closes the gap everywhere, projected onto load and bounds."""
+        check_finite(problem.gap)
+        system = problem.system
+        closing = scipy.fft.rfft2(problem.gap)
+        closing /= -self._operator(system, problem.gap.shape).symbol()
+        pressure = scipy.fft.irfft2(closing, s=problem.gap.shape, overwrite_x=True)
+        total = np.asarray(problem.load / system.grid.cell_area)
+        cap = system.cap if problem.cap is None else problem.cap
+        cells = np.ones(pressure.shape, dtype=bool)
+        return project(pressure, total, np.inf if cap is None else cap, cells)
 
     def _around(self, touching: Mask) -> Box:
         return whole((touching.shape[0], touching.shape[1]))
