@@ -137,7 +137,6 @@ from tribo.result.layout import TRACK as TRACK
 from tribo.result.layout import TRACK_PLASTIC as TRACK_PLASTIC
 from tribo.result.provenance import environment as environment
 from tribo.simulation.assembly import assemble as assemble
-from tribo.simulation.assembly import varied as varied
 from tribo.simulation.march import begin as begin
 from tribo.simulation.march import march as march
 from tribo.simulation.predict import WIDER as WIDER
