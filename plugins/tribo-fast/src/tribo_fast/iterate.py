@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from typing import Any
+from weakref import WeakKeyDictionary
+
 import numpy as np
 from numpy.typing import NDArray
 from tribo import ContactSolution, HalfSpace, Operator, Residuals
@@ -13,6 +16,8 @@ from tribo_fast.operator import Convolution, transposed
 from tribo_fast.operator import Threads as Threads
 
 Array = NDArray[np.float64]
+_spare: WeakKeyDictionary[Operator, tuple[Any, ...]] = WeakKeyDictionary()
+"""Memory of the last solve, while its operator is: new memory costs as much as two iterations."""
 
 
 def serves(operator: Operator) -> bool:
@@ -20,6 +25,12 @@ def serves(operator: Operator) -> bool:
     base = operator.base if isinstance(operator, WornOperator) else operator
     # Not a subclass, which may respond otherwise.
     return type(base) in (HalfSpace, PeriodicHalfSpace)
+
+
+def _memory(positions: int, nx: int, ny: int) -> tuple[Any, ...]:
+    lists = (2, positions, nx * ny)
+    cells, fields = np.empty(lists, dtype=np.uint32), np.zeros((*lists[:2], passes.FIELDS, nx * ny))
+    return (*np.empty((3, positions, nx, ny)), cells, fields)
 
 
 class CompiledIterate(Iterate):
@@ -34,10 +45,13 @@ class CompiledIterate(Iterate):
         start: Array | None,
         shares: Array | None,
     ) -> None:
-        stacked = (-1, *operator.shape)
+        stacked = (total.size, *operator.shape)
+        self._base = operator.base if isinstance(operator, WornOperator) else operator
+        spare = _spare.pop(self._base, ())
+        self._memory = spare if spare and spare[0].shape == stacked else _memory(*stacked)
         # Compiled code checks no bounds, and takes one type and order only.
-        whole = np.broadcast_to(gap, (*gap.shape[:-2], *operator.shape))
-        gap = np.array(whole, dtype=float, order="C").reshape(stacked)
+        given, gap = gap, self._memory[0]
+        gap[:] = given.reshape(total.size, *given.shape[-2:])
         self._threads = Threads(threads(), len(gap))
         self._compiled = CompiledOperator(operator, self._threads)
         super().__init__(
@@ -56,15 +70,21 @@ class CompiledIterate(Iterate):
         shape = self._compiled.shape
         inverse = transposed(1.0 / self.preconditioner.symbol, shape)
         self._inverse = Convolution(inverse, shape, self._compiled.modes)
+        _, self.change, self.moved, *lists = self._memory
+        self.change[:] = self.moved[:] = 0.0
         self._sums = passes.empty_sums(len(gap))
+        self._lists = (*lists, self._sums)
         self._judge()
 
     def _sum(self, column: int) -> float:
         return float((self.shares * self._sums[:, column]).sum())
 
     def _judge(self) -> None:
-        place = (self.pressure, self.displacement, self.gap, self.deformed, self._most)
-        self._threads(passes.judge, *place, self.total, self._sums)
+        self._threads(passes.judge, self._place(), self._lists, self.total)
+
+    def _place(self) -> tuple[Any, ...]:
+        here = (self.pressure, self.displacement, self.gap, self._most)
+        return (*here, self.change, self.moved)
 
     def judge(self) -> list[Residuals]:
         """Return the residuals of the iterate, as it was judged when it was reached."""
@@ -89,52 +109,45 @@ class CompiledIterate(Iterate):
         slope, curvature = self._sum(passes.SLOPE), self._sum(passes.CURVATURE)
         if slope >= 0 or curvature <= 0:
             return False
-        self.residual, self.gradient, self.decrease = self.gradient, self.residual, decrease
+        self.decrease = decrease
         part = -slope / curvature
         self.length *= min(max(part, 0.5), 2.0)
         onto = part >= NEAR_ENOUGH and sums[:, passes.MEETS_BOUND].any()
-        if onto or passes.leaves(self.pressure, self.change, self._most, part):
+        if onto or passes.leaves(self._lists, part):
             part = 1.0
-        place = (self.pressure, self.displacement, self.gap, self.deformed, self._most)
-        step = (self.change, self.moved, self.ahead)
-        self._threads(passes.arrive, *place, *step, self.total, sums, part)
+        self._threads(passes.arrive, self._place(), self._lists, self.total, part)
         return True
 
     def _precondition(self) -> None:
-        """Write the preconditioned residual, which lies in `change` until there is a step."""
+        """Write the preconditioned residual, which is the step until there is one."""
         by = self._inverse
-        place = (self.pressure, self.deformed, self._most, self.residual)
-        rest = (self._sums, by.spectrum)
-        self._threads(passes.precondition, *place, self.change, *rest, memory=by.memory)
+        given = (self.change, self.moved, self._lists, by.spectrum)
+        self._threads(passes.precondition, *given, memory=by.memory)
         if self.preconditioner.wears:
-            self.change -= self.preconditioner.taken(self.residual)
-        fields = (self.gradient, self.direction, self.change, self._sums)
-        self._threads(passes.steepen, *place, *fields)
+            self.moved -= self.preconditioner.taken(self.change)
+        self._threads(passes.steepen, self.moved, self._lists)
 
     def _advance(self, beta: float) -> None:
         """Write the step of a direction, and the response to it, which lies in `moved`."""
         by = self._compiled.elastic
-        place = (self.pressure, self.deformed, self._most)
-        fields = (self.residual, self.direction, self.change, self.ahead, self.moved)
-        self._threads(
-            passes.advance,
-            *place,
-            *fields,
-            self.total,
-            self._sums,
-            beta,
-            self.length,
-            by.spectrum,
-            memory=by.memory,
-        )
+        given = (self.change, self.moved, self._lists, self.total, beta, self.length, by.spectrum)
+        self._threads(passes.advance, *given, memory=by.memory)
         self._compiled.add_wear(self.change, self.moved, self._sums)
 
     def spectral_step(self) -> None:
         """Move along the gradient; see `Iterate.spectral_step`."""
+        self._deform()
         super().spectral_step()
         self._judge()
 
     def solutions(self, iterations: int, reached: list[Residuals]) -> list[ContactSolution]:
         """Return the solution at each position."""
         self.full = self.pressure >= self.limit
+        if self.full.any():
+            self._deform()
+        _spare.clear()
+        _spare[self._base] = self._memory
         return super().solutions(iterations, reached)
+
+    def _deform(self) -> None:
+        self.deformed = self.displacement + self.gap - self.approach[:, None, None]

@@ -30,8 +30,15 @@ from rocket_fft import c2c, c2r, r2c
     SLOPE,
     MEETS_BOUND,
     CURVATURE,
-) = range(14)
+    LIST,
+    LISTED,
+) = range(16)
 """Columns of `sums`."""
+HELD, OPEN, MOST, RESIDUAL, GRADIENT, DIRECTION, STEP, AHEAD, FIELDS = range(9)
+"""Fields of the listed cells: pressure, deformed gap, largest pressure, residual, the residual
+before, direction, step (which the preconditioned residual is first), end of a projected step."""
+_BLOCK = 16
+"""Cells of a row that are looked at together: only where one is listed, each of them is."""
 _COLUMNS = 1 << 12
 """Complex numbers that a processor's first cache holds: lines are transformed so many at a time."""
 _ROUND_OFF = 1e-15
@@ -42,6 +49,9 @@ _LINES = np.array([1])
 """The axis of a line."""
 
 _FIELD, _TABLE, _ROW, _MODES = "f8[:,:,::1]", "f8[:,::1]", "f8[::1]", "c16[:,::1]"
+# Pressure, displacement, gap, largest pressure, step and response; listed cells, fields and sums.
+_PLACE = f"UniTuple({_FIELD},6)"
+_LISTS = f"Tuple((u4[:,:,::1],f8[:,:,:,::1],{_TABLE}))"
 # Sums may be reordered: what is given is fixed, so the order is, on one machine.
 _OPTIONS: dict[str, Any] = {
     "nogil": True,
@@ -60,7 +70,7 @@ def _compiled(*types):
 
 def empty_sums(positions: int) -> NDArray[np.float64]:
     """Return room for the sums of so many positions."""
-    return np.zeros((positions, CURVATURE + 1))
+    return np.zeros((positions, LISTED + 1))
 
 
 @_inline
@@ -133,121 +143,187 @@ def convolve(pressure, displacement, sums, spectrum, modes, lines, first, last):
 
 
 @_inner
-def _approach_at_bounds(pressure, deformed):
+def _listed(lists, k):
+    """Return the listed cells of a position, their fields, and how many there are."""
+    cells, fields, sums = lists
+    now = int(sums[k, LIST])
+    return cells[now, k], fields[now, k], int(sums[k, LISTED])
+
+
+@_inner
+def _sum(values):
+    """Return a sum, of sums of parts: one after the other would gather round-off."""
+    total = 0.0
+    for first in range(0, len(values), 64):
+        here = 0.0
+        for value in values[first : first + 64]:
+            here += value
+        total += here
+    return total
+
+
+@_inner
+def _scatter(values, cells, count, field):
+    into = field.ravel()
+    for s in range(count):
+        into[cells[s]] = values[s]
+
+
+@_inner
+def _list(place, lists, part, approach, k):
+    """Take a part of the response, and list the cells that are pressed or overlap.
+
+    Cells keep their direction, and their residual as the one before; `change` is cleared.
+    """
+    (pressure, displacement, gap, limit, change, response), sums = place, lists[2]
+    _, nx, ny = pressure.shape
+    old, known, before = _listed(lists, k)
+    sums[k, LIST] = 1 - sums[k, LIST]
+    c, f, _ = _listed(lists, k)
+    held, opened, most = f[HELD], f[OPEN], f[MOST]
+    n = 0
+    for i in range(nx):
+        p, u, h, w = pressure[k, i], displacement[k, i], gap[k, i], response[k, i]
+        for j in range(ny):
+            u[j] += part * w[j]
+        for first in range(0, ny, _BLOCK):
+            q, v, g = p[first:][:_BLOCK], u[first:][:_BLOCK], h[first:][:_BLOCK]
+            found = 0
+            for j in range(len(q)):
+                found += 1 if (q[j] > 0) | (v[j] + g[j] < approach) else 0
+            if found == 0:
+                continue
+            row = _most(limit, k, i)
+            for j in range(len(q)):
+                if (q[j] > 0) | (v[j] + g[j] < approach):
+                    c[n], most[n] = i * ny + first + j, row[first + j]
+                    held[n], opened[n] = q[j], v[j] + g[j] - approach
+                    n += 1
+    sums[k, LISTED] = n
+    steps = change[k].ravel()
+    for o in range(before):
+        steps[old[o]] = 0.0
+    o = 0
+    for s in range(n):
+        while o < before and old[o] < c[s]:
+            o += 1
+        same = o < before and old[o] == c[s]
+        f[DIRECTION, s] = known[DIRECTION, o] if same else 0.0
+        f[GRADIENT, s] = known[RESIDUAL, o] if same else 0.0
+
+
+@_inner
+def _approach_at_bounds(pressure, displacement, gap, response, part):
     """Return the approach where no cell is between the bounds: any value between the two."""
     highest, lowest = -np.inf, np.inf
     for i in range(len(pressure)):
         for j in range(pressure.shape[1]):
+            deformed = displacement[i, j] + part * response[i, j] + gap[i, j]
             if pressure[i, j] > 0:
-                highest = max(highest, deformed[i, j])
+                highest = max(highest, deformed)
             else:
-                lowest = min(lowest, deformed[i, j])
+                lowest = min(lowest, deformed)
     return 0.5 * (highest + lowest) if lowest < np.inf else highest
 
 
-@_compiled(*[_FIELD] * 5, _ROW, _TABLE)
-def judge(pressure, displacement, gap, deformed, limit, total, sums, first, last):
-    """Find the approach and the deformed gap, and the residuals; count the cells of the face."""
-    _, nx, ny = pressure.shape
-    lowest, highest, deepest, below = np.empty(ny), np.empty(ny), np.empty(ny), np.empty(ny)
+@_inner
+def _judge(place, lists, total, part, k):
+    """Take a part of the response, and find the approach, the cells to list and the residuals."""
+    pressure, displacement, gap, _, _, response = place
+    sums = lists[2]
+    c, f, n = _listed(lists, k)
+    p, most = f[HELD], f[MOST]
+    u, g, w = displacement[k].ravel(), gap[k].ravel(), response[k].ravel()
+    between, level, lowest, highest, deepest = 0, 0.0, np.inf, -np.inf, -np.inf
+    for s in range(n):
+        if p[s] > 0:
+            v, h = u[c[s]] + part * w[c[s]], g[c[s]]
+            lowest, highest, deepest = min(lowest, h), max(highest, h), max(deepest, v)
+            free = p[s] < most[s]
+            between += 1 if free else 0
+            level += v + h if free else 0.0
+    if between:
+        approach = level / between
+    else:
+        approach = _approach_at_bounds(pressure[k], displacement[k], gap[k], response[k], part)
+    _list(place, lists, part, approach, k)
+    _, f, n = _listed(lists, k)
+    p, d, most = f[HELD], f[OPEN], f[MOST]
+    opening, face, mean, below = 0.0, 0, 0.0, 0.0
+    for s in range(n):
+        opening += p[s] * abs(d[s]) if (p[s] < most[s]) | (d[s] > 0) else 0.0
+        on = _on_face(p[s], d[s], most[s])
+        face += 1 if on else 0
+        mean += d[s] if on else 0.0
+    for s in range(n):
+        below = min(below, 0.0 if p[s] > 0 else d[s])
+    scale = max(deepest, highest - lowest)
+    scale = 1.0 if scale == 0 else scale
+    sums[k, FORCE] = abs(_sum(p[:n]) / total[k] - 1.0)
+    sums[k, OPENING] = opening / (total[k] * scale)
+    sums[k, PENETRATION] = 0.0 - below / scale
+    sums[k, APPROACH] = approach
+    sums[k, FACE], sums[k, MEAN] = max(face, 1), mean / max(face, 1)
+
+
+@_compiled(_PLACE, _LISTS, _ROW)
+def judge(place, lists, total, first, last):
+    """List the cells of any pressure, and judge it; the response does not count."""
     for k in range(first, last):
-        lowest[:], highest[:], deepest[:], below[:] = np.inf, -np.inf, -np.inf, 0.0
-        between, level, load = 0, 0.0, 0.0
-        for i in range(nx):
-            p, u, g, d = pressure[k, i], displacement[k, i], gap[k, i], deformed[k, i]
-            most = _most(limit, k, i)
-            n, mean, here = 0, 0.0, 0.0
-            for j in range(ny):
-                d[j] = u[j] + g[j]
-                free = (p[j] > 0) & (p[j] < most[j])
-                n += 1 if free else 0
-                mean += d[j] if free else 0.0
-                here += p[j]
-            between, level, load = between + n, level + mean, load + here
-            # A largest value of each column: a compiler cannot do more of one value at a time.
-            for j in range(ny):
-                lowest[j] = min(lowest[j], g[j] if p[j] > 0 else np.inf)
-                highest[j] = max(highest[j], g[j] if p[j] > 0 else -np.inf)
-                deepest[j] = max(deepest[j], u[j] if p[j] > 0 else -np.inf)
-        at_bounds = between == 0
-        approach = _approach_at_bounds(pressure[k], deformed[k]) if at_bounds else level / between
-        opening, face, mean = 0.0, 0, 0.0
-        for i in range(nx):
-            p, d, most = pressure[k, i], deformed[k, i], _most(limit, k, i)
-            here, n, there = 0.0, 0, 0.0
-            for j in range(ny):
-                q, v = p[j], d[j] - approach
-                d[j] = v
-                here += q * abs(v) if (q < most[j]) | (v > 0) else 0.0
-                overlap = 0.0 if q > 0 else v
-                below[j] = overlap if overlap < below[j] else below[j]
-                on = _on_face(q, v, most[j])
-                n += 1 if on else 0
-                there += v if on else 0.0
-            opening, face, mean = opening + here, face + n, mean + there
-        scale = max(deepest.max(), highest.max() - lowest.min())
-        scale = 1.0 if scale == 0 else scale
-        sums[k, FORCE] = abs(load / total[k] - 1.0)
-        sums[k, OPENING] = opening / (total[k] * scale)
-        sums[k, PENETRATION] = 0.0 - below.min() / scale
-        sums[k, APPROACH] = approach
-        sums[k, FACE], sums[k, MEAN] = max(face, 1), mean / max(face, 1)
+        _list(place, lists, 0.0, -np.inf, k)
+        _judge(place, lists, total, 0.0, k)
 
 
-@_compiled(*[_FIELD] * 5, _TABLE, _TABLE, _MODES, _TABLE)
-def precondition(pressure, deformed, limit, residual, z, sums, spectrum, modes, lines, first, last):
-    """Centre the residual on the face, and convolve it."""
-    _, nx, ny = pressure.shape
+@_compiled(_FIELD, _FIELD, _LISTS, _TABLE, _MODES, _TABLE)
+def precondition(change, z, lists, spectrum, modes, lines, first, last):
+    """Centre the residual on the face, and convolve it; it lies in `change`."""
     for k in range(first, last):
-        mean = sums[k, MEAN]
-        for i in range(nx):
-            p, d, r, most = pressure[k, i], deformed[k, i], residual[k, i], _most(limit, k, i)
-            for j in range(ny):
-                r[j] = d[j] - mean if _on_face(p[j], d[j], most[j]) else 0.0
-        _convolve(residual[k], z[k], spectrum, modes, lines)
+        c, f, n = _listed(lists, k)
+        p, d, most, r = f[HELD], f[OPEN], f[MOST], f[RESIDUAL]
+        mean = lists[2][k, MEAN]
+        for s in range(n):
+            r[s] = d[s] - mean if _on_face(p[s], d[s], most[s]) else 0.0
+        _scatter(r, c, n, change[k])
+        _convolve(change[k], z[k], spectrum, modes, lines)
 
 
-@_compiled(*[_FIELD] * 7, _TABLE)
-def steepen(pressure, deformed, limit, residual, gradient, direction, z, sums, first, last):
-    """Find the sums of the preconditioned residual; `gradient` is the residual before."""
-    _, nx, ny = pressure.shape
+@_compiled(_FIELD, _LISTS)
+def steepen(z, lists, first, last):
+    """Take the preconditioned residual from a field, and find its sums."""
+    sums = lists[2]
     for k in range(first, last):
+        c, f, n = _listed(lists, k)
+        p, d, most, w = f[HELD], f[OPEN], f[MOST], f[STEP]
+        r, g, v = f[RESIDUAL], f[GRADIENT], f[DIRECTION]
+        preconditioned = z[k].ravel()
+        for s in range(n):
+            w[s] = preconditioned[c[s]]
         # The sums of the centred z: the residual is centred already.
         raised, turned, past, steepness, overlap = 0.0, 0.0, 0.0, 0.0, 0.0
-        for i in range(nx):
-            p, d, most = pressure[k, i], deformed[k, i], _most(limit, k, i)
-            w, v, r, g = z[k, i], direction[k, i], residual[k, i], gradient[k, i]
-            sum_w, sum_v, sum_g, sum_r, here = 0.0, 0.0, 0.0, 0.0, 0.0
-            for j in range(ny):
-                on = _on_face(p[j], d[j], most[j])
-                sum_w += w[j] if on else 0.0
-                sum_v += v[j] if on else 0.0
-                sum_g += g[j] if on else 0.0
-                here += w[j] * g[j] if on else 0.0
-                sum_r += w[j] * r[j]
-            raised, turned, past = raised + sum_w, turned + sum_v, past + sum_g
-            steepness, overlap = steepness + sum_r, overlap + here
+        for s in range(n):
+            on = _on_face(p[s], d[s], most[s])
+            raised += w[s] if on else 0.0
+            turned += v[s] if on else 0.0
+            past += g[s] if on else 0.0
+            overlap += w[s] * g[s] if on else 0.0
+            steepness += w[s] * r[s]
         sums[k, RAISED], sums[k, TURNED] = raised / sums[k, FACE], turned / sums[k, FACE]
         sums[k, STEEPNESS], sums[k, OVERLAP] = steepness, overlap - sums[k, RAISED] * past
 
 
 @_inner
-def _turn(pressure, deformed, limit, residual, direction, z, sums, beta, length, k):
+def _turn(lists, beta, length, k):
     """Turn the direction, all of it centred, and see whether a step along it meets a bound."""
-    _, nx, ny = pressure.shape
+    (_, f, n), sums = _listed(lists, k), lists[2]
+    p, d, most, r, v, w = f[HELD], f[OPEN], f[MOST], f[RESIDUAL], f[DIRECTION], f[STEP]
     raised, turned = sums[k, RAISED], sums[k, TURNED]
     along, downhill, beyond = 0.0, 0.0, 0
-    for i in range(nx):
-        p, d, most = pressure[k, i], deformed[k, i], _most(limit, k, i)
-        r, v, w = residual[k, i], direction[k, i], z[k, i]
-        here, there, n = 0.0, 0.0, 0
-        for j in range(ny):
-            on = _on_face(p[j], d[j], most[j])
-            v[j] = beta * (v[j] - turned) - (w[j] - raised) if on else 0.0
-            here += v[j] * r[j]
-            there += v[j] * d[j]
-            n += 1 if _outside(p[j] + length * v[j], most[j]) else 0
-        along, downhill, beyond = along + here, downhill + there, beyond + n
+    for s in range(n):
+        on = _on_face(p[s], d[s], most[s])
+        v[s] = beta * (v[s] - turned) - (w[s] - raised) if on else 0.0
+        along += v[s] * r[s]
+        downhill += v[s] * d[s]
+        beyond += 1 if _outside(p[s] + length * v[s], most[s]) else 0
     sums[k, ALONG], sums[k, SLOPE] = along, length * downhill
     sums[k, MEETS_BOUND] = 1.0 if beyond > 0 else 0.0
 
@@ -283,96 +359,60 @@ def _shift(values, target, most):
 
 
 @_inner
-def _balance(pressure, limit, k, total):
+def _balance(pressure, most, count, total):
     """Remove the round-off in the sum of a pressure: cells between the bounds change alike."""
-    nx, ny = pressure.shape
     for _ in range(2):
-        load, between = 0.0, 0
-        for i in range(nx):
-            p, most = pressure[i], _most(limit, k, i)
-            here, n = 0.0, 0
-            for j in range(ny):
-                here += p[j]
-                n += 1 if (p[j] > 0) & (p[j] < most[j]) else 0
-            load, between = load + here, between + n
-        missing = total - load
+        between = 0
+        for s in range(count):
+            between += 1 if (pressure[s] > 0) & (pressure[s] < most[s]) else 0
+        missing = total - _sum(pressure[:count])
         if abs(missing) <= _ROUND_OFF * total or between == 0:
             break
         missing /= between
-        for i in range(nx):
-            p, most = pressure[i], _most(limit, k, i)
-            for j in range(ny):
-                free = (p[j] > 0) & (p[j] < most[j])
-                p[j] = min(max(p[j] + (missing if free else 0.0), 0.0), most[j])
+        for s in range(count):
+            free = (pressure[s] > 0) & (pressure[s] < most[s])
+            pressure[s] = min(max(pressure[s] + (missing if free else 0.0), 0.0), most[s])
 
 
 @_inner
-def _step(pressure, deformed, limit, direction, change, ahead, total, sums, length, k):
+def _step(lists, total, length, k):
     """Write the step, and where it ends at a position at which it is projected onto a bound."""
-    _, nx, ny = pressure.shape
+    (_, f, n), (_, fields, sums) = _listed(lists, k), lists
+    p, d, most, v, c, there = f[HELD], f[OPEN], f[MOST], f[DIRECTION], f[STEP], f[AHEAD]
     if sums[k, MEETS_BOUND] == 0:
-        for i in range(nx):
-            v, c = direction[k, i], change[k, i]
-            for j in range(ny):
-                c[j] = length * v[j]
+        for s in range(n):
+            c[s] = length * v[s]
         return
-    values, tops = np.empty(nx * ny), np.empty(nx * ny)
-    count, rest = 0, 0.0
-    for i in range(nx):
-        p, d, most, v = pressure[k, i], deformed[k, i], _most(limit, k, i), direction[k, i]
-        for j in range(ny):
-            if _on_face(p[j], d[j], most[j]):
-                values[count], tops[count] = p[j] + length * v[j], most[j]
-                count += 1
-            else:
-                rest += p[j]
-    shift = _shift(values[:count], total[k] - rest, tops[:count])
-    for i in range(nx):
-        p, d, most, v = pressure[k, i], deformed[k, i], _most(limit, k, i), direction[k, i]
-        there = ahead[k, i]
-        for j in range(ny):
-            moved = min(max(p[j] + length * v[j] + shift, 0.0), most[j])
-            there[j] = moved if _on_face(p[j], d[j], most[j]) else p[j]
-    _balance(ahead[k], limit, k, total[k])
+    # The list before is of no more use.
+    values, tops = fields[1 - int(sums[k, LIST]), k, :2]
+    count = 0
+    for s in range(n):
+        on = _on_face(p[s], d[s], most[s])
+        there[s] = 0.0 if on else p[s]
+        if on:
+            values[count], tops[count] = p[s] + length * v[s], most[s]
+            count += 1
+    shift = _shift(values[:count], total[k] - _sum(there[:n]), tops[:count])
+    for s in range(n):
+        moved = min(max(p[s] + length * v[s] + shift, 0.0), most[s])
+        there[s] = moved if _on_face(p[s], d[s], most[s]) else p[s]
+    _balance(there, most, n, total[k])
     slope = 0.0
-    for i in range(nx):
-        p, d, there, c = pressure[k, i], deformed[k, i], ahead[k, i], change[k, i]
-        here = 0.0
-        for j in range(ny):
-            c[j] = there[j] - p[j]
-            here += c[j] * d[j]
-        slope += here
+    for s in range(n):
+        c[s] = there[s] - p[s]
+        slope += c[s] * d[s]
     sums[k, SLOPE] = slope
 
 
-@njit(
-    f"void({','.join([_FIELD] * 8)},{_ROW},{_TABLE},f8,f8,{_TABLE},{_MODES},{_TABLE},i8,i8)",
-    **_OPTIONS,
-)
-def advance(
-    pressure,
-    deformed,
-    limit,
-    residual,
-    direction,
-    change,
-    ahead,
-    response,
-    total,
-    sums,
-    beta,
-    length,
-    spectrum,
-    modes,
-    lines,
-    first,
-    last,
-):
-    """Turn the direction, step along it, and write the response; `change` begins as z."""
+@njit(f"void({_FIELD},{_FIELD},{_LISTS},{_ROW},f8,f8,{_TABLE},{_MODES},{_TABLE},i8,i8)", **_OPTIONS)
+def advance(change, response, lists, total, beta, length, spectrum, modes, lines, first, last):
+    """Turn the direction, step along it, and write the response."""
     for k in range(first, last):
-        _turn(pressure, deformed, limit, residual, direction, change, sums, beta, length, k)
-        _step(pressure, deformed, limit, direction, change, ahead, total, sums, length, k)
-        sums[k, CURVATURE] = _convolve(change[k], response[k], spectrum, modes, lines)
+        _turn(lists, beta, length, k)
+        _step(lists, total, length, k)
+        c, f, n = _listed(lists, k)
+        _scatter(f[STEP], c, n, change[k])
+        lists[2][k, CURVATURE] = _convolve(change[k], response[k], spectrum, modes, lines)
 
 
 @_inner
@@ -460,52 +500,29 @@ def multiply(change, response, sums, first, last):
         sums[k, CURVATURE] = _dot(change[k], response[k])
 
 
-@njit(f"b1({','.join([_FIELD] * 3)},f8)", **_OPTIONS)
-def leaves(pressure, change, limit, part):
+@njit(f"b1({_LISTS},f8)", **_OPTIONS)
+def leaves(lists, part):
     """Whether a part of the step leaves the bounds anywhere."""
-    count, nx, ny = pressure.shape
-    for k in range(count):
-        for i in range(nx):
-            p, c, most = pressure[k, i], change[k, i], _most(limit, k, i)
-            n = 0
-            for j in range(ny):
-                n += 1 if _outside(p[j] + part * c[j], most[j]) else 0
-            if n > 0:
-                return True
+    for k in range(len(lists[2])):
+        _, f, n = _listed(lists, k)
+        p, c, most = f[HELD], f[STEP], f[MOST]
+        beyond = 0
+        for s in range(n):
+            beyond += 1 if _outside(p[s] + part * c[s], most[s]) else 0
+        if beyond > 0:
+            return True
     return False
 
 
-@_inner
-def _move(pressure, displacement, limit, change, response, ahead, total, sums, part, k):
-    """Take a part of the step."""
-    _, nx, ny = pressure.shape
-    projected = part == 1.0 and sums[k, MEETS_BOUND] != 0
-    for i in range(nx):
-        p, u, c, w = pressure[k, i], displacement[k, i], change[k, i], response[k, i]
-        there = ahead[k, i]
-        for j in range(ny):
-            p[j] = there[j] if projected else p[j] + part * c[j]
-            u[j] += part * w[j]
-    _balance(pressure[k], limit, k, total[k])
-
-
-@njit(f"void({','.join([_FIELD] * 8)},{_ROW},{_TABLE},f8,i8,i8)", **_OPTIONS)
-def arrive(
-    pressure,
-    displacement,
-    gap,
-    deformed,
-    limit,
-    change,
-    response,
-    ahead,
-    total,
-    sums,
-    part,
-    first,
-    last,
-):
+@njit(f"void({_PLACE},{_LISTS},{_ROW},f8,i8,i8)", **_OPTIONS)
+def arrive(place, lists, total, part, first, last):
     """Take a part of the step, and judge the pressure there."""
     for k in range(first, last):
-        _move(pressure, displacement, limit, change, response, ahead, total, sums, part, k)
-        judge(pressure, displacement, gap, deformed, limit, total, sums, k, k + 1)
+        c, f, n = _listed(lists, k)
+        p, step, there = f[HELD], f[STEP], f[AHEAD]
+        projected = part == 1.0 and lists[2][k, MEETS_BOUND] != 0
+        for s in range(n):
+            p[s] = there[s] if projected else p[s] + part * step[s]
+        _balance(p, f[MOST], n, total[k])
+        _scatter(p, c, n, place[0][k])
+        _judge(place, lists, total, part, k)
