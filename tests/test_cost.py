@@ -77,7 +77,7 @@ def solve():
     [
         (solve, 69),
         (lambda: step(model()), 470),
-        (lambda: step(model(positions=33)), 4253),
+        (lambda: step(model(positions=33)), 4010),
         (lambda: step(model(RUNNING_IN)), 4343),
     ],
     ids=["solve", "step", "resolved step", "step with states"],

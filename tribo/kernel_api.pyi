@@ -19,6 +19,7 @@ from tribo.contact.bounded_cg import NEAR_ENOUGH as NEAR_ENOUGH
 from tribo.contact.bounded_cg import Iterate as Iterate
 from tribo.contact.operator import WornOperator as WornOperator
 from tribo.contact.periodic import PeriodicHalfSpace as PeriodicHalfSpace
+from tribo.contact.preconditioner import Preconditioner as Preconditioner
 from tribo.contact.projection import CELLS as CELLS
 from tribo.contact.projection import over as over
 from tribo.contact.residuals import check_bearable as check_bearable

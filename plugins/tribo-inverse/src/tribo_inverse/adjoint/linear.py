@@ -6,9 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy.fft
-from tribo import Array, Box, Mask, NumericalError, Operator
-from tribo.kernel_api import CELLS, over
+from tribo import Array, Box, CycleCompliance, Mask, NumericalError, Operator, WearCompliance
+from tribo.kernel_api import CELLS, Preconditioner, WornOperator, over
 
 from tribo_inverse.increment.carriers import Carrier
 
@@ -76,7 +75,7 @@ class StepSystem:
         z = np.where(self.free, start, 0.0)
         z -= over(share * (z.sum(CELLS) + fixed.sum(CELLS))) * self.free
         z += fixed
-        symbol, difference = self._symbols()
+        estimate = self._estimate()
 
         def centred(values: Array) -> Array:
             kept: Array = values * self.free
@@ -84,12 +83,7 @@ class StepSystem:
             return kept
 
         def preconditioned(values: Array) -> Array:
-            modes = scipy.fft.rfft2(values)
-            modes /= symbol
-            if difference is not None:
-                mean = np.sum(over(self.shares) * values, axis=0)
-                modes += difference * scipy.fft.rfft2(mean + mean[::-1] if self.mirrored else mean)
-            return centred(scipy.fft.irfft2(modes, s=self.box.shape, overwrite_x=True))
+            return centred(estimate(values))
 
         def applied(values: Array) -> Array:
             return centred(self.apply(values))
@@ -143,26 +137,26 @@ class StepSystem:
             for field in fields
         )
 
-    def _symbols(self) -> tuple[Array, Array | None]:
-        """Return eigenvalues of the preconditioner, and the addition to their inverse for the mean.
-
-        A stationary body wears by the mean over all positions.
-        """
-        symbol, stays = self.operator.symbol(), 0.0
+    def _estimate(self) -> Preconditioner:
+        """Return an estimate of the inverse of A, with the mean slope of each body."""
+        bodies: list[tuple[Array, Sequence[tuple[int, int]]]] = []
+        local = swept = 0.0
         for carrier, slope in self.bodies:
             inside = slope[self.free]
             mean = max(float(np.mean(inside)), 0.0) if inside.size else 0.0
-            starts = [row for row, _ in carrier.cells]
-            passed = max(starts) - min(starts)
             if carrier.weights is not None:
-                symbol[0] += mean * self.box.shape[0]
-            elif passed:
-                symbol[0] += mean * min(1.0, self.box.shape[0] / passed)
+                swept += mean / self.operator.spacing[0]
+            elif len(self.shares) == 1:
+                local += mean
             else:
-                stays += mean
-        if len(self.shares) == 1:
-            return symbol + stays, None
-        return symbol, 1 / (symbol + stays) - 1 / symbol
+                bodies.append((np.full(carrier.shape, mean), carrier.cells))
+        nx, ny = self.box.window
+        wear: WearCompliance | CycleCompliance = WearCompliance(
+            np.full((nx, ny), local), np.full(ny, swept)
+        )
+        if bodies:
+            wear = CycleCompliance(self.shares, bodies, slice(0, nx), self.mirrored)
+        return Preconditioner(WornOperator(self.operator, wear.on(self.box)))
 
 
 def _minimal(applied: Map, preconditioned: Map, residual: Array, tolerance: float) -> Array:
