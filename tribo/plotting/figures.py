@@ -24,12 +24,7 @@ from tribo.lab.scar import removed
 from tribo.plotting.history import history, history_names
 from tribo.plotting.picture import NothingToDraw, Picture
 from tribo.plotting.pressure import pressure_map, pressure_sections
-from tribo.plotting.profiles import (
-    body_profiles,
-    field_map,
-    scar_map,
-    worn_section,
-)
+from tribo.plotting.profiles import body_profiles, field_map, scar_map, worn_section
 from tribo.plotting.style import house_style
 from tribo.registry.registry import from_plugins_of
 from tribo.result.read import Result

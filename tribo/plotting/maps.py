@@ -14,14 +14,7 @@ from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.lab.units import axis_units, fitting, height_unit, size
 from tribo.plotting.picture import NothingToDraw, Picture
-from tribo.plotting.sections import (
-    MOST_CELLS,
-    Limits,
-    limits,
-    section_row,
-    through_centre,
-    varying,
-)
+from tribo.plotting.sections import MOST_CELLS, Limits, limits, section_row, through_centre, varying
 from tribo.plotting.style import AXIS_LABELS, DEPTHS, PRESSURES, ticks
 
 _AROUND = 19.0

@@ -20,12 +20,7 @@ from tribo.lab.scar import removed, scar_mask
 from tribo.plotting.figures import write_figures
 from tribo.plotting.maps import Scale
 from tribo.plotting.picture import Panel, Picture
-from tribo.plotting.sections import (
-    heights_row,
-    section_row,
-    through_centre,
-    varying,
-)
+from tribo.plotting.sections import heights_row, section_row, through_centre, varying
 from tribo.plotting.style import overlay_looks
 from tribo.result.read import Result
 

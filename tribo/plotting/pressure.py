@@ -18,12 +18,7 @@ from tribo.lab.units import fitting, size, time_labels
 from tribo.plotting import style
 from tribo.plotting.maps import Scale, field_picture
 from tribo.plotting.picture import NothingToDraw, Picture
-from tribo.plotting.sections import (
-    Section,
-    section_row,
-    through_centre,
-    varying,
-)
+from tribo.plotting.sections import Section, section_row, through_centre, varying
 from tribo.result.read import Result
 
 HERTZ: style.Look = {"color": "#909090", "linewidth": 0.7, "zorder": 3}

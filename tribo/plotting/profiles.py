@@ -20,12 +20,7 @@ from tribo.lab.scar import removed, scar_mask
 from tribo.lab.units import height_unit, shown_in, size, time_labels
 from tribo.plotting.maps import Scale, field_picture
 from tribo.plotting.picture import NothingToDraw, Picture
-from tribo.plotting.sections import (
-    Section,
-    heights_row,
-    through_centre,
-    varying,
-)
+from tribo.plotting.sections import Section, heights_row, through_centre, varying
 from tribo.plotting.style import Look, save_looks
 from tribo.result.layout import TRACK
 from tribo.result.read import Result

@@ -21,12 +21,7 @@ from tribo.core.loads import Loads
 from tribo.core.material import contact_modulus
 from tribo.core.rounding import ROUND_OFF
 from tribo.guards.motion import GuardedMotion
-from tribo.guards.parts import (
-    GuardedEffect,
-    GuardedLaw,
-    GuardedSolver,
-    GuardedSurface,
-)
+from tribo.guards.parts import GuardedEffect, GuardedLaw, GuardedSolver, GuardedSurface
 from tribo.model.contact_setup import ContactSetup
 from tribo.model.cycle import Cycle
 from tribo.model.laws import Laws
