@@ -9,7 +9,7 @@ from tribo.core.measures import BodyMeasures, Measures, centre, contact_area, ha
 from tribo.core.state import BodyInfo, BodyState, RunInfo, Snapshot, State
 from tribo.observers.recorder import Recorder
 from tribo.plotting import figures
-from tribo.result.provenance import provenance
+from tribo.result.provenance import environment
 
 GRID = Grid((2e-3, 1.6e-3), (50, 40))
 RADIUS = 5e-3
@@ -83,7 +83,7 @@ def made(
                     for name in names
                 },
             },
-            provenance=provenance({}),
+            provenance={**environment(), "components": {}, "plugins": []},
             between_fields=FILM if film else (),
             effect_fields=SHARE if film else (),
         )

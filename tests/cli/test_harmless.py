@@ -11,12 +11,11 @@ from rich.console import Console as RichConsole
 
 from tribo.cli.console import Console
 from tribo.cli.streams import harmless
-from tribo.result.provenance import provenance
 from tribo.templates import template
 
 EVIL = "\x1b]0;pwned\x07\x1b[2J\x9b31m\r\x08[/x]"
 PLUGIN = dict.fromkeys(("distribution", "version", "status", "reason"), EVIL)
-MADE_WITH = {"python": EVIL, "packages": {EVIL: EVIL}, "plugins": [PLUGIN]}
+MADE_WITH = {"python": EVIL, "packages": {EVIL: EVIL}, "components": {}, "plugins": [PLUGIN]}
 
 
 def command(*arguments):
@@ -30,7 +29,7 @@ def command(*arguments):
     ("changes", "shown"),
     [
         ({"findings": [{"kind": EVIL, "words": ""}]}, r"Note: \x1b]0;pwned"),
-        ({"provenance": provenance({}) | MADE_WITH}, r"made with: Python \x1b]0;pwned"),
+        ({"provenance": MADE_WITH}, r"made with: Python \x1b]0;pwned"),
     ],
     ids=["findings", "provenance"],
 )

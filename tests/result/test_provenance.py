@@ -3,13 +3,11 @@
 import pytest
 from paper_models import archard
 
-from tribo.result.provenance import changed_components, origin, provenance
+from tribo.result.provenance import changed_components, origin
 
 
 def made(**changes):
-    before = provenance({"contact": origin(archard())})
-    before["components"]["contact"].update(changes)
-    return before
+    return {"components": {"contact": origin(archard()) | changes}}
 
 
 def test_being_editable_is_no_change():

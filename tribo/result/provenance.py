@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import platform
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from hashlib import sha256
 from importlib import metadata
@@ -19,18 +19,6 @@ from tribo.core.distributions import entry_points
 
 _IDENTITY = ("class", "distribution", "version", "code", "facts")
 PACKAGES = ("tribo", "numpy", "scipy", "h5py", "pydantic", "pluggy")
-
-
-def provenance(
-    components: Mapping[str, Mapping[str, object]],
-    plugins: Iterable[Mapping[str, object]] = (),
-) -> dict[str, object]:
-    """Return versions, the `origin` of each component by place, and the plugins found."""
-    return {
-        **environment(),
-        "components": {place: dict(made) for place, made in components.items()},
-        "plugins": [dict(plugin) for plugin in plugins],
-    }
 
 
 @cache
@@ -50,8 +38,8 @@ def changed_components(
 ) -> list[tuple[str, str, str]]:
     """Return the components that have changed: place, before, now.
 
-    `before` and `now` are from `provenance`. A component is compared by its class, distribution,
-    version, source code and stated facts; its configuration is compared with the whole case.
+    `before` and `now` are provenance of results. A component is compared by its class,
+    distribution, version, source code and stated facts; its configuration with the whole case.
     """
     old, new = before["components"], now["components"]
     changes = []

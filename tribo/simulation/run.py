@@ -24,7 +24,7 @@ from tribo.observers.recorder import Recorder
 from tribo.registry.plugins import Plugin
 from tribo.registry.registry import Registry, default_registry
 from tribo.result.checkpoint import RunFolder
-from tribo.result.provenance import changed_components, origin, provenance
+from tribo.result.provenance import changed_components, environment, origin
 from tribo.result.read import Result
 from tribo.simulation.audience import Audience
 from tribo.simulation.beginning import checksum
@@ -252,8 +252,10 @@ class Simulation:
         return recorder.result()
 
     def _provenance(self) -> dict[str, object]:
+        """Return versions, the `origin` of each component by place, and the plugins found."""
         components = {place: Guard(c).ask(origin, c) for place, c in named(self.model.case)}
-        return provenance(components, [plugin.facts for plugin in self._plugins])
+        plugins = [plugin.facts for plugin in self._plugins]
+        return {**environment(), "components": components, "plugins": plugins}
 
     def _info(self, resumed_from: Snapshot | None, wall_time: float, watch: Watch) -> RunInfo:
         model, made = self.model, self._provenance()
