@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -68,9 +69,10 @@ def compare(
             print_comparison(comparison, chosen)
         pictures = []
         if not no_plots:
-            from tribo.plotting.overlays import save_overlays
+            from tribo.plotting.figures import write_figures
 
-            pictures = save_overlays(comparison.results, chosen, folder)
+            named = {f"comparison_{t:g}s": partial(comparison.picture, t) for t in chosen}
+            pictures = write_figures(named, folder)
         if as_json:
             echo_json(comparison.as_json(times) | {"pictures": [str(path) for path in pictures]})
             return

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,7 +15,6 @@ from matplotlib.figure import Figure
 from tribo.core.arrays import Array, Mask
 from tribo.core.grid import Grid
 from tribo.lab.scar import removed, scar_mask
-from tribo.plotting.figures import write_figures
 from tribo.plotting.maps import Scale
 from tribo.plotting.picture import Panel, Picture
 from tribo.plotting.sections import heights_row, section_row, through_centre, varying
@@ -76,17 +73,6 @@ def _surface(result: Result, time: float, name: str) -> tuple[Grid, Array, Mask]
     """Return a body's surface, or for "" the pressure."""
     grid, field, marked = _field(result, time, name)
     return grid, result.body(name).surface(result.save_at(time)) if name else field, marked
-
-
-def save_overlays(
-    results: Results, times: Sequence[float], folder: Path, suffix: str = "png"
-) -> list[Path]:
-    """Write the overlays of several results by label at `times` of all, in s; see `save_figures`.
-
-    The file of a time T is ``comparison_Ts``.
-    """
-    named = {f"comparison_{t:g}s": partial(comparison_picture, results, t) for t in times}
-    return write_figures(named, folder, suffix)
 
 
 def _worn(results: Results, time: float) -> list[str]:
