@@ -1,17 +1,16 @@
-"""The lab report of a result on the terminal, and what made the result."""
+"""The lab report of a result, and what made the result."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from rich.markup import escape
-from rich.text import Text
 
 from tribo.cli.console import Console
 from tribo.core.data_table import DataTable
 from tribo.lab.kept import fields_table
 from tribo.lab.report import LabReport, lab_report, lab_sentences, run_sentences
-from tribo.lab.tables import lab_tables
+from tribo.lab.tables import inferred_table, saves_table, wear_table
 from tribo.result.read import Result
 
 
@@ -36,7 +35,10 @@ def print_report(result: Result, console: Console | None = None, *, warned: bool
 
 def report_blocks(result: Result, lab: LabReport) -> Iterator[DataTable | str]:
     """Yield the tables and then the sentences of a lab report, but for findings."""
-    yield from lab_tables(result, lab)
+    yield saves_table(result)
+    yield wear_table(result, lab.bodies)
+    if lab.inferred:
+        yield inferred_table(lab.inferred)
     if (fields := fields_table(result)) is not None:
         yield fields
     yield from lab_sentences(result, lab)
@@ -48,14 +50,6 @@ def status_words(result: Result) -> str:
     stopped = result.status in ("killed", "interrupted")
     remedy = f" To go on with it: tribo resume {result.name}" if stopped else ""
     return "" if result.status == "done" else f"This run is {result.status}, not done.{remedy}"
-
-
-def print_provenance(result: Result, console: Console | None = None) -> None:
-    """Print what made `result`."""
-    console = console or Console()
-    console.print()
-    for name, words in provenance_rows(result):
-        console.print(Text(f"{name}: {words}"), soft_wrap=True)
 
 
 def provenance_rows(result: Result) -> Iterator[tuple[str, str]]:

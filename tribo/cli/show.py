@@ -21,7 +21,8 @@ def show(output: Path, as_json: bool) -> None:
       tribo show my.h5
       tribo show my.h5 --json
     """
-    from tribo.cli.lab_report import print_provenance, print_report
+    from tribo.cli.lab_report import print_report, provenance_rows
+    from tribo.cli.streams import harmless
     from tribo.lab.report import lab_report
     from tribo.result.read import Result
     from tribo.result.summary import summary
@@ -34,4 +35,6 @@ def show(output: Path, as_json: bool) -> None:
             echo_json({**printed, "findings": found, "lab": lab.as_json()})
         else:
             print_report(result)
-            print_provenance(result)
+            click.echo()
+            for name, words in provenance_rows(result):
+                click.echo(harmless(f"{name}: {words}"))

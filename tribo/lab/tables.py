@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from tribo.core.data_table import DataTable, Heading, TableRow
 from tribo.core.words import readable
 from tribo.lab.inferred import InferredVolume
-from tribo.lab.report import MEASURES, BodyReport, LabReport
+from tribo.lab.report import MEASURES, BodyReport
 from tribo.result.read import Result
 
 COLUMNS = (
@@ -21,14 +21,6 @@ COLUMNS = (
     (Heading("area", "mm²", ".3f", whole=True), "contact_area_m2", 1e6),
 )
 """Heading, key in a save, and factor to the unit of each column."""
-
-
-def lab_tables(result: Result, lab: LabReport) -> Iterator[DataTable]:
-    """Yield the saves, and a lab's measurements and inferred volumes of the worn bodies."""
-    yield saves_table(result)
-    yield wear_table(result, lab.bodies)
-    if lab.inferred:
-        yield inferred_table(lab.inferred)
 
 
 def saves_table(result: Result) -> DataTable:
