@@ -37,18 +37,10 @@ def list_(as_json: bool) -> None:
     if as_json:
         echo_json(rows)
         return
-    lines = [
-        (
-            row["name"] or "-",
-            row["kind"] or "when imported",
-            f"{row['distribution']} {row['version']}",
-            row["status"],
-            row["reason"] or row["summary"],
-        )
-        for row in rows
-    ]
-    for name, kind, whose, status, words in lines:
-        click.echo(f"{name:24} {kind:16} {whose:24} {status:10} {words}")
+    for row in rows:
+        name, kind = row["name"] or "-", row["kind"] or "when imported"
+        whose, words = f"{row['distribution']} {row['version']}", row["reason"] or row["summary"]
+        click.echo(f"{name:24} {kind:16} {whose:24} {row['status']:10} {words}")
 
 
 @plugins.command()
