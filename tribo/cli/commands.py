@@ -12,7 +12,7 @@ from tribo.core.errors import PluginError, warn
 from tribo.core.words import said
 from tribo.registry.hookspecs import Command, hookimpl
 
-OWN = {
+_SUMMARIES = {
     "demo": "Run the paper's one-hour test.",
     "new": "Write a case file to start from.",
     "check": "Validate a case and predict what it will do.",
@@ -28,17 +28,14 @@ OWN = {
     "verify": "Compare with closed forms and other codes; find the errors of a case.",
     "doctor": "Print versions, and try every plugin.",
 }
+OWN = {name: Command(name, what, f"tribo.cli.{name}:{name}") for name, what in _SUMMARIES.items()}
+"""The commands of the kernel, by name."""
 
 
 @hookimpl(trylast=True)
 def tribo_commands() -> list[Command]:
     """Offer the commands of the kernel."""
-    return [own_command(name) for name in OWN]
-
-
-def own_command(name: str) -> Command:
-    """Return a command of the kernel, which needs no package to be asked."""
-    return Command(name, OWN[name], f"tribo.cli.{name}:{name}")
+    return [*OWN.values()]
 
 
 @cache

@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 
 import click
 
-from tribo.cli.commands import OWN, imported, offered, own_command, refused
+from tribo.cli.commands import OWN, imported, offered, refused
 from tribo.cli.streams import STDERR, STDOUT, over, say
 from tribo.core.errors import CaseError, Interrupted, ReaderGone, TriboError, TriboWarning
 from tribo.core.words import did_you_mean, suggestion
@@ -28,7 +28,7 @@ class LazyGroup(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
         """Import the command's module, and return the command in it."""
         if cmd_name in OWN:
-            return imported(own_command(cmd_name))
+            return imported(OWN[cmd_name])
         if cmd_name in offered():
             return imported(offered()[cmd_name])
         if cmd_name in COMMANDS:
