@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
-from pydantic import AfterValidator, field_validator
+from pydantic import Field, field_validator
 
 from tribo.core.arrays import Array
 from tribo.core.table import Table
@@ -14,13 +14,7 @@ from tribo.core.units import Quantity
 Length = Annotated[float, Quantity("m", above=0, usual=(1e-9, 0.1))]
 
 
-def _some(cells: int) -> int:
-    if not 1 <= cells <= 32768:
-        raise ValueError(f"{cells}: must be from 1 to 32768, as in 128")
-    return cells
-
-
-Cells = Annotated[int, AfterValidator(_some)]
+Cells = Annotated[int, Field(ge=1, le=32768)]
 """Cells along an axis."""
 
 
@@ -87,8 +81,7 @@ class Grid(Table):
     @property
     def mesh(self) -> tuple[Array, Array]:
         """Coordinates x of shape (nx, 1) and y of shape (1, ny), in m."""
-        (nx, ny), (dx, dy) = self.cells, self.spacing
-        return _centres(nx, dx)[:, None], _centres(ny, dy)[None, :]
+        return self.x[:, None], self.y[None, :]
 
 
 class RepeatingGrid(Grid):
