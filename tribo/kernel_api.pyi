@@ -36,7 +36,6 @@ from tribo.core.data_table import TableRow as TableRow
 from tribo.core.errors import OutOfWindow as OutOfWindow
 from tribo.core.errors import about as about
 from tribo.core.errors import located as located
-from tribo.core.errors import unknown_body as unknown_body
 from tribo.core.errors import warn as warn
 from tribo.core.explain import case_error as case_error
 from tribo.core.fields import PLACE_X as PLACE_X
@@ -59,6 +58,7 @@ from tribo.core.words import readable as readable
 from tribo.core.words import shown as shown
 from tribo.core.words import signed as signed
 from tribo.core.words import suggestion as suggestion
+from tribo.core.words import unknown as unknown
 from tribo.core.writing import check_new as check_new
 from tribo.core.writing import check_output as check_output
 from tribo.core.writing import make_folder as make_folder

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, ClassVar
 
@@ -161,11 +161,6 @@ def about(name: str) -> Iterator[None]:
         yield
     except (TriboError, Interrupted) as error:
         raise type(error)(f"{name}: {error}") from error
-
-
-def unknown_body(name: str, bodies: Iterable[str], path: str = "") -> CaseError:
-    """Return the error of a body that a case does not have."""
-    return CaseError(f"there is no body {name!r}; the bodies are {', '.join(bodies)}", path)
 
 
 @contextmanager

@@ -9,8 +9,9 @@ import numpy as np
 
 from tribo.core.arrays import Array, Cell, region
 from tribo.core.contact import WearCompliance
-from tribo.core.errors import unknown_body
+from tribo.core.errors import CaseError
 from tribo.core.grid import Grid
+from tribo.core.words import unknown
 
 
 class Exposure(ABC):
@@ -303,5 +304,5 @@ def one_swept_body(
     """
     name = bodies[-1] if swept is None else swept
     if name not in bodies:
-        raise unknown_body(name, bodies, "kinematics.swept")
+        raise CaseError(unknown("body", name, bodies), "kinematics.swept")
     return {b: exposure if b == name else Stationary(grid) for b in bodies}

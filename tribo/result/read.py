@@ -15,13 +15,13 @@ import numpy as np
 from tribo.core.arrays import Array
 from tribo.core.column import labelled
 from tribo.core.contact import ContactSystem
-from tribo.core.errors import CaseError, unknown_body
+from tribo.core.errors import CaseError
 from tribo.core.fields import Field
 from tribo.core.findings import Finding
 from tribo.core.grid import Grid
 from tribo.core.hdf5 import open_hdf5
 from tribo.core.shorthand import call
-from tribo.core.words import did_you_mean, suggestion
+from tribo.core.words import did_you_mean, suggestion, unknown
 from tribo.result.body import BodyResult, checked_save
 from tribo.result.hdf5 import read_variables
 from tribo.result.header import Header
@@ -377,7 +377,7 @@ class Result(AbstractContextManager["Result"]):
 
     def _index(self, body: str) -> int:
         if body not in self.body_names:
-            raise unknown_body(body, self.body_names, self.name)
+            raise CaseError(unknown("body", body, self.body_names), self.name)
         return self.body_names.index(body)
 
 

@@ -14,12 +14,13 @@ from tribo.contact.solver import ContactSolver
 from tribo.core.arrays import Array, readonly
 from tribo.core.coating import Coating
 from tribo.core.contact import ContactSystem
-from tribo.core.errors import CaseError, located, unknown_body
+from tribo.core.errors import CaseError, located
 from tribo.core.fields import LOCAL_SLIP, PLACE_X
 from tribo.core.grid import Grid, RepeatingGrid
 from tribo.core.loads import Loads
 from tribo.core.material import contact_modulus
 from tribo.core.rounding import ROUND_OFF
+from tribo.core.words import unknown
 from tribo.guards.motion import GuardedMotion
 from tribo.guards.parts import GuardedEffect, GuardedLaw, GuardedSolver, GuardedSurface
 from tribo.model.contact_setup import ContactSetup
@@ -255,4 +256,4 @@ def _check_ends(model: Model) -> None:
         )
     stop = model.case.stop
     if stop.body is not None and stop.body not in model.case.bodies:
-        raise unknown_body(stop.body, model.case.bodies, "stop.body")
+        raise CaseError(unknown("body", stop.body, model.case.bodies), "stop.body")

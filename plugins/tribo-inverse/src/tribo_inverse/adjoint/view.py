@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 from tribo import Array, CaseError, Grid, State
-from tribo.kernel_api import Model, did_you_mean, suggestion
+from tribo.kernel_api import Model, unknown
 
 
 @dataclass(frozen=True)
@@ -56,10 +56,7 @@ class View:
         that moves through a resolved cycle.
         """
         if not isinstance(body, str) or body not in self.state.bodies:
-            meant = suggestion(did_you_mean(str(body), self.state.bodies))
-            raise CaseError(
-                f"there is no body {body!r}{meant} The bodies are {', '.join(self.state.bodies)}"
-            )
+            raise CaseError(unknown("body", str(body), self.state.bodies))
         return self.state.bodies[body].wear
 
     def volume(self, body: str) -> float:

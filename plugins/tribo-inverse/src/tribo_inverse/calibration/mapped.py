@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 from tribo import Array, Case, CaseError, NumericalError, Simulation, read_heights
-from tribo.kernel_api import begin, case_tables, located, march, unknown_body, validate_case
+from tribo.kernel_api import begin, case_tables, located, march, unknown, validate_case
 
 from tribo_inverse.adjoint.view import View
 from tribo_inverse.calibration.cells import on_cells
@@ -39,7 +39,7 @@ def calibrate_map(
     *_, last = march(model, begin(model))
     spacing = model.grid.spacing
     if entry.body not in model.cycle.maps:
-        raise unknown_body(entry.body, model.case.bodies, f"{PLACE}.body")
+        raise CaseError(unknown("body", entry.body, model.case.bodies), f"{PLACE}.body")
     worn = View(model, last.state).wear(entry.body)
     if entry.body not in model.laws.wear or not np.any(worn):
         raise CaseError(f"{entry.body!r} does not wear in this case", f"{PLACE}.body")

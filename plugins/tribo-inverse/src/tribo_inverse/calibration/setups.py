@@ -16,7 +16,7 @@ from tribo.kernel_api import (
     Model,
     about,
     apply_settings,
-    unknown_body,
+    unknown,
     valid_case,
     validate_case,
 )
@@ -143,7 +143,7 @@ def make_run(
 
 def _check_entry(model: Model, entry: MeasuredEntry, place: str) -> None:
     if entry.body and entry.body not in model.case.bodies:
-        raise unknown_body(entry.body, model.case.bodies, f"{place}.body")
+        raise CaseError(unknown("body", entry.body, model.case.bodies), f"{place}.body")
     reason = unavailable(model, entry.body, entry.quantity)
     if reason:
         raise CaseError(reason, f"{place}.quantity")
