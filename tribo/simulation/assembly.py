@@ -43,7 +43,9 @@ def assemble(case: Case) -> Model:
     grid, bodies = case.grid, case.bodies
     motion, solver = GuardedMotion(case.kinematics), GuardedSolver(case.contact)
     with located("kinematics"):
-        window = as_it_repeats(grid, case.contact)
+        window = grid
+        if case.contact.periodic:
+            window = RepeatingGrid(size=grid.size, cells=grid.cells)
         positions = motion.cycle(window)
         exposures = motion.exposures(window, list(bodies), len(positions))
         cycle = Cycle(grid, positions, exposures)
@@ -105,11 +107,6 @@ def assemble(case: Case) -> Model:
         with located("effects"):
             effect.ask(effect.component.check, system, model.cycle.swept, case.contact.type)
     return model
-
-
-def as_it_repeats(grid: Grid, contact: ContactSolver) -> Grid:
-    """Return the window for motions; it repeats if the contact does."""
-    return RepeatingGrid(size=grid.size, cells=grid.cells) if contact.periodic else grid
 
 
 def varied(case: Case, **changes: Any) -> Case:

@@ -12,11 +12,6 @@ from tribo.contact.solver import ContactSolver
 from tribo.core.errors import CaseError
 
 
-def at_surface(bodies: Mapping[str, Body]) -> dict[str, float | None]:
-    """Return the hardness at the surface of each body, in Pa; None if not given."""
-    return {name: body.materials()[0].hardness for name, body in bodies.items()}
-
-
 def yielding(
     bodies: Mapping[str, Body], contact: ContactSolver
 ) -> tuple[float | None, dict[str, float], dict[str, tuple[float, ...]]]:

@@ -19,7 +19,6 @@ from tribo.guards.guard import Guard
 from tribo.lab.against_hertz import HertzContact, hertz_contact, softer_known
 from tribo.model.model import Model
 from tribo.simulation.assembly import assemble, varied
-from tribo.simulation.hardness import at_surface
 from tribo.simulation.march import begin, march
 from tribo.simulation.memory import memory_needed
 from tribo.simulation.validity import doubting, few_cells, implausible, limitation
@@ -87,7 +86,8 @@ def predict(model: Model) -> Prediction:
         effect_fields(model, state)
         start_sliding(model, state)
     first = measure(model, state)
-    system = softer_known(model.contact.system, at_surface(model.case.bodies))
+    hardness = {name: each.materials()[0].hardness for name, each in model.case.bodies.items()}
+    system = softer_known(model.contact.system, hardness)
     hertz = None if model.case.begin else hertz_contact(system)
     dx, dy = model.grid.spacing
     trial = _trial(model, first)
