@@ -11,7 +11,7 @@ from typing import Any
 
 from tribo.case import Case
 from tribo.component import components as named
-from tribo.config.load import load_case, validate_case
+from tribo.config.load import load_case
 from tribo.core.errors import CaseError, Interrupted, TriboError, warn
 from tribo.core.findings import Finding, failed
 from tribo.core.state import BodyInfo, RunInfo, Snapshot, State
@@ -72,10 +72,8 @@ class Simulation:
             self.model = case
             return
         known = registry or default_registry()
-        if isinstance(case, str | Path):
+        if not isinstance(case, Case):
             case = load_case(case, registry=known)
-        elif not isinstance(case, Case):
-            case = validate_case(case, registry=known)
         # So that its result finds classes of one's own again.
         with suppress(CaseError):
             known.know_all(case)
