@@ -12,17 +12,22 @@ from tribo.core.arrays import Array
 from tribo.core.column import labelled
 from tribo.core.units import scale
 
-_UNITS = {"m": ("mm", "µm", "nm", "pm"), "Pa": ("MPa", "kPa", "Pa")}
+_UNITS = {
+    "m": ("mm", "µm", "nm", "pm"),
+    "Pa": ("MPa", "kPa", "Pa"),
+    "m^2": ("mm²",),
+    "m^3": ("mm³",),
+    "1/Pa": ("mm³/(N·m)",),
+    "m^3/J": ("mm³/J",),
+}
+"""Units that are shown, by SI unit, the largest first."""
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-_FIXED = {"m^2": "mm²", "m^3": "mm³", "1/Pa": "mm³/(N·m)", "m^3/J": "mm³/J"}
 
 UNITS = ("1/Pa", "m/s", "J/m^2", "m^3", "m^2", "J", "N m", "N", "s", "Pa", "m")
 """Units of columns; the inverse of a pressure comes before the pressure, whose end is the same."""
 NAMES = {
     "load.normal": "normal load",
     "wear.k": "specific wear rate",
-    "max_wear_depth": "largest wear depth",
-    "max_plastic_depth": "largest plastic depth",
     "wear_volume": "worn volume",
     "surface.radius": "radius",
     "grid.cells": "cells along an edge",
@@ -37,7 +42,7 @@ def size(unit: str) -> float:
 
 
 def fitting(si: str, largest: float, least: float = 0.1) -> str:
-    """Return the unit for values up to `largest`, in m or Pa, which is at least `least` in it."""
+    """Return the unit for values up to `largest`, in SI, which is at least `least` in it."""
     units = _UNITS[si]
     if largest == 0:
         return units[0]
@@ -60,20 +65,14 @@ def height_unit(largest: float) -> str:
 def shown_in(unit: str, values: Array) -> tuple[str, float]:
     """Return the unit in which values in an SI unit are shown, "" for none, and its size in SI."""
     largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
-    if unit in _UNITS:
-        if unit == "m" and largest < 1:
-            unit = height_unit(largest)
-        elif unit == "Pa":
-            unit = fitting(unit, largest)
-        return unit, size(unit)
-    if unit in _FIXED:
-        shown, factor = _FIXED[unit], size(_FIXED[unit])
-        power = math.floor(math.log10(largest / factor)) if largest else 0
-        if power >= -2:
-            return shown, factor
-        # Matplotlib would put the power far from the unit.
-        return f"10{str(power).translate(_RAISED)} {shown}", factor * 10.0**power
-    return ("" if unit == "1" else unit.replace("^2", "²").replace("^3", "³")), 1.0
+    if unit not in _UNITS or (unit == "m" and largest >= 1):
+        return ("" if unit == "1" else unit.replace("^2", "²").replace("^3", "³")), 1.0
+    shown = height_unit(largest) if unit == "m" else fitting(unit, largest)
+    power = math.floor(math.log10(largest / size(shown))) if largest else 0
+    if power >= -2 or len(_UNITS[unit]) > 1:
+        return shown, size(shown)
+    # Matplotlib would put the power far from the unit.
+    return f"10{str(power).translate(_RAISED)} {shown}", size(shown) * 10.0**power
 
 
 def row_name(name: str, unit: str, values: ArrayLike) -> tuple[str, float]:
