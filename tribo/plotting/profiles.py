@@ -32,7 +32,6 @@ UNWORN: tuple[Look, Look] = (
 )
 """Of the upper and of the lower body."""
 UPPER, LOWER = "#e4e4e4", "#b4b4b4"
-BESIDE: Look = {"color": "#b05a00", "linewidth": 1.2, "linestyle": (0.0, (1.2, 1.2))}
 
 
 def scar_map(result: Result, name: str, save: int = -1) -> Picture:
