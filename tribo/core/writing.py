@@ -45,7 +45,6 @@ def check_new(
 ) -> None:
     """Raise `CaseError` for what `check_output` refuses, or a file that must not be replaced."""
     check_output(path)
-    # Unlike Path.exists this does not raise where a name is too long.
     if os.path.exists(path) and not replace:
         raise CaseError(f"{path} exists; {remedy}")
 
