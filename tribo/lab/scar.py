@@ -110,10 +110,6 @@ def crown(height: Array, depth: Array) -> float:
     float
         Largest height over the chord, in m; 0 for a hollow or unworn profile.
     """
-    if height.ndim != 1 or height.shape != depth.shape:
-        raise ValueError(
-            f"crown takes two profiles of one length, not shapes {height.shape} and {depth.shape}"
-        )
     ends = _ends(depth)
     if ends is None or depth.size < 3:
         return 0.0
