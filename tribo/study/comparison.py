@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, ExitStack
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 from tribo.case import Case
 from tribo.config.load import case_tables
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class Comparison(AbstractContextManager["Comparison"]):
     """Results side by side; the others are compared with the first.
 
     Use it as a context manager, or `close` it.
@@ -104,9 +104,6 @@ class Comparison:
     def _repr_html_(self) -> str:
         """Show in a notebook what differs at the last time in common."""
         return comparison_table(self, self.times[-1:])._repr_html_()
-
-    def __enter__(self) -> Self:
-        return self
 
     def __exit__(self, *_: object) -> None:
         self.close()
