@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from tribo.core.arrays import Array, Mask
 from tribo.integration.kept import Field, Kept, Numbers, Sum, Values
@@ -183,15 +184,11 @@ def growth(span: Field, slope: Field) -> Field:
     return np.exp(slope * np.asarray(span)) if isinstance(slope, np.ndarray) else 1.0
 
 
-def relaxed(rise: Field) -> Array:
-    """Return the mean of a rate that grows by exp(rise) over a step: (exp(rise) − 1)/rise."""
-    rise = np.asarray(rise)
-    return np.divide(np.expm1(rise), rise, out=np.ones_like(rise), where=rise != 0)
-
-
 def lasting(step: Field, slope: Field) -> Field:
     """Return the effective length of a step where the rate has this slope in its own state."""
-    return step * relaxed(step * slope) if isinstance(slope, np.ndarray) else step
+    if not isinstance(slope, np.ndarray):
+        return step
+    return step * np.asarray(scipy.special.exprel(step * slope))
 
 
 def bending(step: Field, slope: Field) -> Field:
@@ -201,4 +198,5 @@ def bending(step: Field, slope: Field) -> Field:
     rise = np.asarray(step * slope)
     small = np.abs(rise) < SMALL
     safe = np.where(small, 1.0, rise)
-    return step**2 * np.where(small, 0.5 + rise / 3, (np.exp(safe) - relaxed(safe)) / safe)
+    mean = scipy.special.exprel(safe)
+    return step**2 * np.where(small, 0.5 + rise / 3, (np.exp(safe) - mean) / safe)
