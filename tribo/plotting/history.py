@@ -23,7 +23,6 @@ BODIES: tuple[Look, Look] = (
     {**OVER, "marker": "s", "markersize": 3.0},
 )
 LARGEST: Look = {**UNDER, "color": "#e69f00"}
-WAYS = {"along": "x", "across": "y"}
 
 
 @dataclass(frozen=True)
@@ -110,7 +109,7 @@ def _contact(result: Result) -> list[TimePanel]:
     if len(table["time_s"]) < 2:
         return []
     pressures = {"largest": "max_pressure_Pa", "centre": "centre_pressure_Pa"}
-    widths = {f"{way} sliding": f"contact_half_width_{a}_m" for way, a in WAYS.items()}
+    widths = {"along sliding": "contact_half_width_x_m", "across sliding": "contact_half_width_y_m"}
     areas = {"all": "contact_area_m2", "at the hardness": "plastic_area_m2"}
     if not np.any(table["plastic_area_m2"] > 0):
         areas = {"": "contact_area_m2"}
