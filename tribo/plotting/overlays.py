@@ -18,10 +18,12 @@ from tribo.lab.scar import removed, scar_mask
 from tribo.plotting.maps import Scale
 from tribo.plotting.picture import Panel, Picture
 from tribo.plotting.sections import heights_row, section_row, through_centre, varying
-from tribo.plotting.style import overlay_looks
+from tribo.plotting.style import Look, save_looks
 from tribo.result.read import Result
 
 Results = Mapping[str, Result]
+FIRST: Look = {"color": "#a8a8a8", "linewidth": 3.0}
+"""Of the first result, which shows below a coinciding curve."""
 
 
 def comparison_picture(
@@ -33,7 +35,7 @@ def comparison_picture(
     the pressure and all worn bodies. All rows show the same part of the windows; there is none
     along an axis along which nothing varies. `ax` are axes to draw on, one for each panel.
     """
-    looks, labels = overlay_looks(len(results)), list(results)
+    looks, labels = [FIRST, *save_looks(len(results) - 1)], list(results)
     names = ["", *_worn(results, time)] if parts is None else list(parts)
     every = results.values()
     drawn = {name: [_surface(result, time, name) for result in every] for name in names}

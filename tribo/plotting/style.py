@@ -83,11 +83,6 @@ def save_looks(count: int) -> list[Look]:
     ]
 
 
-def overlay_looks(count: int) -> list[Look]:
-    """Return a look for each of several results; the first shows below a coinciding curve."""
-    return [{"color": "#a8a8a8", "linewidth": 3.0}, *save_looks(count - 1)][:count]
-
-
 def legend_below(figure: Figure, curves: Sequence[Artist]) -> None:
     """Put a legend under the axes, where it hides nothing, and make the figure as much higher.
 
