@@ -48,8 +48,9 @@ def in_order(case: Case, effects: Sequence[GuardedEffect]) -> tuple[GuardedEffec
                 text = _missing(f"wear law {law.type!r}", missing)
                 raise CaseError(text, f"bodies.{name}.wear")
     # What several provide is known once all have.
+    provided = [{field.name for field in effect.provides} for effect in effects]
     after = {
-        one: [at for at, other in enumerate(effects) if at != one and _needs(effect, other)]
+        one: [at for at, names in enumerate(provided) if at != one and names & {*effect.requires}]
         for one, effect in enumerate(effects)
     }
     try:
@@ -60,10 +61,6 @@ def in_order(case: Case, effects: Sequence[GuardedEffect]) -> tuple[GuardedEffec
             f"each of {types} needs what the next provides, so that they wait for one another",
             "effects",
         ) from None
-
-
-def _needs(effect: GuardedEffect, other: GuardedEffect) -> bool:
-    return not {field.name for field in other.provides}.isdisjoint(effect.requires)
 
 
 def _twice(field: Field, effect: GuardedEffect) -> CaseError:
