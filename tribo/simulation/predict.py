@@ -25,7 +25,6 @@ from tribo.simulation.validity import doubting, few_cells, implausible, limitati
 from tribo.simulation.watch import Watch
 from tribo.stepping.implicit import Implicit
 from tribo.stepping.step import start_sliding
-from tribo.wear.law import WearLaw
 
 WIDER = 1.5
 """Edges of the window to try, relative to the case's: the contact may outgrow its window."""
@@ -178,13 +177,12 @@ def coarsened(case: Case, cells: int, margin: float, half_width_x: float = 0.0) 
 
 def smoothed(case: Case) -> Case:
     """Return a case without the relief of its surfaces and of its wear laws."""
-
-    def smooth(law: WearLaw | None) -> WearLaw | None:
-        return None if law is None else law.smoothed()
-
     bodies = {}
     for name, body in case.bodies.items():
-        layers = (each.model_copy(update={"wear": smooth(each.wear)}) for each in body.layers)
-        form = {"surface": body.surface.smoothed(), "wear": smooth(body.wear)}
+        layers = (
+            each.model_copy(update={"wear": each.wear and each.wear.smoothed()})
+            for each in body.layers
+        )
+        form = {"surface": body.surface.smoothed(), "wear": body.wear and body.wear.smoothed()}
         bodies[name] = body.model_copy(update={**form, "layers": tuple(layers)})
     return case.model_copy(update={"bodies": bodies})
