@@ -28,7 +28,6 @@ from tribo.result.sealed import write_sealed
 class Recorder(Observer):
     """Writes a result file, and beside it checkpoints to resume from; in memory without a path."""
 
-    type = "recorder"
     path: Path | None = None
     checkpoint_every: float = 10.0
     """Wall time between checkpoints, in s; one is also written at every save."""

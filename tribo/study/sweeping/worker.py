@@ -56,7 +56,6 @@ def _know(own: Sequence[tuple[str, str]]) -> None:
 class _StopFile(Observer):
     """Stop a run when a file appears."""
 
-    type = "stop_file"
     path: Path
 
     def on_step(self, snapshot: Snapshot) -> None:
