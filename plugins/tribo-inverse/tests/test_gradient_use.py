@@ -182,22 +182,36 @@ def test_a_motion_that_ends_in_a_reversal_follows_its_length_in_the_mean():
         assert wavy[path].value == pytest.approx(even[path].value, abs=0.03)
 
 
+def crank(**end):
+    given = {"stroke": "2 mm", "frequency": 10.0, "positions": "average", "swept": "disk"}
+    return run(kinematics=Reciprocating(**given, waveform="sinusoidal", **end))
+
+
 @pytest.mark.parametrize(
-    ("end", "percent"),
-    [({"distance": 0.024}, 1.0), ({"cycles": 6.25}, 0.5 * np.pi), ({"cycles": 6}, 0.0)],
+    ("end", "names"),
+    [
+        ({"cycles": 6}, ["cycles"]),
+        ({"cycles": 6.5}, ["cycles"]),
+        ({"duration": 0.6}, ["duration", "frequency"]),
+    ],
 )
-def test_the_length_of_a_run_has_the_derivative_of_its_distance(end, percent):
+def test_a_run_that_ends_where_the_motion_turns_has_no_derivative_in_its_length(end, names):
+    found = gradient(crank(**end), Volume("disk"))
+    paths = {f"kinematics.{name}" for name in names}
+    assert {path for path in found.refused if path.startswith("kinematics")} == paths
+    assert not paths & {*found.parameters}
+    for path in paths:
+        with pytest.raises(CaseError, match=path):
+            gradient(crank(**end), Volume("disk"), [path])
+
+
+@pytest.mark.parametrize(
+    ("end", "percent"), [({"distance": 0.024}, 1.0), ({"cycles": 6.25}, 0.5 * np.pi)]
+)
+def test_elsewhere_the_length_of_a_run_has_the_derivative_of_its_distance(end, percent):
     (name,) = end
-    slides = Reciprocating(
-        stroke="2 mm",
-        frequency=10.0,
-        positions="average",
-        swept="disk",
-        waveform="sinusoidal",
-        **end,
-    )
-    found = gradient(run(kinematics=slides), Volume("disk"), [f"kinematics.{name}"])
-    assert found.relative[f"kinematics.{name}"] == pytest.approx(percent, rel=1e-6, abs=1e-5)
+    found = gradient(crank(**end), Volume("disk"), [f"kinematics.{name}"])
+    assert found.relative[f"kinematics.{name}"] == pytest.approx(percent, rel=1e-6)
 
 
 def test_where_nothing_is_told_there_is_a_reason():

@@ -14,7 +14,7 @@ from tribo.kernel_api import Model, assemble, did_you_mean, suggestion
 
 from tribo_inverse.adjoint.backwards import JUST, Derivatives, swept_back
 from tribo_inverse.adjoint.numbers import find
-from tribo_inverse.adjoint.parameters import Chain, Variant, chain, of_length
+from tribo_inverse.adjoint.parameters import TURNS, Chain, Variant, at_turn, chain, of_length
 from tribo_inverse.adjoint.view import Objective, Seeds, View, looked
 from tribo_inverse.recording.local import localised
 from tribo_inverse.recording.tape import Tape, recorded
@@ -140,6 +140,11 @@ def gradient(
     chains, refused = _chains(model, wrt, factors)
     with closing(Tape(model)) as tape:
         states = recorded(model, [*looks], tape)
+        turning = at_turn(model, [state.time for state in states.values()])
+        if wrt is not None and (asked := [c.path for c in chains if c.path in turning]):
+            raise CaseError(TURNS, asked[0])
+        refused |= {each.path: TURNS for each in chains if each.path in turning}
+        chains = [each for each in chains if each.path not in turning]
         seen = {time: looked(look, View(model, states[time])) for time, look in looks.items()}
         value = float(sum(of for of, _ in seen.values()))
         seeds = {time: of for time, (_, of) in seen.items()}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import Any
@@ -23,6 +24,10 @@ OF_LAW = frozenset({"wear", "layers", "effects", "friction"})
 """Keys of a case whose numbers enter the rates of laws and effects themselves."""
 SAME = 1e-9
 """Relative difference up to which K has the same shape, as with another modulus."""
+TURNS = (
+    "has no derivative: the motion turns where it would be taken, at speed 0; "
+    "give kinematics.distance, whose derivative exists"
+)
 MOVES = "it moves the positions of the cycle by whole cells"
 STRUCTURE: Mapping[str, Callable[[Model], object]] = {
     MOVES: lambda model: [
@@ -164,6 +169,32 @@ class Variant:
     def _then(self, time: float) -> float:
         """Return the time that corresponds to `time` (s) in the case."""
         return float(np.interp(time, self.own.times, self.stops.times))
+
+
+def at_turn(model: Model, times: Iterable[float]) -> set[str]:
+    """Return paths of the numbers that move the phase of the motion, which turns at such a time.
+
+    The derivative there is 0, while whole cycles more wear more.
+    """
+    turning = [time for time in times if _turns(model, time)]
+    by_time = getattr(model.case.kinematics, "duration", None) is not None
+    names = {"cycles", "duration"} if model.end_time in turning else set[str]()
+    if any(by_time or time < model.end_time for time in turning):
+        names.add("frequency")
+    return {f"kinematics.{name}" for name in names}
+
+
+def _turns(model: Model, time: float) -> bool:
+    """Whether the speed of a motion falls to 0 at `time`, in s."""
+    motion, end = model.case.kinematics, model.end_time
+    if time <= 0 or math.isinf(motion.lap):
+        return False
+    # A thousandth of a lap, at the mean speed.
+    short = 1e-3 * motion.lap * end / motion.distance_at(end)
+    last = motion.distance_at(time)
+    near, far = (last - motion.distance_at(time - by * short) for by in (1, 2))
+    # At a constant speed it is 2 times as far; where the speed falls to 0, 4 times.
+    return far > 3 * near
 
 
 def _moved(base: Model, model: Model) -> Mapping[str, Carrier] | None:
