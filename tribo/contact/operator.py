@@ -78,10 +78,10 @@ class WornOperator:
         return worn
 
     def symbol(self) -> Array:
-        """Return the estimates of `base`, plus the mean compliance of the wear at one position."""
-        symbol = self.base.symbol()
-        if isinstance(self.wear, WearCompliance):
-            local, swept = self.wear.typical(self.shape[0] * self.spacing[0])
-            symbol += local
-            symbol[0] += swept
+        """Return the estimates of `base`, plus the mean compliance of wear, but of a cycle's."""
+        if isinstance(self.wear, CycleCompliance):
+            return self.base.symbol()
+        local, swept = self.wear.typical(self.shape[0] * self.spacing[0])
+        symbol = self.base.symbol() + local
+        symbol[0] += swept
         return symbol

@@ -20,7 +20,8 @@ class Preconditioner:
     it takes T h TᵀΩ from the inverse, h = c / (K (K + s c)), as the symbol K is alike all along
     the body, where each point meets the share s of the positions. Bodies that stay take from what
     is alike at all positions, bodies that move from the rest: a pattern that moves with a body
-    differs from position to position.
+    differs from position to position. The estimate is positive definite where a box leaves a margin
+    around the contact; a contact that fills its box may take more iterations.
     """
 
     def __init__(self, operator: Operator) -> None:
@@ -34,7 +35,7 @@ class Preconditioner:
         self._stay, self._move = replace(wear, bodies=stay[:1]), replace(wear, bodies=move)
         together = sum(mean_where_positive(compliance) for compliance, _ in stay)
         self._of_stay = [self._taken(together, 1.0, compliance.shape) for compliance, _ in stay[:1]]
-        shares = self._move.gathered(np.ones((len(wear.shares), *operator.shape)))
+        shares = self._move.gather(np.ones((len(wear.shares), *operator.shape)))
         self._of_move = [
             self._taken(mean_where_positive(compliance), len(move) * np.max(share), share.shape)
             for (compliance, _), share in zip(move, shares, strict=True)
@@ -58,12 +59,12 @@ class Preconditioner:
     def taken(self, residual: Array) -> Array:
         """Return what the wear of a cycle takes from the estimate."""
         stay, move, shape = self._stay, self._move, residual.shape
-        alike = stay.gathered(residual)
-        rest = residual - stay.seen(alike, shape)
-        taken = move.seen(_filtered(move.gathered(rest), self._of_move), shape)
-        again = stay.gathered(taken)
+        alike = stay.gather(residual)
+        rest = residual - stay.see(alike, shape)
+        taken = move.see(_filtered(move.gather(rest), self._of_move), shape)
+        again = stay.gather(taken)
         own = [a - b for a, b in zip(_filtered(alike, self._of_stay), again, strict=True)]
-        return taken + stay.seen(own, shape)
+        return taken + stay.see(own, shape)
 
 
 def _filtered(fields: Sequence[Array], factors: Sequence[Array]) -> list[Array]:

@@ -98,18 +98,15 @@ class CycleCompliance:
     bodies: Sequence[tuple[Array, Sequence[Cell]]]
     rows: slice
     mirrored: bool = False
-    _found: dict[tuple[int, ...], list[list[Any]]] = field(
-        default_factory=dict, init=False, repr=False, compare=False
-    )
 
     def depth(self, pressure: Array, dx: float) -> Array:
         """Return the depth worn under `pressure` (positions, nx, ny); it does not depend on dx."""
-        worn = self.gathered(pressure)
+        worn = self.gather(pressure)
         for own, (compliance, _) in zip(worn, self.bodies, strict=True):
             own *= compliance
-        return self.seen(worn, pressure.shape)
+        return self.see(worn, pressure.shape)
 
-    def gathered(self, fields: Array) -> list[Array]:
+    def gather(self, fields: Array) -> list[Array]:
         """Return Σₙ ωₙ Tₙᵀ of fields (positions, nx, ny) on each body's own surface."""
         gathered = [np.zeros_like(compliance) for compliance, _ in self.bodies]
         # All bodies at one position after the other: its part stays in the processor's cache.
@@ -121,7 +118,7 @@ class CycleCompliance:
                 own[here] += weighed
         return [own + own[::-1] for own in gathered] if self.mirrored else gathered
 
-    def seen(self, of_bodies: Sequence[Array], shape: tuple[int, ...]) -> Array:
+    def see(self, of_bodies: Sequence[Array], shape: tuple[int, ...]) -> Array:
         """Return the sum of Tₘ of the bodies' fields at each position, of `shape`."""
         seen = np.zeros(shape)
         for part, regions in zip(seen, self._windows(shape), strict=True):
@@ -131,15 +128,19 @@ class CycleCompliance:
 
     def _windows(self, shape: tuple[int, ...]) -> list[list[Any]]:
         """Return the index of the window on each body's own surface, by position; found once."""
-        if shape not in self._found:
-            self._found[shape] = [
+        if shape not in self._indices:
+            self._indices[shape] = [
                 [
                     region(own, (self.rows.start + cells[m][0], cells[m][1]), shape[1:])
                     for own, cells in self.bodies
                 ]
                 for m in range(shape[0])
             ]
-        return self._found[shape]
+        return self._indices[shape]
+
+    @cached_property
+    def _indices(self) -> dict[tuple[int, ...], list[list[Any]]]:
+        return {}
 
     def on(self, box: Box) -> CycleCompliance:
         """Return its part on a box of the window."""

@@ -174,21 +174,21 @@ class Implicit(Scheme):
         while True:
             rates = sloped(model, before, interval, slid)
             wear = linear_wear(model, rates, slid.contacts, increment)
-            # Of what changes the gap, the part that is not linear in the pressures stays.
-            add_depths(opened, -1.0, wear, slid.contacts, dx)
-            gaps = base + opened
+            # Of what changes the gap, the part that is not linear in the pressures.
+            beyond = add_depths(opened, -1.0, wear, slid.contacts, dx)
+            gaps = base + beyond
             try:
                 contacts = solve_cycle(model, gaps, load, contacts, state.bodies, wear)
             except PluginError:
                 raise
             except NumericalError as error:
                 raise StepRejected(str(error)) from error
-            add_depths(opened, 1.0, wear, contacts, dx)
+            implied = add_depths(beyond, 1.0, wear, contacts, dx)
             solved, passes = counted(solved, contacts), passes + 1
             # Later passes change the contacts little.
             slid = slide(contacts=contacts, plan=slid.plan, adapts=passes == 1)
             worn = worn_depths(model, slid.rates, increment)
-            implied, (opened, deepest) = opened, _opened(model, height, slid, worn)
+            opened, deepest = _opened(model, height, slid, worn)
             off = opened - implied
             mismatch = loaded_mean(model, contacts, off) if resolved else _largest([off])
             if mismatch <= tolerance * deepest:

@@ -38,16 +38,17 @@ def add_depths(
     wear: Sequence[WearCompliance] | CycleCompliance,
     contacts: Sequence[ContactSolution],
     dx: float,
-) -> None:
+) -> Array:
     """Add a part of the depth worn at each position to `gaps`, (positions, nx, ny), in m."""
     if isinstance(wear, CycleCompliance):
         # Elsewhere nothing wears.
         columns = reduce(union, (contact.extent for contact in contacts))[1]
         pressure = np.stack([contact.pressure[:, columns] for contact in contacts])
         gaps[..., columns] += part * wear.beside(columns).depth(pressure, dx)
-        return
+        return gaps
     for gap, compliance, contact in zip(gaps, wear, contacts, strict=True):
         gap += part * compliance.depth(contact.pressure, dx)
+    return gaps
 
 
 def wear_compliance(

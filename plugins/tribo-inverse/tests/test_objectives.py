@@ -24,12 +24,14 @@ REFUSED = {
     "Deepest has the order 1; give 2": ({}, Deepest("ball", 1)),
     "'1 mm' is no place within 0.00025 m": ({}, Depth("ball", "1 mm")),
     "nan is no place within": ({}, Pressure(0.0, NAN)),
+    # Of which all places along x are alike.
+    "'middle' is no place within": ({}, Depth("disk", "middle")),
     "'volume' is no objective; give a Volume": ({}, "volume"),
     r"Volume gave Volume\(.*; an objective gives its value": ({}, Volume),
     "{} is no objective; give a Volume": ({}, {}),
-    "nothing is saved at 20 s s": ({}, {"20 s": Volume("ball")}),
-    "nothing is saved at 3.0 s": ({}, {3.0: Volume("ball")}),
-    r"nothing is saved at 15.0 s, .* ends at 6\.\d+ s": (ENDS, {15.0: Volume("ball")}),
+    "nothing is saved at '20 s'": ({}, {"20 s": Volume("ball")}),
+    "nothing is saved at 3.0, ": ({}, {3.0: Volume("ball")}),
+    r"nothing is saved at 15.0, .* ends at 6\.\d+ s": (ENDS, {15.0: Volume("ball")}),
     r"stop.depth: .* after 20 s the largest is 0\.5\d+ µm": ({}, EndTime()),
     r"stop.depth: .* the largest is 0\.04\d+ µm": (
         {"stop": Stop(depth="0.2 um", body="disk")},

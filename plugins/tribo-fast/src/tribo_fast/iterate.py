@@ -17,7 +17,7 @@ from tribo_fast.operator import Threads as Threads
 
 Array = NDArray[np.float64]
 _spare: WeakKeyDictionary[Operator, tuple[Any, ...]] = WeakKeyDictionary()
-"""Memory of the last solve, while its operator is: new memory costs as much as two iterations."""
+"""Memory of the last solve, for the next one: new memory costs as much as two iterations."""
 
 
 def serves(operator: Operator) -> bool:
@@ -48,6 +48,7 @@ class CompiledIterate(Iterate):
         stacked = (total.size, *operator.shape)
         self._base = operator.base if isinstance(operator, WornOperator) else operator
         spare = _spare.pop(self._base, ())
+        _spare.clear()
         self._memory = spare if spare and spare[0].shape == stacked else _memory(*stacked)
         # Compiled code checks no bounds, and takes one type and order only.
         given, gap = gap, self._memory[0]
@@ -145,7 +146,6 @@ class CompiledIterate(Iterate):
         self.full = self.pressure >= self.limit
         if self.full.any():
             self._deform()
-        _spare.clear()
         _spare[self._base] = self._memory
         return super().solutions(iterations, reached)
 

@@ -116,7 +116,7 @@ class CompiledCycle(CycleCompliance):
         first = np.concatenate([[0], ends])[: len(shapes), None]
         return np.hstack([first, shapes]), starts % shapes[:, None]
 
-    def gathered(self, fields: Array) -> list[Array]:
+    def gather(self, fields: Array) -> list[Array]:
         """Return Σₙ ωₙ Tₙᵀ of fields on each body's own surface."""
         bodies, cells = self._tables
         own = np.empty(sum(compliance.size for compliance, _ in self.bodies))
@@ -124,7 +124,7 @@ class CompiledCycle(CycleCompliance):
         passes.gather(fields, shares, bodies, cells, own, self.mirrored)
         return [own[i : i + nx * ny].reshape(nx, ny) for i, nx, ny in bodies.tolist()]
 
-    def seen(self, of_bodies: Sequence[Array], shape: tuple[int, ...]) -> Array:
+    def see(self, of_bodies: Sequence[Array], shape: tuple[int, ...]) -> Array:
         """Return the sum of Tₘ of the bodies' fields at each position, of `shape`."""
         seen = np.zeros(shape)
         self.add(of_bodies, seen)
@@ -168,7 +168,7 @@ class CompiledOperator:
     def add_wear(self, pressure: Array, displacement: Array, sums: Array) -> None:
         """Add the wear to an elastic displacement, and write the sum of its product with p."""
         if isinstance(self.wear, CompiledCycle):
-            worn = zip(self.wear.gathered(pressure), self.wear.bodies, strict=True)
+            worn = zip(self.wear.gather(pressure), self.wear.bodies, strict=True)
             self.wear.add([own * compliance for own, (compliance, _) in worn], displacement)
             self._threads(passes.multiply, pressure, displacement, sums)
         elif self.wear:

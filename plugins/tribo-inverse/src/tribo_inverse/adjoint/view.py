@@ -69,7 +69,7 @@ class View:
         for place, spacing, count in zip((x, y), self.grid.spacing, field.shape, strict=True):
             known = isinstance(place, Real) and math.isfinite(place)
             index = math.floor(place / spacing + 0.5 * count) if known else -1
-            if count > 1 and not 0 <= index < count:
+            if not known or (count > 1 and not 0 <= index < count):
                 raise CaseError(f"{place!r} is no place within {0.5 * count * spacing:g} m")
             found.append(index if count > 1 else 0)
         return found[0], found[1]

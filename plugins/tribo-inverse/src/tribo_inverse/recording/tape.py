@@ -180,7 +180,7 @@ def recorded(model: Model, looked_at: Sequence[float], tape: Tape) -> dict[float
             )
     if missing := [time for time in looked_at if time not in states]:
         raise CaseError(
-            f"nothing is saved at {missing[0]} s, the time of an objective: the run ends at "
-            f"{state.time:.6g} s; add the time to output.save_times, or raise stop.depth"
+            f"nothing is saved at {missing[0]!r}, the time of an objective in s: the run ends at "
+            f"{state.time:.6g} s; give a time up to then that is in output.save_times"
         )
     return states
