@@ -15,14 +15,15 @@ from sphinx.application import Sphinx
 DOCS = Path(__file__).parent
 sys.path.insert(0, str(DOCS / "support"))
 sys.path.insert(0, str(DOCS.parent))
+os.environ["TRIBO_REPOSITORY"] = str(DOCS.parent)
 
 import reference  # noqa: E402
+import speed  # noqa: E402
 
 # The kernels that execute the pages see what this process sees.
 os.environ["PYTHONPATH"] = os.pathsep.join(
     [str(DOCS / "support"), str(DOCS.parent / "examples"), str(DOCS.parent)]
 )
-os.environ["TRIBO_REPOSITORY"] = str(DOCS.parent)
 # Cells show their figures as in a notebook, whatever draws outside.
 os.environ["MPLBACKEND"] = "module://matplotlib_inline.backend_inline"
 os.environ.setdefault("MPLCONFIGDIR", str(Path(gettempdir()) / "tribo-docs-matplotlib"))
@@ -76,8 +77,15 @@ napoleon_use_rtype = False
 
 def setup(app: Sphinx) -> None:
     """Write the reference pages anew, and bring those of packages, before anything is read."""
+    app.connect("builder-inited", _refuse_old_figures)
     app.connect("builder-inited", lambda _: _prepare())
     app.connect("source-read", _link_within_the_site)
+
+
+def _refuse_old_figures(app: Sphinx) -> None:
+    shown = app.config.nb_execution_mode != "off"
+    if shown and (message := speed.outdated(DOCS.parent)):
+        raise SystemExit(message)
 
 
 def _prepare() -> None:

@@ -1,8 +1,7 @@
-"""Run the benchmarks one after another and keep their figures in one file.
+"""Run the benchmarks that the page on speed shows, one after another, into one file.
 
-The page on speed is made from it. Benchmarks that are not named stay as they are
-in the file, unless there is no such benchmark any more. On a quiet machine; it takes
-about an hour.
+Benchmarks that are not named stay as they are in the file, unless there is no such
+benchmark any more. On a quiet machine; it takes about an hour.
 """
 
 from __future__ import annotations
@@ -21,11 +20,8 @@ FIGURES = ROOT / "docs" / "_data" / "speed.json"
 OPTIONS = {
     "contact_solve": ["--repeats", "3"],
     "hour": [],
-    "fft_limit": [],
-    "growth": [],
-    "profile_run": [],
-    "time_schemes": [],
     "resolved_loop": [],
+    "fft_limit": [],
 }
 
 

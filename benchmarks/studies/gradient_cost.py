@@ -105,8 +105,9 @@ def main(cells: int, part: str) -> None:
         alone, maps, both, steps = [], [], [], 0
         for _ in range(TIMES):
             started = process_time()
-            steps = len(each.run().history_time) - 1
+            result = each.run()
             alone.append(process_time() - started)
+            steps = len(result.history_time) - 1
             started = process_time()
             gradient(each, Deepest("disk"), [])
             maps.append(process_time() - started)

@@ -1,10 +1,12 @@
-"""Show what `benchmarks.speed.all` measured in an executed page."""
+"""Show what `benchmarks.speed.all` measured in an executed page, unless it is too old."""
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Mapping
+import subprocess
+from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -13,36 +15,67 @@ from IPython.display import Markdown
 Row = Mapping[str, Any]
 REPOSITORY = Path(os.environ["TRIBO_REPOSITORY"])
 FIGURES = Path("docs") / "_data" / "speed.json"
-STARTS = ("cold", "warm")
+LIMIT, FAST = "limit", ", compiled"
+HOURS = (
+    ("hour", "The paper's hour", "hour", "256²"),
+    ("resolved_loop", "resolved hour", "hour, 33 positions", "128²"),
+)
+MEASURED = ("tribo/contact", "tribo/stepping")
+MOST_COMMITS = 40
+"""A change of a solver takes up to ten commits: figures may miss four such changes."""
 
 
-def table(
-    benchmark: str,
-    title: str,
-    columns: Mapping[str, str],
-    keep: Callable[[Row], bool] = lambda _: True,
-) -> Markdown:
-    """Return the rows of one table that `keep` keeps; `columns` has a heading for each key."""
-    rows = [row for row in _measured(REPOSITORY)[benchmark]["tables"][title] if keep(row)]
-    return _markdown(list(columns.values()), [[_cell(row[key]) for key in columns] for row in rows])
+def outdated(repository: Path) -> str | None:
+    """Return which figures are older than so many commits; None without their history."""
+    old = {
+        name: count
+        for name, benchmark in _measured(repository).items()
+        if (count := _commits_since(repository, benchmark["machine"]["commit"])) > MOST_COMMITS
+    }
+    if not old:
+        return None
+    return (
+        f"{FIGURES}: {max(old.values())} commits changed {' or '.join(MEASURED)} since figures "
+        f"were measured, at most {MOST_COMMITS} are allowed; measure again, on a quiet machine: "
+        f"python -m benchmarks.speed.all {' '.join(old)}"
+    )
 
 
-def solves() -> Markdown:
-    """Return the ratios of all contact solves, cold / warm, with a column for each package."""
-    rows = _measured(REPOSITORY)["contact_solve"]["tables"]["Solves"]
-    ratios = {(r["contact"], r["cells"], r["package"], r["start"]): r["ratio"] for r in rows}
-    packages = list(dict.fromkeys(row["package"] for row in rows))
-    # Ratios over itself are 1.
-    packages.remove("tribo")
-    lines = [
-        [contact, f"{cells}²"]
-        + [
-            " / ".join(_cell(ratios.get((contact, cells, name, start))) for start in STARTS)
-            for name in packages
-        ]
-        for contact, cells in dict.fromkeys((row["contact"], row["cells"]) for row in rows)
+def _commits_since(repository: Path, commit: str) -> int:
+    command = ["git", "-C", str(repository), "rev-list", "--count", f"{commit}..HEAD", "--"]
+    with suppress(OSError, subprocess.CalledProcessError):
+        return int(subprocess.run([*command, *MEASURED], capture_output=True, check=True).stdout)
+    return 0
+
+
+def ratios() -> Markdown:
+    """Return times over tribo's with NumPy: of contact solves, cold / warm, of hours, of memory."""
+    found = _measured(REPOSITORY)
+    solves = found["contact_solve"]["tables"]["Solves"]
+    lines: dict[tuple[str, str], dict[str, list[float]]] = {}
+    for row in solves:
+        line = lines.setdefault((row["contact"], f"{row['cells']}²"), {})
+        line.setdefault(row["package"], []).append(row["ratio"])
+    for row in found["fft_limit"]["tables"]["Distance to the limit"]:
+        contact = row["what"].partition(", ")[2]
+        line = lines.get((contact, f"{row['cells']}²"), {})
+        line.setdefault(LIMIT, []).append(row["applications"] / row["round_trips"])
+    for name, title, *key in HOURS:
+        rows = {row["method"]: [row["ratio"]] for row in found[name]["tables"][title]}
+        own = next(method for method in rows if method.endswith(FAST))
+        of_peers = {method.removeprefix("loop on "): ratio for method, ratio in rows.items()}
+        lines[tuple(key)] = {**of_peers, f"tribo{FAST}": rows[own]}
+    sizes = {(r["cells"], r["package"]): r["bytes_a_cell"] for r in solves if r["bytes_a_cell"]}
+    for (cells, package), size in sizes.items():
+        line = lines.setdefault(("memory of *rough*", f"{cells}²"), {})
+        line[package] = [size / sizes[cells, "tribo"]]
+    packages = [*dict.fromkeys(row["package"] for row in solves if row["package"] != "tribo")]
+    columns = [*packages, LIMIT]
+    ratios = [
+        [*key, *(" / ".join(map(_cell, line.get(name, [None]))) for name in columns)]
+        for key, line in lines.items()
     ]
-    return _markdown(["contact", "cells", *packages], lines)
+    return _markdown(["", "cells", *columns], ratios)
 
 
 def machine() -> Markdown:
