@@ -169,6 +169,7 @@ def _end(model: Model, prediction: Prediction) -> Iterator[tuple[str, str]]:
     window = " × ".join(f"{1e3 * edge:.4g}" for edge in model.grid.size)
     yield f"window of {window} mm", "holds it" if prediction.window_holds else "TOO SMALL"
     form = ", but for roughness" if model.rough else ""
+    form += ", as averaged" if prediction.positions > 1 else ""
     for name, body in last.bodies.items():
         worn = f"{1e6 * body.max_wear_depth:.3g} µm{form}, {1e9 * body.wear_volume:.3g} mm³"
         yield f"wear of {name}, about", worn
