@@ -52,10 +52,10 @@ def ratios() -> Markdown:
     """Return times over tribo's with NumPy: of contact solves, cold / warm, of hours, of memory."""
     found = _measured(REPOSITORY)
     solves = found["contact_solve"]["tables"]["Solves"]
-    lines: dict[tuple[str, str], dict[str, list[float]]] = {}
+    lines: dict[tuple[str, ...], dict[str, list[float | None]]] = {}
     for row in solves:
         line = lines.setdefault((row["contact"], f"{row['cells']}²"), {})
-        line.setdefault(row["package"], []).append(row["ratio"])
+        line.setdefault(row["package"], [None, None])[row["start"] == "warm"] = row["ratio"]
     for row in found["fft_limit"]["tables"]["Distance to the limit"]:
         contact = row["what"].partition(", ")[2]
         line = lines.get((contact, f"{row['cells']}²"), {})
