@@ -34,14 +34,14 @@ class Preconditioner:
         move = [each for each in wear.bodies if len(set(each[1])) > 1]
         self._stay, self._move = replace(wear, bodies=stay[:1]), replace(wear, bodies=move)
         together = sum(mean_where_positive(compliance) for compliance, _ in stay)
-        self._of_stay = [self._taken(together, 1.0, compliance.shape) for compliance, _ in stay[:1]]
+        self._of_stay = [self._factor(together, 1.0, own.shape) for own, _ in stay[:1]]
         shares = self._move.gather(np.ones((len(wear.shares), *operator.shape)))
         self._of_move = [
-            self._taken(mean_where_positive(compliance), len(move) * np.max(share), share.shape)
+            self._factor(mean_where_positive(compliance), len(move) * np.max(share), share.shape)
             for (compliance, _), share in zip(move, shares, strict=True)
         ]
 
-    def _taken(self, compliance: float, share: float, shape: tuple[int, ...]) -> Array:
+    def _factor(self, compliance: float, share: float, shape: tuple[int, ...]) -> Array:
         """Return h for the modes of a body: K has its wavenumbers, or the next smaller ones."""
         (nx, ny), (rows, columns) = self.shape, shape
         along, across = np.arange(rows), np.arange(columns // 2 + 1)
@@ -54,9 +54,9 @@ class Preconditioner:
         modes = scipy.fft.rfft2(residual)
         modes /= self.symbol
         found: Array = scipy.fft.irfft2(modes, s=residual.shape[-2:], overwrite_x=True)
-        return found - self.taken(residual) if self.wears else found
+        return found - self.correction(residual) if self.wears else found
 
-    def taken(self, residual: Array) -> Array:
+    def correction(self, residual: Array) -> Array:
         """Return what the wear of a cycle takes from the estimate."""
         stay, move, shape = self._stay, self._move, residual.shape
         alike = stay.gather(residual)

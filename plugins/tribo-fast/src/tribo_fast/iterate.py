@@ -125,7 +125,7 @@ class CompiledIterate(Iterate):
         given = (self.change, self.moved, self._lists, by.spectrum)
         self._threads(passes.precondition, *given, memory=by.memory)
         if self.preconditioner.wears:
-            self.moved -= self.preconditioner.taken(self.change)
+            self.moved -= self.preconditioner.correction(self.change)
         self._threads(passes.steepen, self.moved, self._lists)
 
     def _advance(self, beta: float) -> None:
