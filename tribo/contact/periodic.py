@@ -9,6 +9,7 @@ import numpy as np
 import scipy
 
 from tribo.contact.elastic import ElasticSolver
+from tribo.contact.preconditioner import Preconditioner
 from tribo.contact.projection import CELLS, over, project
 from tribo.contact.residuals import check_finite
 from tribo.core.arrays import Array, Mask
@@ -96,9 +97,7 @@ class Periodic(ElasticSolver):
         """Return the pressure that closes the gap everywhere, projected onto load and bounds."""
         check_finite(problem.gap)
         system = problem.system
-        closing = scipy.fft.rfft2(problem.gap)
-        closing /= -self._operator(system, problem.gap.shape).symbol()
-        pressure = scipy.fft.irfft2(closing, s=problem.gap.shape, overwrite_x=True)
+        pressure = Preconditioner(self._operator(system, system.grid.cells))(-problem.gap)
         total = np.asarray(problem.load / system.grid.cell_area)
         cap = system.cap if problem.cap is None else problem.cap
         cells = np.ones(pressure.shape, dtype=bool)

@@ -158,7 +158,7 @@ def _by_pressure(increment: Stages, stages: Sequence[RateStage]) -> Sequence[Seq
     ]
     if not increment.loads_change:
         return found
-    # Along the increment pressures are told in proportion to the load.
+    # Along the increment pressures are given in proportion to the load.
     pressure = increment.pressure
     total = over(np.sum(pressure, CELLS))
     longer = [over(np.sum(each, CELLS)) / total for each in told]
