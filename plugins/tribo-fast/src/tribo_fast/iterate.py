@@ -126,7 +126,7 @@ class CompiledIterate(Iterate):
         self._threads(passes.precondition, *given, memory=by.memory)
         if self.preconditioner.wears:
             self.moved -= self.preconditioner.correction(self.change)
-        self._threads(passes.steepen, self.moved, self._lists)
+        passes.steepen(self.moved, self._lists)
 
     def _advance(self, beta: float) -> None:
         """Write the step of a direction, and the response to it, which lies in `moved`."""

@@ -103,8 +103,6 @@ class _Wear:
 class CompiledCycle(CycleCompliance):
     """The wear of a step that couples positions, taken to surfaces and windows in compiled code."""
 
-    threads: Threads | None = None
-
     @cached_property
     def _tables(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """First number, rows and columns of each body; where each window begins on it."""
@@ -133,8 +131,7 @@ class CompiledCycle(CycleCompliance):
     def add(self, of_bodies: Sequence[Array], fields: Array) -> None:
         """Add the sum of Tₘ of the bodies' fields to fields of the window."""
         own = np.concatenate([np.empty(0), *map(np.ravel, of_bodies)])
-        assert self.threads is not None
-        self.threads(passes.scatter, fields, *self._tables, own)
+        passes.scatter(fields, *self._tables, own)
 
 
 class CompiledOperator:
@@ -155,7 +152,7 @@ class CompiledOperator:
         if isinstance(wear, WearCompliance):
             self.wear = _Wear(wear, self.shape, self.spacing[0])
         elif wear is not None:
-            self.wear = CompiledCycle(wear.shares, wear.bodies, wear.rows, wear.mirrored, threads)
+            self.wear = CompiledCycle(wear.shares, wear.bodies, wear.rows, wear.mirrored)
 
     def apply(self, pressure: Array) -> Array:
         """Return the displacement under pressures, shape (positions, nx, ny)."""
@@ -170,6 +167,6 @@ class CompiledOperator:
         if isinstance(self.wear, CompiledCycle):
             worn = zip(self.wear.gather(pressure), self.wear.bodies, strict=True)
             self.wear.add([own * compliance for own, (compliance, _) in worn], displacement)
-            self._threads(passes.multiply, pressure, displacement, sums)
+            passes.multiply(pressure, displacement, sums)
         elif self.wear:
             self.wear.add(pressure, displacement, sums)

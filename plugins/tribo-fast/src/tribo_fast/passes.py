@@ -1,8 +1,8 @@
 """The passes of an iteration over cells, compiled; importing them compiles or loads them.
 
-A pass serves the positions `first` to `last`, so that threads share them, and leaves its sums of
-each position in a row of `sums`: what is added over the positions is added there in their order,
-with the same bits for any number of threads. Fields have the shape (positions, nx, ny). The largest
+A long pass serves the positions `first` to `last`, so that threads share them; to hand a part to a
+thread takes 50 µs. A pass leaves its sums of each position in a row of `sums`: what is added over
+the positions is added there in their order, with the same bits for any number of threads. Fields have the shape (positions, nx, ny). The largest
 pressure has it too, or one position for all, or one row for all cells.
 """
 
@@ -287,11 +287,11 @@ def precondition(change, z, lists, spectrum, modes, lines, first, last):
         _convolve(change[k], z[k], spectrum, modes, lines)
 
 
-@_compiled(_FIELD, _LISTS)
-def steepen(z, lists, first, last):
+@njit(f"void({_FIELD},{_LISTS})", **_OPTIONS)
+def steepen(z, lists):
     """Take the preconditioned residual from a field, and find its sums."""
     sums = lists[2]
-    for k in range(first, last):
+    for k in range(len(z)):
         c, f, n = _listed(lists, k)
         p, d, most, w = f[HELD], f[OPEN], f[MOST], f[STEP]
         r, g, v = f[RESIDUAL], f[GRADIENT], f[DIRECTION]
@@ -475,11 +475,11 @@ def gather(fields, shares, bodies, cells, gathered, mirrored):
                     own[j], other[j] = both, both
 
 
-@_compiled(_FIELD, "i8[:,::1]", "i8[:,:,::1]", _ROW)
-def scatter(fields, bodies, cells, own, first, last):
+@njit(f"void({_FIELD},i8[:,::1],i8[:,:,::1],{_ROW})", **_OPTIONS)
+def scatter(fields, bodies, cells, own):
     """Add what lies on the bodies' surfaces to fields."""
-    _, nx, ny = fields.shape
-    for k in range(first, last):
+    count, nx, ny = fields.shape
+    for k in range(count):
         for b in range(len(bodies)):
             begin, rows, columns = bodies[b]
             row, column = cells[b, k]
@@ -493,10 +493,10 @@ def scatter(fields, bodies, cells, own, first, last):
                     u[j] += line[(column + j) % columns]
 
 
-@_compiled(_FIELD, _FIELD, _TABLE)
-def multiply(change, response, sums, first, last):
+@njit(f"void({_FIELD},{_FIELD},{_TABLE})", **_OPTIONS)
+def multiply(change, response, sums):
     """Write the sum of the products of steps and responses."""
-    for k in range(first, last):
+    for k in range(len(change)):
         sums[k, CURVATURE] = _dot(change[k], response[k])
 
 
