@@ -1,7 +1,7 @@
 """Run the benchmarks that the page on speed shows, one after another, into one file.
 
 Benchmarks that are not named stay as they are in the file, unless there is no such
-benchmark any more. On a quiet machine; it takes about an hour.
+benchmark any more. On a quiet machine; it takes about an hour and a half.
 """
 
 from __future__ import annotations

@@ -56,15 +56,15 @@ def ratios() -> Markdown:
     for row in solves:
         line = lines.setdefault((row["contact"], f"{row['cells']}²"), {})
         line.setdefault(row["package"], [None, None])[row["start"] == "warm"] = row["ratio"]
-    for row in found["fft_limit"]["tables"]["Distance to the limit"]:
-        contact = row["what"].partition(", ")[2]
-        line = lines.get((contact, f"{row['cells']}²"), {})
-        line.setdefault(LIMIT, []).append(row["applications"] / row["round_trips"])
     for name, title, *key in HOURS:
         rows = {row["method"]: [row["ratio"]] for row in found[name]["tables"][title]}
         own = next(method for method in rows if method.endswith(FAST))
         of_peers = {method.removeprefix("loop on "): ratio for method, ratio in rows.items()}
         lines[tuple(key)] = {**of_peers, f"tribo{FAST}": rows[own]}
+    for row in found["fft_limit"]["tables"]["Distance to the limit"]:
+        contact = row["what"].partition(", ")[2] or HOURS[0][2]
+        line = lines.get((contact, f"{row['cells']}²"), {})
+        line.setdefault(LIMIT, []).append(row["applications"] / row["round_trips"])
     sizes = {(r["cells"], r["package"]): r["bytes_a_cell"] for r in solves if r["bytes_a_cell"]}
     for (cells, package), size in sizes.items():
         line = lines.setdefault(("memory of *rough*", f"{cells}²"), {})
