@@ -32,6 +32,19 @@ def test_it_ends_with_tables_and_a_folder_of_results(tmp_path):
     assert [(row["load.normal_N"], row["status"]) for row in rows] == [(50, "done"), (60, "done")]
 
 
+def test_runs_with_warnings_are_counted(tmp_path, monkeypatch):
+    inline = nullcontext(sweeps.Inline())
+    monkeypatch.setattr("tribo.study.sweeping.sweep.processes", lambda jobs: inline)
+    sweeps.case(tmp_path)
+    out = tribo("sweep", "my.toml", "--vary", "grid.size=0.6 mm,1.5 mm", cwd=tmp_path).stdout
+    told = "\n2 of 2 runs are done, 1 with warnings: see the column message of runs.csv.\n"
+    assert told in out
+    assert list(pandas.read_csv(tmp_path / "my-sweep" / "runs.csv")["message"].isna()) == [
+        True,
+        False,
+    ]
+
+
 @pytest.mark.slow
 def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path, monkeypatch):
     inline = nullcontext(sweeps.Inline())

@@ -74,7 +74,9 @@ def sweep(
         from tribo.study.sweeping.summary import draw_runs, measured, runs_table
 
         Console().table(runs_table(swept.table, measured(swept.table)))
-        click.echo(f"{total - failed} of {total} runs are done.")
+        warned = sum(swept.table.query("status == 'done'")["message"] != "")
+        told = f", {warned} with warnings: see the column message of runs.csv" if warned else ""
+        click.echo(f"{total - failed} of {total} runs are done{told}.")
         click.echo(f"Wrote {swept.folder / 'runs.csv'}")
         for path in draw_runs(swept.table, swept.folder):
             click.echo(f"Wrote {path}")

@@ -2,8 +2,9 @@
 
 A long pass serves the positions `first` to `last`, so that threads share them; to hand a part to a
 thread takes 50 µs. A pass leaves its sums of each position in a row of `sums`: what is added over
-the positions is added there in their order, with the same bits for any number of threads. Fields have the shape (positions, nx, ny). The largest
-pressure has it too, or one position for all, or one row for all cells.
+the positions is added there in their order, with the same bits for any number of threads. Fields
+have the shape (positions, nx, ny). The largest pressure has it too, or one position for all, or one
+row for all cells.
 """
 
 from __future__ import annotations
