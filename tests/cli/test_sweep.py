@@ -8,6 +8,8 @@ import pytest
 import sweeps
 from command_line import tribo
 
+from tribo.study.sweeping.summary import varied_paths
+
 LOADS = ["--vary", "load.normal=50 N,60 N"]
 
 
@@ -32,17 +34,24 @@ def test_it_ends_with_tables_and_a_folder_of_results(tmp_path):
     assert [(row["load.normal_N"], row["status"]) for row in rows] == [(50, "done"), (60, "done")]
 
 
-def test_runs_with_warnings_are_counted(tmp_path, monkeypatch):
+@pytest.mark.parametrize(
+    "vary", ["grid.size=0.6 mm,1.5 mm", "bodies.ball.material.young=207 GPa,2070 GPa"]
+)
+def test_runs_with_warnings_are_counted(vary, tmp_path, monkeypatch):
     inline = nullcontext(sweeps.Inline())
     monkeypatch.setattr("tribo.study.sweeping.sweep.processes", lambda jobs: inline)
     sweeps.case(tmp_path)
-    out = tribo("sweep", "my.toml", "--vary", "grid.size=0.6 mm,1.5 mm", cwd=tmp_path).stdout
+    out = tribo("sweep", "my.toml", "--vary", vary, cwd=tmp_path).stdout
     told = "\n2 of 2 runs are done, 1 with warnings: see the column message of runs.csv.\n"
     assert told in out
-    assert list(pandas.read_csv(tmp_path / "my-sweep" / "runs.csv")["message"].isna()) == [
-        True,
-        False,
-    ]
+    runs = pandas.read_csv(tmp_path / "my-sweep" / "runs.csv")
+    assert runs["message"].isna().tolist() == [True, False]
+
+
+def test_a_number_for_both_axes_varies_once():
+    sizes = {"grid.size.1_mm": [1, 2], "grid.size.2_mm": [1, 2], "load_N": [5, 5]}
+    runs = pandas.DataFrame({"run": [1, 2], "status": "done", **sizes, "time_s": 1})
+    assert varied_paths(runs) == ["grid.size.1_mm", "load_N"]
 
 
 @pytest.mark.slow

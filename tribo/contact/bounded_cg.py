@@ -84,7 +84,7 @@ def solve_bounded(
     return solve_together(
         operator,
         gap,
-        np.asarray(load),
+        np.asarray(load, dtype=float),
         cap,
         compliance,
         start=start,
@@ -115,8 +115,7 @@ def solve_together(
     limit = np.inf if cap is None else cap if isinstance(cap, np.ndarray) else float(cap)
     cell_area = operator.spacing[0] * operator.spacing[1]
     for place in np.ndindex(gap.shape[:-2]):
-        area = cell_area * gap.shape[-2] * gap.shape[-1]
-        check_bearable(float(load[place]), area, at(limit, place))
+        check_bearable(float(load[place]), cell_area * gap[place].size, at(limit, place))
     check_finite(gap)
     total = np.asarray(load / cell_area)
     shares = compliance.shares if isinstance(compliance, CycleCompliance) else None
@@ -309,7 +308,7 @@ def _feasible(
     start: Array | None, shape: tuple[int, ...], total: Array, limit: Array | float
 ) -> Array:
     """Return a pressure within the bounds that carries the load, as near to `start` as it may."""
-    guess = np.zeros(shape) if start is None else np.maximum(start, 0.0)
+    guess = np.zeros(shape) if start is None else np.maximum(start, 0.0, dtype=float)
     guess[~guess.any(CELLS)] = 1.0
     guess *= over(total / guess.sum(CELLS))
     if (guess <= limit).all():

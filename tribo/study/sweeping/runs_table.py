@@ -15,6 +15,7 @@ from tribo.core.column import labelled
 from tribo.core.errors import CaseError
 from tribo.lab.report import lab_report
 from tribo.result.read import Result
+from tribo.simulation.validity import unusual
 
 
 @dataclass(frozen=True)
@@ -41,8 +42,8 @@ def runs_table(
 ) -> pandas.DataFrame:
     """Return a row for each run.
 
-    A table or list at one of `paths`, which vary, has a column for each value
-    in it. `failures` are the reasons by the names of the runs' files.
+    A table or list at one of `paths`, which vary, has a column for each value in it. `failures` are
+    the reasons by the names of the runs' files.
     """
     rows = []
     for run in runs:
@@ -55,7 +56,7 @@ def runs_table(
         elif run.path.exists():
             try:
                 with Result.open(run.path) as result:
-                    message = "; ".join(result.warnings)
+                    message = "; ".join(map(str, [*unusual(run.case), *result.warnings]))
                     row["status"] = "done" if result.status == "done" else "interrupted"
                     if result.status == "done":
                         row |= _measured(result)

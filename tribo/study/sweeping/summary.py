@@ -60,7 +60,9 @@ def sweep_pictures(
 def varied_paths(runs: pd.DataFrame) -> Sequence[str]:
     """Return the columns of settings that vary, which come before the measures."""
     columns = list(map(str, runs))
-    return columns[2 : columns.index("time_s")] if "time_s" in columns else []
+    varied = columns[2 : columns.index("time_s")] if "time_s" in columns else []
+    # A number for both axes, as of cells, has a column for each.
+    return [*map(str, runs[varied].T.drop_duplicates().index)]
 
 
 def is_text(runs: pd.DataFrame, name: str) -> bool:

@@ -85,10 +85,9 @@ def sweep(
 ) -> Sweep:
     """Run variants of a case, in parallel.
 
-    All are validated and composed before any is run. Finished results of the
-    same case and components are reused, stopped runs continue from their
-    checkpoints, and failed runs are repeated. A failing run is recorded, and the
-    others continue.
+    All are validated and composed before any is run. Finished results of the same case and
+    components are reused, stopped runs continue from their checkpoints, and failed runs are
+    repeated. A failing run is recorded, and the others continue.
 
     Parameters
     ----------
@@ -100,9 +99,8 @@ def sweep(
     folder : str or Path, optional
         Folder of the results; named as the file, with ``-sweep``, if left out.
     executor : Executor, optional
-        Runs the cases; processes on this machine if left out. It gets a
-        function that its workers can import, and plain data. They must see
-        `folder` under the same path. It is left open.
+        Runs the cases; processes on this machine if left out. It gets a function that its workers
+        can import, and plain data. They must see `folder` under the same path. It is left open.
     jobs : int, optional
         Number of processes if there is no `executor`; a core each if left out.
     tell : callable, optional
