@@ -144,17 +144,22 @@ def test_bits_do_not_depend_on_threads(name, threads, everywhere, monkeypatch):
 
 
 def test_fields_have_any_order_and_type(everywhere, monkeypatch):
-    gap, cap = np.float32(BALL), 2_000_000_000 + np.arange(BALL.size).reshape(CELLS)
-    wear = WearCompliance(np.asfortranarray(OWN.local), OWN.swept)
-    problem = free, np.asfortranarray(gap), LOAD, np.asfortranarray(cap), wear
-    known = free, np.float64(gap), LOAD, np.float64(cap), OWN
-    assert_equal(*(solved(monkeypatch, 1, *each) for each in (problem, known)))
+    gap, cap, start = (np.asfortranarray(np.float32(each)) for each in (BALL, CAPS, CAPS))
+    wear = WearCompliance(np.asfortranarray(OWN.local), np.float32(OWN.swept))
+    problem = free, gap, LOAD, cap.astype(int), wear
+    assert_equal(*(solved(monkeypatch, n, *problem, start=start) for n in (1, 0)))
 
 
 @pytest.mark.parametrize("threads", [0, 1])
-def test_a_gap_of_another_shape_is_refused(threads, everywhere, monkeypatch):
-    with pytest.raises(ValueError, match="broadcast"):
-        solved(monkeypatch, threads, free, BALL[:30], LOAD)
+def test_fields_of_another_shape_are_refused(threads, everywhere, monkeypatch):
+    for gap, cap, start in (
+        (BALL[:30], None, None),
+        (BALL[:1], None, None),
+        (BALL, CAPS.T, None),
+        (BALL, None, CAPS.T),
+    ):
+        with pytest.raises(ValueError, match="broadcast"):
+            solved(monkeypatch, threads, free, gap, LOAD, cap, start=start)
 
 
 @pytest.mark.parametrize("threads", [0, 1])

@@ -13,7 +13,7 @@ from tribo import CaseError, HalfSpace, solve_bounded
 from tribo.kernel_api import PeriodicHalfSpace, WornOperator
 
 import tribo_fast
-from tribo_fast.iterate import CompiledIterate
+from tribo_fast.iterate import CompiledIterate, CompiledOperator, tried
 
 ROOT = Path(__file__).parents[3]
 SHAPE, SPACING = (16, 12), (1e-5, 1e-5)
@@ -42,14 +42,27 @@ def process(script, **variables):
     return np.frombuffer(done.stdout), done.stderr.decode()
 
 
-@pytest.mark.parametrize("package", ["numba", "rocket_fft"])
+@pytest.mark.parametrize(
+    ("first", "variables", "reason"),
+    [
+        (WITHOUT.format("numba"), {}, "numba"),
+        (WITHOUT.format("rocket_fft"), {}, "rocket_fft"),
+        ("", {"NUMBA_DISABLE_JIT": "1"}, "NotImplementedError"),
+    ],
+)
 @pytest.mark.slow
-def test_a_broken_compiler_leaves_solves_to_numpy_with_one_warning(package):
+def test_a_broken_compiler_leaves_solves_to_numpy_with_one_warning(first, variables, reason):
     known, _ = process(SOLVE, TRIBO_FAST="0")
-    pressure, warned = process(WITHOUT.format(package) + SOLVE)
+    pressure, warned = process(first + SOLVE, **variables)
     assert (pressure == known).all()
     assert len(warned.splitlines()) == 1
-    assert package in warned
+    assert reason in warned
+
+
+def test_compiled_code_that_answers_otherwise_is_refused(monkeypatch):
+    monkeypatch.setattr(CompiledOperator, "apply", lambda operator, pressure: 1.01 * pressure)
+    with pytest.raises(ArithmeticError, match="off by"):
+        tried()
 
 
 @pytest.mark.slow
@@ -119,7 +132,8 @@ def test_the_provenance_states_what_is_installed_unless_it_is_turned_off(monkeyp
 @pytest.mark.slow
 def test_the_kernels_tests_of_contact_hold_where_all_solves_are_compiled(tmp_path):
     (tmp_path / "everywhere.py").write_text("import tribo_fast\ntribo_fast.FEWEST = 0\n")
-    command = [sys.executable, "-m", "pytest", "-q", "-n", "0", "-p", "everywhere"]
+    alone = ["-o", "addopts=--import-mode=importlib", "-p", "everywhere"]
+    command = [sys.executable, "-m", "pytest", "-q", *alone]
     tests = [ROOT / "tests" / "contact", ROOT / "tests" / "stepping" / "test_resolved.py"]
     done = subprocess.run(
         [*command, "-p", "no:cacheprovider", *tests],

@@ -11,11 +11,11 @@ from tribo import ContactSolution, HalfSpace, Operator, Residuals
 from tribo.kernel_api import NEAR_ENOUGH, Iterate, PeriodicHalfSpace, WornOperator
 
 from tribo_fast import passes, threads
-from tribo_fast.operator import CompiledOperator as CompiledOperator
-from tribo_fast.operator import Convolution, transposed
-from tribo_fast.operator import Threads as Threads
+from tribo_fast.operator import CompiledOperator, Convolution, Threads, transposed
 
 Array = NDArray[np.float64]
+EXACT = 1e-12
+"""Relative difference from NumPy that compiled code may have: a thousand times rounding."""
 _spare: WeakKeyDictionary[Operator, tuple[Any, ...]] = WeakKeyDictionary()
 """Memory of the last solve, for the next one: new memory costs as much as two iterations."""
 
@@ -27,10 +27,29 @@ def serves(operator: Operator) -> bool:
     return type(base) in (HalfSpace, PeriodicHalfSpace)
 
 
+def tried() -> float:
+    """Return the error of compiled code beside NumPy; raise ArithmeticError if it is large."""
+    steel = HalfSpace(shape=(24, 20), spacing=(1e-5, 1e-5), modulus=115e9)
+    pressure = np.random.default_rng(0).random((2, 24, 20))
+    known = steel.apply(pressure)
+    answer = CompiledOperator(steel, Threads(1, 2)).apply(pressure)
+    error = float(np.max(np.abs(answer - known)) / np.max(known))
+    if not error < EXACT:
+        raise ArithmeticError(f"its answer is off by {error:.0e}")
+    return error
+
+
 def _memory(positions: int, nx: int, ny: int) -> tuple[Any, ...]:
     lists = (2, positions, nx * ny)
     cells, fields = np.empty(lists, dtype=np.uint32), np.zeros((*lists[:2], passes.FIELDS, nx * ny))
     return (*np.empty((3, positions, nx, ny)), cells, fields)
+
+
+def _stacked(values: Array, shape: tuple[int, ...]) -> Array:
+    """Return values as compiled code takes them, which checks no bounds: (positions, nx, ny)."""
+    if values.shape != shape:
+        raise ValueError(f"values of shape {values.shape} cannot be broadcast to {shape}")
+    return np.array(values, dtype=float, order="C").reshape(-1, *shape[-2:])
 
 
 class CompiledIterate(Iterate):
@@ -50,19 +69,17 @@ class CompiledIterate(Iterate):
         spare = _spare.pop(self._base, ())
         _spare.clear()
         self._memory = spare if spare and spare[0].shape == stacked else _memory(*stacked)
-        # Compiled code checks no bounds, and takes one type and order only.
+        whole = (*total.shape, *operator.shape)
         given, gap = gap, self._memory[0]
-        gap[:] = given.reshape(total.size, *given.shape[-2:])
+        gap[:] = _stacked(given, whole)
         self._threads = Threads(threads(), len(gap))
         self._compiled = CompiledOperator(operator, self._threads)
         super().__init__(
             self._compiled,
             gap,
-            np.array(total).reshape(-1),
-            limit
-            if isinstance(limit, float)
-            else np.array(limit, dtype=float, order="C").reshape(stacked),
-            None if start is None else start.reshape(stacked),
+            np.array(total, dtype=float).reshape(-1),
+            limit if isinstance(limit, float) else _stacked(limit, whole),
+            None if start is None else _stacked(start, whole),
             shares,
         )
         self._most = (

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from queue import SimpleQueue
@@ -93,13 +92,12 @@ class _Wear:
 
     def __init__(self, wear: WearCompliance, shape: tuple[int, int], dx: float) -> None:
         self._local = np.array(np.broadcast_to(wear.local, shape), dtype=float, order="C")
-        self._swept = dx * np.broadcast_to(wear.swept, shape[1:])
+        self._swept = np.multiply(dx, np.broadcast_to(wear.swept, shape[1:]), dtype=float)
 
     def add(self, pressure: Array, depth: Array, sums: Array) -> None:
         passes.wear(pressure, depth, sums, self._local, self._swept)
 
 
-@dataclass(frozen=True)
 class CompiledCycle(CycleCompliance):
     """The wear of a step that couples positions, taken to surfaces and windows in compiled code."""
 
