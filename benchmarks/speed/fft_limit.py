@@ -1,10 +1,7 @@
 """How far tribo is from the transforms that a contact solve cannot avoid.
 
-A solve has to apply its operator once at least: one round trip rfft2, irfft2 of
-its own box, padded. `round trips` is the time of a solve over that of one round
-trip with scipy.fft on one core; of the hour, over that of one for each of its
-solves. `applications` is how often the operator was applied in a solve, on
-coarser grids too.
+`limit` is the time that the transforms of all applications of the operator take, there
+and back, with scipy.fft on one core, over the time of the solve or the hour.
 """
 
 from __future__ import annotations
@@ -15,8 +12,6 @@ from collections import Counter
 from collections.abc import Callable
 from contextlib import ExitStack
 from functools import partial
-from math import prod
-from typing import Any
 from unittest.mock import patch
 
 import numpy as np
@@ -27,10 +22,11 @@ from benchmarks.lib.peers import Tribo, meet
 from benchmarks.lib.problems import CONTACTS
 from benchmarks.speed.hour import CASE
 from tribo import Array, HalfSpace, Simulation, load_case
-from tribo.contact.elastic import ElasticSolver
 from tribo.kernel_api import PeriodicHalfSpace
 
 Shape = tuple[int, int]
+Boxes = Counter[tuple[Shape, Shape]]
+"""How often an operator was applied, by the shape of its box and of the padded one."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -59,50 +55,41 @@ def measure(options: argparse.Namespace) -> Tables:
 
 
 def _row(what: str, cells: int, action: Callable[[], object], options: argparse.Namespace) -> Row:
-    solves = _traced(action)
-    boxes = Counter(max(boxes, key=prod) for boxes in solves)
-    trips = {str(box): partial(_round_trip, np.ones(box)) for box in boxes}
+    boxes = _traced(action)
+    trips = {str(box): partial(_round_trip, np.ones(box[0]), box[1]) for box in boxes}
     times = interleaved({"own": action, **trips}, options.repeats, options.threads)
     spent = {name: statistics.median(found) for name, found in times.items()}
-    ends = dict.fromkeys((min(boxes), max(boxes)))
+    ends = dict.fromkeys((min(boxes)[1], max(boxes)[1]))
     return {
         "what": what,
         "cells": cells,
         "padded_boxes": " to ".join("×".join(map(str, box)) for box in ends),
-        "solves": len(solves),
-        "applications": sum(map(len, solves)) / len(solves),
-        "round_trips": spent["own"] / sum(boxes[box] * spent[str(box)] for box in boxes),
+        "applications": boxes.total(),
+        "limit": sum(count * spent[str(box)] for box, count in boxes.items()) / spent["own"],
     }
 
 
-def _traced(action: Callable[[], object]) -> list[list[Shape]]:
-    """Run `action`; return for each contact solve the padded boxes its operator was applied on."""
-    solves: list[list[Shape]] = []
-    solve = ElasticSolver.solve
-
-    def solved(solver: ElasticSolver, *arguments: Any) -> Any:
-        solves.append([])
-        return solve(solver, *arguments)
+def _traced(action: Callable[[], object]) -> Boxes:
+    """Run `action`; return the boxes that operators were applied on."""
+    boxes = Boxes()
 
     def counting(apply: Callable[..., Array]) -> Callable[..., Array]:
         def applied(operator: HalfSpace | PeriodicHalfSpace, pressure: Array) -> Array:
-            if solves:
-                solves[-1].append(operator.padded)
+            boxes[operator.shape, operator.padded] += 1
             return apply(operator, pressure)
 
         return applied
 
     with ExitStack() as patches:
-        patches.enter_context(patch.object(ElasticSolver, "solve", solved))
         for half_space in (HalfSpace, PeriodicHalfSpace):
             patches.enter_context(patch.object(half_space, "apply", counting(half_space.apply)))
         action()
-    return solves
+    return boxes
 
 
-def _round_trip(values: Array) -> None:
-    """What no solve can avoid: a transform there and back, on one core."""
-    scipy.fft.irfft2(scipy.fft.rfft2(values, workers=1), values.shape, workers=1)
+def _round_trip(values: Array, padded: Shape) -> None:
+    modes = scipy.fft.fft(scipy.fft.rfft(values, padded[1]), padded[0], axis=0)
+    scipy.fft.irfft(scipy.fft.ifft(modes, axis=0)[: len(values)], padded[1])
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ HOURS = (
     ("hour", "The paper's hour", "hour", "256²"),
     ("resolved_loop", "resolved hour", "hour, 33 positions", "128²"),
 )
-MEASURED = ("tribo/contact", "tribo/stepping")
+MEASURED = ("tribo/contact", "tribo/stepping", "plugins/tribo-fast/src")
 MOST_COMMITS = 40
 """A change of a solver takes up to ten commits: figures may miss four such changes."""
 
@@ -64,7 +64,7 @@ def ratios() -> Markdown:
     for row in found["fft_limit"]["tables"]["Distance to the limit"]:
         contact = row["what"].partition(", ")[2] or HOURS[0][2]
         line = lines.get((contact, f"{row['cells']}²"), {})
-        line.setdefault(LIMIT, []).append(row["applications"] / row["round_trips"])
+        line.setdefault(LIMIT, []).append(row["limit"])
     sizes = {(r["cells"], r["package"]): r["bytes_a_cell"] for r in solves if r["bytes_a_cell"]}
     for (cells, package), size in sizes.items():
         line = lines.setdefault(("memory of *rough*", f"{cells}²"), {})
