@@ -8,9 +8,16 @@ import pytest
 import sweeps
 from command_line import tribo
 
-from tribo.study.sweeping.summary import varied_paths
+from tribo.study.sweeping.summary import sweep_pictures, varied_paths
 
 LOADS = ["--vary", "load.normal=50 N,60 N"]
+
+
+@pytest.fixture
+def inline(monkeypatch):
+    """Run the cases of a sweep in this process."""
+    workers = nullcontext(sweeps.Inline())
+    monkeypatch.setattr("tribo.study.sweeping.sweep.processes", lambda jobs: workers)
 
 
 @pytest.mark.slow
@@ -37,9 +44,7 @@ def test_it_ends_with_tables_and_a_folder_of_results(tmp_path):
 @pytest.mark.parametrize(
     "vary", ["grid.size=0.6 mm,1.5 mm", "bodies.ball.material.young=207 GPa,2070 GPa"]
 )
-def test_runs_with_warnings_are_counted(vary, tmp_path, monkeypatch):
-    inline = nullcontext(sweeps.Inline())
-    monkeypatch.setattr("tribo.study.sweeping.sweep.processes", lambda jobs: inline)
+def test_runs_with_warnings_are_counted(vary, tmp_path, inline):
     sweeps.case(tmp_path)
     out = tribo("sweep", "my.toml", "--vary", vary, cwd=tmp_path).stdout
     told = "\n2 of 2 runs are done, 1 with warnings: see the column message of runs.csv.\n"
@@ -48,16 +53,16 @@ def test_runs_with_warnings_are_counted(vary, tmp_path, monkeypatch):
     assert runs["message"].isna().tolist() == [True, False]
 
 
-def test_a_number_for_both_axes_varies_once():
-    sizes = {"grid.size.1_mm": [1, 2], "grid.size.2_mm": [1, 2], "load_N": [5, 5]}
-    runs = pandas.DataFrame({"run": [1, 2], "status": "done", **sizes, "time_s": 1})
-    assert varied_paths(runs) == ["grid.size.1_mm", "load_N"]
+def test_runs_that_vary_along_both_axes_are_one_curve():
+    sizes = {"grid.size.1_m": [1e-3, 2e-3], "grid.size.2_m": [1e-3, 2e-3]}
+    runs = pandas.DataFrame({"run": [1, 2], "status": "done", **sizes, "time_s": [1.0, 2.0]})
+    assert varied_paths(runs) == [*sizes]
+    (draw,) = sweep_pictures(runs, [*sizes], ["time_s"]).values()
+    assert len(draw().axes[0].lines) == 1
 
 
 @pytest.mark.slow
-def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path, monkeypatch):
-    inline = nullcontext(sweeps.Inline())
-    monkeypatch.setattr("tribo.study.sweeping.sweep.processes", lambda jobs: inline)
+def test_failed_runs_are_told_by_reason_and_exit_with_3(tmp_path, inline):
     sweeps.case(tmp_path)
     vary = ["--vary", "grid.size=0.6 mm,0.2 mm"]
     code, out, err = tribo("sweep", "my.toml", *vary, "-o", "out", "--jobs", 1, cwd=tmp_path)

@@ -48,7 +48,9 @@ def sweep_pictures(
     What else varies parts the runs into curves.
     """
     done = runs[runs["status"] == "done"]
-    counts = {name: done[name].nunique() for name in varied if done[name].nunique() > 1}
+    # Columns that are alike, as of cells along both axes, part the runs no further.
+    apart = map(str, done[[*varied]].T.drop_duplicates().index)
+    counts = {name: done[name].nunique() for name in apart if done[name].nunique() > 1}
     numbers = [name for name in counts if not is_text(done, name)]
     if not numbers:
         return {}
@@ -60,9 +62,7 @@ def sweep_pictures(
 def varied_paths(runs: pd.DataFrame) -> Sequence[str]:
     """Return the columns of settings that vary, which come before the measures."""
     columns = list(map(str, runs))
-    varied = columns[2 : columns.index("time_s")] if "time_s" in columns else []
-    # A number for both axes, as of cells, has a column for each.
-    return [*map(str, runs[varied].T.drop_duplicates().index)]
+    return columns[2 : columns.index("time_s")] if "time_s" in columns else []
 
 
 def is_text(runs: pd.DataFrame, name: str) -> bool:
