@@ -15,7 +15,7 @@ from tribo_fast.operator import CompiledOperator, Convolution, Threads, transpos
 
 Array = NDArray[np.float64]
 EXACT = 1e-12
-"""Relative difference from NumPy that compiled code may have: a thousand times rounding."""
+"""Relative difference from NumPy that compiled code may have: the bound of the tests of solves."""
 _spare: WeakKeyDictionary[Operator, tuple[Any, ...]] = WeakKeyDictionary()
 """Memory of the last solve, for the next one: new memory costs as much as two iterations."""
 
@@ -49,7 +49,7 @@ def _stacked(values: Array, shape: tuple[int, ...]) -> Array:
     """Return values as compiled code takes them, which checks no bounds: (positions, nx, ny)."""
     if values.shape != shape:
         raise ValueError(f"values of shape {values.shape} cannot be broadcast to {shape}")
-    return np.array(values, dtype=float, order="C").reshape(-1, *shape[-2:])
+    return np.asarray(values, dtype=float, order="C").reshape(-1, *shape[-2:])
 
 
 class CompiledIterate(Iterate):
@@ -78,7 +78,8 @@ class CompiledIterate(Iterate):
             self._compiled,
             gap,
             np.array(total, dtype=float).reshape(-1),
-            limit if isinstance(limit, float) else _stacked(limit, whole),
+            # A copy: compiled code takes no read-only array.
+            limit if isinstance(limit, float) else _stacked(limit, whole).copy(),
             None if start is None else _stacked(start, whole),
             shares,
         )
