@@ -65,7 +65,8 @@ def ratios() -> Markdown:
         contact = row["what"].partition(", ")[2] or HOURS[0][2]
         line = lines.get((contact, f"{row['cells']}²"), {})
         line.setdefault(LIMIT, []).append(row["limit"])
-    sizes = {(r["cells"], r["package"]): r["bytes_a_cell"] for r in solves if r["bytes_a_cell"]}
+    rough = [r for r in solves if r["contact"] == "rough" and r["bytes_a_cell"]]
+    sizes = {(row["cells"], row["package"]): row["bytes_a_cell"] for row in rough}
     for (cells, package), size in sizes.items():
         line = lines.setdefault(("memory of *rough*", f"{cells}²"), {})
         line[package] = [size / sizes[cells, "tribo"]]
